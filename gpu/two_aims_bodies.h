@@ -101,14 +101,19 @@ struct VisitTwoAims {
     const MeshView<Frame> mesh = mesh_in<Frame>(task);
     const PositionView positions = positions_of(task);
     const Index vertex = task.vertex_of_rank[rank];
-    const Vec3 here = positions[vertex], to = displaced(mesh.frame, here, offset, task.frame.single_precision);
-    if (leads_away(offset) && !(to == here) && gains(task, mesh, vertex, to))
-      move(task, mesh, rank, to);
+    ConfirmedMove found;
+    if (leads_away(offset))
+      found = confirmed_move(
+          offset,
+          [&](Offset step) DMOSCOPE_INLINE_LAMBDA { return displaced(mesh.frame, positions[vertex], step, task.frame.single_precision); },
+          [&](Vec3 to) DMOSCOPE_INLINE_LAMBDA { return confirm(task, mesh, vertex, to); });
+    if (found.gains && !(found.to == positions[vertex]))
+      move(task, mesh, rank, found.to);
     else
       set_flag(task.awake + rank, false);
   }
   /// Here and there in a loop, so that there is one copy of what judges a star.
-  static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE bool gains(const Task& task, const MeshView<Frame>& mesh, Index vertex, Vec3 target) {
+  static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE Confirmation confirm(const Task& task, const MeshView<Frame>& mesh, Index vertex, Vec3 target) {
     const PositionView positions = positions_of(task);
     StarState before, after;
     DMOSCOPE_NO_UNROLL
@@ -116,8 +121,9 @@ struct VisitTwoAims {
       before = after;
       after = star_state<M>(mesh, positions, vertex, i == 0 ? positions[vertex] : target);
     }
-    return gains_by_two(
-        task.aims, before, after, task.untangling, [&]() DMOSCOPE_INLINE_LAMBDA { return keeps_sound(mesh, positions, vertex, target); },
+    return confirm_by_two(
+        task.aims, before, after, task.untangling,
+        [&](bool tangled) DMOSCOPE_INLINE_LAMBDA { return confirm_soundness(mesh, positions, vertex, target, tangled, task.untangling); },
         [&]() DMOSCOPE_INLINE_LAMBDA { return second_rises(task, mesh, vertex, target); });
   }
   static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE bool second_rises(const Task& task, const MeshView<Frame>& mesh, Index vertex, Vec3 target) {

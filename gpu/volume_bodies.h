@@ -2,6 +2,7 @@
 // The bodies of the kernels for volumes.
 
 #include "core/quality/element_shape.h"
+#include "core/quality/validity.h"
 #include "core/smooth/reference_visit.h"
 #include "gpu/lane.h"
 #include "gpu/listed_star.h"
@@ -19,16 +20,19 @@ struct VisitVolume {
   static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE void run(const Task& task, std::size_t i, std::size_t /*count*/, const Team& team) {
     const auto rank = static_cast<Index>(task.first + i);
     if (!is_set(task.awake + rank)) return;
-    const ListedStar<Space> star(volume_of(task), positions_of(task), task.vertex_of_rank[rank]);
-    const Vec3 found = search(task, star, team);
+    const Index vertex = task.vertex_of_rank[rank];
+    const ListedStar<Space> star(volume_of(task), positions_of(task), vertex);
+    const Vec3 found = search(task, vertex, star, team);
     if (team.lane() == 0) judge(task, rank, times(found, star.star().scale()));
   }
 
  private:
   /// The offset of the best candidate in units of the star's scale; 0 where none is better than the vertex's own place.
   template <class Team>
-  static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE Vec3 search(const Task& task, const ListedStar<Space>& star, const Team& team) {
-    if (task.parameters.precision == Precision::Float && !task.untangling.repair && star.fits()) {
+  static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE Vec3 search(const Task& task, Index vertex, const ListedStar<Space>& star, const Team& team) {
+    const bool plain =
+        task.untangling.repair || (task.untangling.looks_inside() && has_inverted(volume_of(task), positions_of(task), vertex));
+    if (task.parameters.precision == Precision::Float && !plain && star.fits()) {
       const VolumeFound found = VolumeRankSearch<M, Team>(star.star(), task.parameters, team).run();
       if (found.ready) return {found.offset.x, found.offset.y, found.offset.z};
     }
@@ -39,9 +43,14 @@ struct VisitVolume {
     const VolumeView mesh = volume_of(task);
     const PositionView positions = positions_of(task);
     const Index vertex = task.vertex_of_rank[rank];
-    const Vec3 to = displaced(mesh.frame, positions[vertex], offset, task.frame.single_precision);
-    if (leads_away(offset) && gains_at<M>(mesh, positions, vertex, to, task.untangling))
-      move(task, mesh, rank, to);
+    ConfirmedMove found;
+    if (leads_away(offset))
+      found = confirmed_move(
+          offset,
+          [&](Vec3 step) DMOSCOPE_INLINE_LAMBDA { return displaced(mesh.frame, positions[vertex], step, task.frame.single_precision); },
+          [&](Vec3 to) DMOSCOPE_INLINE_LAMBDA { return confirm_at<M>(mesh, positions, vertex, to, task.untangling); });
+    if (found.gains)
+      move(task, mesh, rank, found.to);
     else
       set_flag(task.awake + rank, false);
   }
@@ -57,7 +66,7 @@ struct JudgeVolume {
         volume_of(task).corners_of(element), [&](Index v) { return positions[v]; },
         [&](const auto& shape) {
           task.quality[element] = evaluate<M>(shape);
-          task.inverted[element] = formulas::smallest_jacobian(shape) <= 0.0 ? 1 : 0;
+          task.inverted[element] = least_jacobian(shape) <= 0.0 ? 1 : 0;
         });
   }
 };

@@ -93,9 +93,11 @@ void print_worst(const MetricSummary& summary, const PlaceText& place) {
 
 }  // namespace
 
-void print_counts(const std::string& mesh, std::uint64_t vertices, std::uint64_t elements, std::uint64_t inverted) {
-  print("{}: {}, {}, {} inverted\n\n", mesh, counted(vertices, "vertex", "vertices"), counted(elements, "element", "elements"),
-        grouped(inverted));
+void print_counts(const std::string& mesh, std::uint64_t vertices, std::uint64_t elements, const InvertedCount& inverted) {
+  print("{}: {}, {}, {} inverted", mesh, counted(vertices, "vertex", "vertices"), counted(elements, "element", "elements"),
+        grouped(inverted.all));
+  if (inverted.inside_alone > 0) print(", {} of them inside alone, where corners do not tell", grouped(inverted.inside_alone));
+  print("\n\n");
 }
 
 void print_summaries(const std::vector<MetricSummary>& summaries, const Geometry& geometry) {

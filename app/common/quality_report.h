@@ -8,6 +8,7 @@
 #include "app/common/text.h"
 #include "core/mesh/plane.h"
 #include "core/quality/metric.h"
+#include "core/quality/quality.h"
 
 namespace dmoscope::app {
 
@@ -27,8 +28,8 @@ struct MetricSummary {
 };
 
 [[nodiscard]] Json json_of(const MetricSummary& summary, bool with_worst);
-/// "coast.14: 4,934 vertices, 9,290 elements, 0 inverted"
-void print_counts(const std::string& mesh, std::uint64_t vertices, std::uint64_t elements, std::uint64_t inverted);
+/// "coast.14: 4,934 vertices, 9,290 elements, 0 inverted"; "..., 3 inverted, 2 of them inside alone, where corners do not tell"
+void print_counts(const std::string& mesh, std::uint64_t vertices, std::uint64_t elements, const InvertedCount& inverted);
 /// The table of all metrics, then the worst elements of each.
 void print_summaries(const std::vector<MetricSummary>& summaries, const Geometry& geometry);
 

@@ -94,12 +94,12 @@ class SharedColumn {
   std::vector<Index> ascending_;  // those that are counted here
 };
 
-std::uint64_t count_inverted(const SharedMesh& mesh) {
-  std::uint64_t inverted = 0;
+InvertedCount count_inverted(const SharedMesh& mesh) {
+  InvertedCount inverted;
   for (Index e = 0; e < mesh.input->mesh.elements.size(); ++e)
-    if (mesh.share->share().home[e] != 0 && !(smallest_jacobian(mesh.input->quality_context(), mesh.input->mesh.positions, e) > 0.0))
-      ++inverted;
-  return mesh.share->world().sum(inverted);
+    if (mesh.share->share().home[e] != 0) inverted.add(mesh.input->quality_context(), mesh.input->mesh.positions, e);
+  const World& world = mesh.share->world();
+  return {world.sum(inverted.all), world.sum(inverted.inside_alone)};
 }
 
 int quality(const World& world, const SharedQualityOptions& options) {
@@ -121,7 +121,7 @@ int quality(const World& world, const SharedQualityOptions& options) {
   for (const Metric metric : metrics) summaries.push_back(SharedColumn(mesh, metric, pool).summary(options.worst));
   if (options.metric != "all" && summaries.front().elements == 0)
     throw UsageError(fmt::format("{} is defined for no element of {}", options.metric, name));
-  const std::uint64_t inverted = count_inverted(mesh);
+  const InvertedCount inverted = count_inverted(mesh);
   if (!world.is_first()) return 0;
   if (options.json) {
     Json list = Json::array();
@@ -130,7 +130,8 @@ int quality(const World& world, const SharedQualityOptions& options) {
                 {"ranks", world.size()},
                 {"vertices", mesh.share->vertex_count()},
                 {"elements", mesh.share->element_count()},
-                {"inverted", inverted},
+                {"inverted", inverted.all},
+                {"inverted_inside_alone", inverted.inside_alone},
                 {"metrics", std::move(list)},
                 {"warnings", warnings}});
     return 0;

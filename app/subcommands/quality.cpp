@@ -77,11 +77,9 @@ Column judge(const InputMesh& input, Metric metric, ThreadPool& pool) {
   return column;
 }
 
-std::size_t count_inverted(const InputMesh& input) {
-  std::size_t inverted = 0;
-  for (Index e = 0; e < input.mesh.elements.size(); ++e) {
-    if (!(smallest_jacobian(input.quality_context(), input.mesh.positions, e) > 0.0)) ++inverted;
-  }
+InvertedCount count_inverted(const InputMesh& input) {
+  InvertedCount inverted;
+  for (Index e = 0; e < input.mesh.elements.size(); ++e) inverted.add(input.quality_context(), input.mesh.positions, e);
   return inverted;
 }
 
@@ -186,7 +184,7 @@ int quality(const QualityOptions& options) {
   }
   std::vector<MetricSummary> summaries;
   for (const Column& column : columns) summaries.push_back(summary_of(*input, column, options.worst));
-  const std::size_t inverted = count_inverted(*input);
+  const InvertedCount inverted = count_inverted(*input);
   const auto near = input->surface ? std::optional(nearness_of(*input, pool)) : std::nullopt;
   const double share = near ? near->deviation / input->geometry.size : 0.0;
   if (options.json) {
@@ -195,7 +193,8 @@ int quality(const QualityOptions& options) {
     Json object{{"input", options.input.string()},
                 {"vertices", mesh.vertex_count()},
                 {"elements", mesh.elements.size()},
-                {"inverted", inverted},
+                {"inverted", inverted.all},
+                {"inverted_inside_alone", inverted.inside_alone},
                 {"metrics", std::move(list)},
                 {"groups", json_of_groups(mesh)},
                 {"warnings", warnings}};

@@ -142,10 +142,8 @@ class Look {
       record_levels<double>(recorder, start.box, star, find);
     else
       record_levels<float>(recorder, start.box, star, find);
-    const auto place = [this](Offset offset) { return stored(offset); };
-    take(std::move(recorder), place);
-    const Vec3 target = place(trace_.found);
-    end(target, gains(target));
+    take(std::move(recorder), [this](Offset offset) { return stored(offset); });
+    end([this](Vec3 target) { return confirm(target); });
     return true;
   }
   template <class Real, class Find>
@@ -194,7 +192,7 @@ class Look {
     take(std::move(recorder), place);
     using visit_rules::Verdict;
     const Vec3 target{outcome.to.target[0], outcome.to.target[1], outcome.to.target[2]};
-    end(target, outcome.verdict == Verdict::Move || (outcome.verdict == Verdict::MoveIfExact && gains(target)));
+    end(target, outcome.verdict == Verdict::Move || (outcome.verdict == Verdict::MoveIfExact && confirm(target) == Confirmation::Gains));
   }
 
   /// As LaneDmo does it where elements have targets.
@@ -241,6 +239,7 @@ class Look {
   /// What the kernel chose in level L is what it finds in L levels and does not find in L - 1. objective(p): what a place is worth.
   template <class Objective>
   bool search_by_volume_kernel(const VolumeStarSearch& search, const VolumeTargets& targets, const Objective& objective) {
+    if (untangling_.looks_inside() && has_inverted(mesh_, positions_, trace_.vertex)) return false;
     const IndexedStars stars(input_, trace_.vertex);
     VolumeStarSearch::Points points;
     const auto find = [&](int levels) { return search.find(stars.of(trace_.vertex), positions_, trace_.vertex, levels, points, targets); };
@@ -261,10 +260,8 @@ class Look {
       centre = found;
       omega *= 2.0 / (parameters_.grid_points - 1);
     }
-    const auto place = [this](Offset offset) { return stored(offset); };
-    take(std::move(recorder), place);
-    const Vec3 target = place(trace_.found);
-    end(target, gains(target));
+    take(std::move(recorder), [this](Offset offset) { return stored(offset); });
+    end([this](Vec3 target) { return confirm(target); });
     return true;
   }
 
@@ -283,10 +280,8 @@ class Look {
     }
     trace_.untangling = !(recorder.here > 0.0);
     trace_.value_phrase = (trace_.untangling ? untangling_phrase(kVolume, untangling_) : "") + metric_phrase(metric_);
-    const auto place = [this](Offset offset) { return stored(offset); };
-    take(std::move(recorder), place);
-    const Vec3 target = place(trace_.found);
-    end(target, gains(target));
+    take(std::move(recorder), [this](Offset offset) { return stored(offset); });
+    end([this](Vec3 target) { return confirm(target); });
   }
 
   /// As RuleSmoother does it with a CompositeRule.
@@ -299,10 +294,8 @@ class Look {
     trace_.combined = true;
     trace_.untangling = search.search_plainly(star, positions_, trace_.vertex, recorder).untangling;
     trace_.value_phrase = (trace_.untangling ? untangling_phrase(kVolume, untangling_) : "") + both_phrase(*composite_);
-    const auto place = [this](Offset offset) { return stored(offset); };
-    take(std::move(recorder), place);
-    const Vec3 target = place(trace_.found);
-    end(target, search.gains(positions_, trace_.vertex, target));
+    take(std::move(recorder), [this](Offset offset) { return stored(offset); });
+    end([&](Vec3 target) { return search.confirm(positions_, trace_.vertex, target); });
   }
 
   [[nodiscard]] bool has_corners() const {
@@ -312,11 +305,11 @@ class Look {
 
   /// Where an offset leads as the smoothers in double store it.
   [[nodiscard]] Vec3 stored(Offset offset) const { return displaced(mesh_.frame, trace_.from, offset, input_.mesh.single_precision); }
-  [[nodiscard]] bool gains(Vec3 target) const {
+  [[nodiscard]] Confirmation confirm(Vec3 target) const {
     if constexpr (kDefined)
-      return defined_gains_at(*star_judge_, positions_, trace_.vertex, target, untangling_);
+      return defined_confirm_at(*star_judge_, positions_, trace_.vertex, target, untangling_);
     else
-      return gains_at<M>(mesh_, positions_, trace_.vertex, target, untangling_);
+      return confirm_at<M>(mesh_, positions_, trace_.vertex, target, untangling_);
   }
 
   /// place(offset): where the vertex would be stored.
@@ -333,6 +326,18 @@ class Look {
     }
   }
 
+  /// As RuleMesh does it.
+  template <class Confirm>
+  void end(const Confirm& confirm) {
+    const auto halves = [&](Vec3 target) {
+      const Confirmation found = confirm(target);
+      trace_.halvings += found == Confirmation::Inverts ? 1 : 0;
+      return found;
+    };
+    const ConfirmedMove move = confirmed_move(
+        trace_.found, [this](Offset step) { return stored(step); }, halves);
+    end(move.to, move.gains);
+  }
   void end(Vec3 target, bool moves) {
     if (trace_.found == Offset{})
       trace_.end = VisitEnd::NothingFound;
@@ -352,7 +357,7 @@ class Look {
             quality = star_judge_->quality({incidence.element, kNoIndex}, positions_, trace_.vertex, place);
           else
             quality = evaluate<M>(shape);
-          inverted = formulas::smallest_jacobian(shape) <= 0.0;
+          inverted = least_jacobian(shape) <= 0.0;
         });
       };
       judge(trace_.from, change.before, change.inverted_before);
@@ -383,26 +388,33 @@ bool require_traceable(const InputMesh& input, Shape shape, std::span<const std:
   return fixed[vertex] != 0 || input.topology.star(vertex).empty();
 }
 
+/// How a visit that moved its vertex changed its star.
+std::string moved_phrase(const VisitSummary& visit) {
+  const StarState &before = visit.before, &after = visit.after;
+  if (visit.combined && !visit.untangling)
+    return fmt::format("moved for two aims: {} of its star {:.4g} -> {:.4g}", visit.worst_phrase(), before.quality, after.quality);
+  if (before.jacobian > 0.0)
+    return fmt::format("moved: {} of its star {:.4g} -> {:.4g}", visit.worst_phrase(), before.quality, after.quality);
+  if (after.jacobian > 0.0) return fmt::format("moved: untangled its star, whose {} is {:.4g} now", visit.worst_phrase(), after.quality);
+  if (after.inverted < before.inverted)
+    return fmt::format("moved: inverted elements of its star {} -> {}", before.inverted, after.inverted);
+  if (after.jacobian == before.jacobian)
+    return fmt::format("moved: its star stays tangled; least quality of its sound elements {:.4g} -> {:.4g}", before.sound, after.sound);
+  return fmt::format("moved: smallest Jacobian of its tangled star {:.4g} -> {:.4g}", before.jacobian, after.jacobian);
+}
+
 }  // namespace
 
 std::string VisitSummary::sentence() const {
   switch (end) {
     case VisitEnd::Moved:
-      if (combined && !untangling)
-        return fmt::format("moved for two aims: {} of its star {:.4g} -> {:.4g}", worst_phrase(), before.quality, after.quality);
-      if (before.jacobian > 0.0)
-        return fmt::format("moved: {} of its star {:.4g} -> {:.4g}", worst_phrase(), before.quality, after.quality);
-      if (after.jacobian > 0.0) return fmt::format("moved: untangled its star, whose {} is {:.4g} now", worst_phrase(), after.quality);
-      if (after.inverted < before.inverted)
-        return fmt::format("moved: inverted elements of its star {} -> {}", before.inverted, after.inverted);
-      if (after.jacobian == before.jacobian)
-        return fmt::format("moved: its star stays tangled; least quality of its sound elements {:.4g} -> {:.4g}", before.sound,
-                           after.sound);
-      return fmt::format("moved: smallest Jacobian of its tangled star {:.4g} -> {:.4g}", before.jacobian, after.jacobian);
+      if (halvings == 0) return moved_phrase(*this);
+      return fmt::format("{}; 1/{} of the way, since all of it would invert an element inside", moved_phrase(*this), 1 << halvings);
     case VisitEnd::NothingFound:
       if (combined) return "stays: no candidate is better for its two aims than where it stands";
       return "stays: no candidate is better than where it stands";
     case VisitEnd::NotConfirmed:
+      if (halvings > 0) return "stays: on the way to the best candidate, an element would become inverted inside";
       return "stays: the best candidate gains nothing when judged exactly";
     case VisitEnd::Deviates:
       return "stays: with it at the best candidate, faces would leave the input by more than the bound";

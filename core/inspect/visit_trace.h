@@ -72,6 +72,7 @@ struct VisitSummary {
   StarState before, after;
   std::vector<ElementChange> elements;  // in the star's order
   VisitEnd end = VisitEnd::NothingFound;
+  int halvings = 0;  // of the way to what was found, since all of it would invert an element inside: see confirmed_move()
   /// "moved: worst element of its star 0.31 -> 0.82", "no candidate is better than where it stands", ...
   [[nodiscard]] std::string sentence() const;
   /// Whose quality StarState::quality is.

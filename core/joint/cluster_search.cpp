@@ -15,7 +15,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kFirstRings = 3, kMostRings = 64;
-constexpr int kThirdGrowth = 2;  // from this growth on a cluster may become the whole mesh
+constexpr int kMostHalvings = 4;  // of a way that would invert elements
+constexpr int kThirdGrowth = 2;   // from this growth on a cluster may become the whole mesh
 constexpr double kEarlyGap = 0.05, kEarlyRim = 0.02;
 constexpr double kClosedRim = 5e-4;  // share of the multipliers on the rim below which nothing outside holds the cluster
 constexpr double kNearTau = 0.05;    // an atom further below tau does not hold the cluster
@@ -235,18 +236,25 @@ void ClusterSearch<D>::solve(const std::vector<Index>& cluster, const InteriorPo
   measure_rim(solved_.solution.last);
 }
 
-/// Moves the mesh's vertices where that is better by the program's own judgement.
+/// Moves the mesh's vertices where that is better by the program's own judgement. Where elements would become inverted, which the search
+/// knows by their corners alone, half of the way, and so on.
 template <int D>
 void ClusterSearch<D>::commit() {
   if (!(solved_.solution.best_worst < solved_.solution.start_worst)) return;
-  const JudgedMove move = mesh_.move(solved_.local, solved_.solution.best, positions_);
-  const bool better = move.after > move.before && move.inverted_after <= move.inverted_before;
-  for (std::size_t i = 0; i < move.moved_from.size(); ++i) {
-    const Index v = solved_.local.vertices[i];
-    if (better)
-      moved_from_.emplace_back(v, move.moved_from[i]);
-    else
-      positions_[v] = move.moved_from[i];
+  auto way = solved_.solution.best;
+  for (int i = 0; i <= kMostHalvings; ++i) {
+    const JudgedMove move = mesh_.move(solved_.local, way, positions_);
+    const bool inverts = move.inverted_after > move.inverted_before, better = move.after > move.before && !inverts;
+    for (std::size_t k = 0; k < move.moved_from.size(); ++k) {
+      const Index v = solved_.local.vertices[k];
+      if (better)
+        moved_from_.emplace_back(v, move.moved_from[k]);
+      else
+        positions_[v] = move.moved_from[k];
+    }
+    if (D == 2 || !inverts) return;
+    for (auto& displacement : way)
+      for (double& x : displacement) x *= 0.5;
   }
 }
 

@@ -94,13 +94,19 @@ void Untangler<D>::attempt_all(const std::vector<Index>& inverted) {
   next = kMostAttempts;
 }
 
-/// Those that could be turned: the corners at fault have free vertices.
+/// Those that could be turned: the corners at fault have free vertices, or none is and it is inverted inside.
 template <int D>
 std::vector<Index> Untangler<D>::inverted_elements() const {
+  const QualityContext context = mesh_.input().quality_context();
   std::vector<Index> result;
-  for (const Atom<D>& atom : mesh_.atoms())
-    if ((result.empty() || result.back() != atom.element) && atom_jacobian<D>(atom.shape, mesh_.edges(atom, positions_)) <= 0.0)
-      result.push_back(atom.element);
+  Index last = kNoIndex;
+  for (const Atom<D>& atom : mesh_.atoms()) {
+    const bool is_first = atom.element != last;
+    last = atom.element;
+    if (!result.empty() && result.back() == last) continue;
+    if (atom_jacobian<D>(atom.shape, mesh_.edges(atom, positions_)) <= 0.0 || (is_first && inverted_inside(context, positions_, last)))
+      result.push_back(last);
+  }
   return result;
 }
 
@@ -242,7 +248,8 @@ typename Untangler<D>::Offsets Untangler<D>::by_foldover_free(const LocalProblem
       local.problem, std::move(start), {}, [&](const FoldoverFreeIterate<D>& at) { show(local, at.displacements, at.steps, at.least); },
       progress_);
   newton_steps_ += solution.steps;
-  if (!(solution.inverted < solution.start_inverted)) return {};
+  const bool only_inside = solution.start_inverted == 0 && solution.least > solution.start_least;  // what corners do not tell
+  if (!(solution.inverted < solution.start_inverted) && !only_inside) return {};
   return std::move(solution.best);
 }
 

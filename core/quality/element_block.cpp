@@ -7,6 +7,7 @@
 // After the packs:
 #include "core/quality/defined_quality.h"
 #include "core/quality/element_shape.h"
+#include "core/quality/validity.h"
 
 namespace dmoscope {
 
@@ -24,7 +25,7 @@ void judge_one_by_one(const QualityContext& context, std::span<const Vec3> posit
                       std::size_t last) {
   for (std::size_t i = first; i < last; ++i) {
     const Judged judged = visit_element(context, positions, block.first + static_cast<Index>(i), [](const auto& element) {
-      return Judged{evaluate<M>(element), formulas::smallest_jacobian(element)};
+      return Judged{evaluate<M>(element), least_jacobian(element)};
     });
     block.quality[i] = judged.quality;
     block.jacobian[i] = judged.jacobian;

@@ -16,7 +16,7 @@ struct ElementBlock {
   Index first = 0;
   std::size_t count = 0;
   alignas(64) std::array<double, kSize> quality;   // NaN where the metric is not defined for the kind
-  alignas(64) std::array<double, kSize> jacobian;  // smallest of the corners'; +infinity for volume elements
+  alignas(64) std::array<double, kSize> jacobian;  // smallest_jacobian()
 
   [[nodiscard]] std::span<const double> qualities() const noexcept { return {quality.data(), count}; }
   [[nodiscard]] std::span<const double> jacobians() const noexcept { return {jacobian.data(), count}; }

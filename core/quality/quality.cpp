@@ -8,6 +8,7 @@
 #include "core/quality/defined_quality.h"
 #include "core/quality/element_shape.h"
 #include "core/quality/tally.h"
+#include "core/quality/validity.h"
 
 namespace dmoscope {
 
@@ -43,7 +44,24 @@ double element_quality(const QualityContext& context, PositionView positions, Me
 }
 
 double smallest_jacobian(const QualityContext& context, PositionView positions, Index element) {
-  return visit_element(context, positions, element, [](const auto& shape) { return formulas::smallest_jacobian(shape); });
+  return visit_element(context, positions, element, [](const auto& shape) -> double { return least_jacobian(shape); });
+}
+
+std::optional<Vec3> inverted_inside(const QualityContext& context, PositionView positions, Index element) {
+  return visit_element(context, positions, element, []<class Shape>(const Shape& shape) -> std::optional<Vec3> {
+    if constexpr (kHasInside<Shape>) {
+      if (!(formulas::smallest_jacobian(shape) > 0.0)) return std::nullopt;
+      const Validity validity = validity_of(shape);
+      if (!validity.proved) return place_in(shape, validity.at);
+    }
+    return std::nullopt;
+  });
+}
+
+void InvertedCount::add(const QualityContext& context, PositionView positions, Index element) {
+  if (smallest_jacobian(context, positions, element) > 0.0) return;
+  ++all;
+  inside_alone += inverted_inside(context, positions, element) ? 1 : 0;
 }
 
 void element_qualities(const QualityContext& context, std::span<const Vec3> positions, Metric metric, ThreadPool* pool,

@@ -2,7 +2,9 @@
 // Quality of elements, vertices and whole meshes, always in double and always by the one definition in formulas.h.
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -38,8 +40,19 @@ struct QualityContext {
 [[nodiscard]] double element_quality(const QualityContext& context, PositionView positions, Metric metric, Index element);
 
 /// Smallest signed corner Jacobian of an element: twice the corner triangle's area, six times the volume of a volume element's corner
-/// tetrahedron (mesh units squared, cubed). Inverted means <= 0.
+/// tetrahedron (mesh units squared, cubed); 0 where all are positive and a hexahedron or wedge is not proved to be valid inside (see
+/// core/quality/validity.h). Inverted means <= 0.
 [[nodiscard]] double smallest_jacobian(const QualityContext& context, PositionView positions, Index element);
+
+/// A place at which the Jacobian determinant of an element is not positive, or not proved to be, though it is at all corners: none where
+/// the element is valid, and where its corners tell that it is inverted.
+[[nodiscard]] std::optional<Vec3> inverted_inside(const QualityContext& context, PositionView positions, Index element);
+
+/// Elements that are inverted, and those of them whose corners do not tell.
+struct InvertedCount {
+  std::uint64_t all = 0, inside_alone = 0;
+  void add(const QualityContext& context, PositionView positions, Index element);
+};
 
 /// Quality of every element, out.size() == mesh.elements.size().
 void element_qualities(const QualityContext& context, std::span<const Vec3> positions, Metric metric, ThreadPool* pool,
@@ -56,7 +69,7 @@ struct Statistics {
   double movable_minimum = 0.0;    // over elements with at least one free corner; +infinity when there is none
   double ceiling = 0.0;            // over elements whose corners are all fixed: they cap the minimum for ever; +infinity when there is none
   Index worst_element = kNoIndex;  // lowest index among the elements at the minimum
-  Index inverted = 0;              // elements with a corner Jacobian <= 0, whatever the metric
+  Index inverted = 0;              // elements whose smallest_jacobian() is <= 0, at a corner or inside, whatever the metric
 };
 
 /// The elements whose corners are all fixed, ascending. `fixed`: one entry per vertex, non-zero where it may not move.

@@ -11,7 +11,10 @@ namespace dmoscope {
 
 std::string LeftInverted::sentence() const {
   std::string text = count == 1 ? "1 element stays inverted. " : fmt::format("{} elements stay inverted. ", count);
-  text += fmt::format("Look at element {} and at vertex {} at ({:.10g}, {:.10g}, {:.10g})", element, vertex, place.x, place.y, place.z);
+  const auto words = [](Vec3 p) { return fmt::format("({:.10g}, {:.10g}, {:.10g})", p.x, p.y, p.z); };
+  text += fmt::format("Look at element {}", element);
+  if (inside) text += fmt::format(", which is inverted inside, at {}, where its corners do not tell,", words(*inside));
+  text += fmt::format(" and at vertex {} at {}", vertex, words(place));
   if (count > 1) text += fmt::format(", which is in {} of them", around);
   return why_fixed.empty() ? text + "." : fmt::format("{}; {}.", text, why_fixed);
 }
@@ -34,6 +37,7 @@ std::optional<LeftInverted> find_left_inverted(const Run& run) {
   }
   if (found.count == 0) return std::nullopt;
   const auto rank = [&](Index v) { return std::tuple(around[v], run.fixed()[v]); };
+  found.inside = inverted_inside(context, positions, found.element);
   found.vertex = 0;
   for (Index v = 1; v < around.size(); ++v)
     if (rank(v) > rank(found.vertex)) found.vertex = v;

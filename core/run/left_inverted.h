@@ -10,12 +10,13 @@
 namespace dmoscope {
 
 struct LeftInverted {
-  Index count = 0;           // inverted elements
-  Index element = kNoIndex;  // the most inverted one: of least corner Jacobian over its reference measure
-  Index vertex = kNoIndex;   // the vertex of the most inverted elements; a fixed one before a free one, then the lowest
-  Index around = 0;          // of how many
-  Vec3 place{};              // where it stands
-  std::string why_fixed{};   // see Run::why_fixed
+  Index count = 0;               // inverted elements
+  Index element = kNoIndex;      // the most inverted one: of least corner Jacobian over its reference measure
+  std::optional<Vec3> inside{};  // where, if its corners do not tell
+  Index vertex = kNoIndex;       // the vertex of the most inverted elements; a fixed one before a free one, then the lowest
+  Index around = 0;              // of how many
+  Vec3 place{};                  // where it stands
+  std::string why_fixed{};       // see Run::why_fixed
   /// "3 elements stay inverted. Look at element 17 and at vertex 4 at (1.5, 2), which is in 3 of them; it lies on the boundary, which
   /// stays."
   [[nodiscard]] std::string sentence() const;

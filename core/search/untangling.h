@@ -12,6 +12,7 @@
 #include <limits>
 
 #include "core/base/host_device.h"
+#include "core/quality/validity.h"
 #include "core/quality/volumes.h"
 #include "core/search/grid_search.h"
 
@@ -27,6 +28,11 @@ struct Untangling {
   /// The least metric of the elements that can move when the iteration began: no element may fall below it, or below what its star had.
   double floor = -std::numeric_limits<double>::infinity();
   static constexpr double kRepaired = 0.2;
+  /// Whether an element that is inverted inside alone (see validity.h) is turned for the sake of it: in an attempt, and none is looked for
+  /// in a mesh without inverted elements.
+  [[nodiscard]] DMOSCOPE_ANYWHERE bool looks_inside() const noexcept {
+    return attempt && !repair && floor > -std::numeric_limits<double>::infinity();
+  }
   friend bool operator==(const Untangling&, const Untangling&) = default;
 };
 
@@ -164,6 +170,8 @@ class InvertedSet {
 /// Elsewhere: kForbidden.
 ///   allowed in an attempt: no more inverted elements, the least Jacobian not below that of the own place, no metric below the floor;
 ///   without one: what is sound stays sound, and the least metric of all does not fall.
+/// Where corners tell of nothing but elements are inverted inside alone, and the rule looks there: the least metric, less 2 for each of
+/// them; allowed where no corner is inverted and no metric is below the floor.
 template <Metric M, class StarT, class Point>
 class UntanglingObjective {
  public:
@@ -179,14 +187,18 @@ class UntanglingObjective {
       count_ += least.whole <= 0.0 ? 1 : 0;
       jacobian_ = scalar::min(jacobian_, least.around / each.reference);
       quality_ = scalar::min(quality_, quality);
+      if constexpr (kHasInside<decltype(shape)>)
+        if (rule_.looks_inside() && !inside_) inside_ = least.whole > 0.0 && !(least_jacobian(shape) > 0.0);
     });
+    inside_ = inside_ && !is_tangled_at_corners();
     floor_ = rule_.attempt ? scalar::min(quality_, rule_.floor) : quality_;
   }
 
-  /// Is an element inverted where the vertex stands now, by a corner that changes with it?
-  [[nodiscard]] DMOSCOPE_ANYWHERE bool tangled() const { return !(jacobian_ > 0.0 && quality_ > 0.0); }
+  /// Is an element inverted where the vertex stands now, by a corner that changes with it, or inside where the rule looks there?
+  [[nodiscard]] DMOSCOPE_ANYWHERE bool tangled() const { return inside_ || is_tangled_at_corners(); }
 
   [[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE double operator()(Point p) const {
+    if (inside_) return inside(p);
     const Jacobians found = jacobians(p);
     const bool sound = found.least > 0.0;
     if (rule_.repair && !sound) return bounded(found.least);
@@ -204,6 +216,23 @@ class UntanglingObjective {
   static constexpr double kMost = std::numeric_limits<double>::max();
   /// From (-infinity, 0] to (-1, 0].
   static DMOSCOPE_ANYWHERE double bounded(double a) { return a / (1.0 - a); }
+
+  [[nodiscard]] DMOSCOPE_ANYWHERE bool is_tangled_at_corners() const { return !(jacobian_ > 0.0 && quality_ > 0.0); }
+  [[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE double inside(Point p) const {
+    double least = kMost;
+    int inverted = 0;
+    bool allowed = true;
+    star_.template for_each<kOthers>([&](const auto& each) {
+      if (!allowed) return;
+      const auto shape = each.with(p);
+      const auto jacobian = corner_jacobians(shape, each.kMoving, [](double) {});
+      least = scalar::min(least, formulas::metric_around<M>(shape, each.kMoving));
+      allowed = jacobian.around > 0.0 && !(least < floor_);
+      if constexpr (kHasInside<decltype(shape)>)
+        if (allowed && !(least_jacobian(shape) > 0.0)) ++inverted;
+    });
+    return allowed ? least - 2.0 * inverted : kForbidden;
+  }
 
   /// What the star's Jacobians say of a place.
   struct Jacobians {
@@ -268,6 +297,7 @@ class UntanglingObjective {
   int count_ = 0;
   double jacobian_ = kMost, quality_ = kMost;  // least, where the vertex stands: the former over its reference
   double floor_ = 0.0;
+  bool inside_ = false;
 };
 
 }  // namespace dmoscope

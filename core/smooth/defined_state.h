@@ -35,12 +35,12 @@ template <class Frame>
   return sum / static_cast<double>(judge.mesh.star(vertex).size());
 }
 
-/// As gains_at().
+/// As confirm_at().
 template <class Frame>
-[[nodiscard]] bool defined_gains_at(const DefinedStarJudge<Frame>& judge, PositionView positions, Index vertex, Vec3 target,
-                                    const Untangling& rule) {
-  return gains_from(judge.mesh, positions, vertex, target, rule, defined_star_state(judge, positions, vertex, positions[vertex]),
-                    [&] { return defined_star_state(judge, positions, vertex, target); });
+[[nodiscard]] Confirmation defined_confirm_at(const DefinedStarJudge<Frame>& judge, PositionView positions, Index vertex, Vec3 target,
+                                              const Untangling& rule) {
+  return confirm_from(judge.mesh, positions, vertex, target, rule, defined_star_state(judge, positions, vertex, positions[vertex]),
+                      [&] { return defined_star_state(judge, positions, vertex, target); });
 }
 
 }  // namespace dmoscope

@@ -2,10 +2,12 @@
 // One vertex's visit in double by the plain search, judged by the statistics' own formulas. The fast search is compared with it and falls
 // back to it. For any processor.
 
+#include <cstdint>
 #include <limits>
 
 #include "core/base/host_device.h"
 #include "core/quality/element_shape.h"
+#include "core/quality/validity.h"
 #include "core/search/grid_search.h"
 #include "core/search/mesh_star.h"
 #include "core/search/untangling.h"
@@ -65,36 +67,120 @@ template <Metric M, class Frame>
   });
 }
 
+/// What a move does to the soundness of a star's elements, at their corners and inside (see validity.h).
+struct SoundnessChange {
+  int lost = 0, won = 0;     // elements that are sound before alone, and after alone
+  bool lost_inside = false;  // one of the former may be inverted inside: see has_inside()
+};
+/// `counts_won`: else `won` is 0.
+template <class Frame>
+[[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE SoundnessChange soundness_change(const MeshView<Frame>& mesh, PositionView positions,
+                                                                                 Index vertex, Vec3 target, bool counts_won) {
+  SoundnessChange change;
+  for (const Incidence& incidence : mesh.star(vertex)) {
+    bool inverted_there = false, inside = false;
+    DMOSCOPE_NO_UNROLL
+    for (int i = 0; i < 2; ++i) {  // there and here in a loop, so that a device's code has one copy
+      const Vec3 place = i == 0 ? target : positions[vertex];
+      const auto at = [&](Index v) { return v == vertex ? place : positions[v]; };
+      const bool inverted =
+          visit_shape(mesh.frame_of(incidence.element), mesh.corners_of(incidence.element), at, [&inside]<class Shape>(const Shape& shape) {
+            inside = kHasInside<Shape>;
+            return least_jacobian(shape) <= 0.0;
+          });
+      if (i == 0) {
+        inverted_there = inverted;
+        if (!inverted && !counts_won) break;
+      } else if (inverted != inverted_there) {
+        ++(inverted ? change.won : change.lost);
+        change.lost_inside = change.lost_inside || (!inverted && inside);
+      }
+    }
+  }
+  return change;
+}
+
 /// Is every element of the star that is sound where the vertex stands sound with it at `target`, too?
 template <class Frame>
 [[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE bool keeps_sound(const MeshView<Frame>& mesh, PositionView positions, Index vertex,
                                                                  Vec3 target) {
+  return soundness_change(mesh, positions, vertex, target, false).lost == 0;
+}
+
+/// Is an element of the star inverted? Where its corners tell of none, inside.
+[[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE bool has_inverted(const MeshView<Space>& mesh, PositionView positions, Index vertex) {
   for (const Incidence& incidence : mesh.star(vertex)) {
-    const auto is_inverted = [&](Vec3 place) {
-      const auto at = [&](Index v) { return v == vertex ? place : positions[v]; };
-      return visit_shape(mesh.frame_of(incidence.element), mesh.corners_of(incidence.element), at,
-                         [](const auto& shape) { return formulas::smallest_jacobian(shape) <= 0.0; });
-    };
-    if (is_inverted(target) && !is_inverted(positions[vertex])) return false;
+    const auto at = [&](Index v) { return positions[v]; };
+    if (visit_volume(mesh.corners_of(incidence.element), at, [](const auto& shape) { return !(least_jacobian(shape) > 0.0); })) return true;
   }
-  return true;
+  return false;
 }
 
-/// Would a vertex whose star is `before` gain by standing at `target`, where it is after()?
+/// What the statistics' formulas say of a place that a search has found. Inverts: the vertex would gain there, but a hexahedron or wedge
+/// would become inverted; a place nearer to where it stands may do.
+enum class Confirmation : std::uint8_t { GainsNothing, Gains, Inverts };
+
+/// Of a place that is better. `tangled`: is an element of the star inverted at a corner that the vertex changes? Where none is, none may
+/// become inverted, not inside either; an attempt to untangle may lose one for another.
+template <class Frame>
+[[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE Confirmation confirm_soundness(const MeshView<Frame>& mesh, PositionView positions,
+                                                                               Index vertex, Vec3 target, bool tangled,
+                                                                               const Untangling& rule) {
+  // Without volume what the corners say is all, and was asked before.
+  if (!std::is_same_v<Frame, Space> && (!tangled || rule.attempt)) return Confirmation::Gains;
+  const SoundnessChange change = soundness_change(mesh, positions, vertex, target, tangled && rule.attempt);
+  if (change.lost <= change.won) return Confirmation::Gains;
+  return change.lost_inside ? Confirmation::Inverts : Confirmation::GainsNothing;
+}
+
+/// What would become of a vertex whose star is `before` at `target`, where it is after()?
 template <class Frame, class After>
-[[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE bool gains_from(const MeshView<Frame>& mesh, PositionView positions, Index vertex,
-                                                                Vec3 target, const Untangling& rule, const StarState& before,
-                                                                const After& after) {
-  if (!after().better_than(before, rule)) return false;
-  return rule.attempt || before.jacobian > 0.0 || keeps_sound(mesh, positions, vertex, target);
+[[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE Confirmation confirm_from(const MeshView<Frame>& mesh, PositionView positions, Index vertex,
+                                                                          Vec3 target, const Untangling& rule, const StarState& before,
+                                                                          const After& after) {
+  const StarState there = after();
+  if (there.better_than(before, rule)) return confirm_soundness(mesh, positions, vertex, target, !(before.jacobian > 0.0), rule);
+  // As UntanglingObjective has it of elements that are inverted inside alone.
+  if (!std::is_same_v<Frame, Space> || !rule.looks_inside() || !(before.jacobian > 0.0) || !(there.jacobian > 0.0) ||
+      there.quality < scalar::min(before.quality, rule.floor))
+    return Confirmation::GainsNothing;
+  const SoundnessChange change = soundness_change(mesh, positions, vertex, target, true);
+  return change.lost < change.won ? Confirmation::Gains : Confirmation::GainsNothing;
 }
 
-/// Exactly: would the vertex gain by standing at `target`? A search may be in float and in other rounding than the statistics.
+/// Exactly: a search may be in float and in other rounding than the statistics.
+template <Metric M, class Frame>
+[[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE Confirmation confirm_at(const MeshView<Frame>& mesh, PositionView positions, Index vertex,
+                                                                        Vec3 target, const Untangling& rule) {
+  return confirm_from(mesh, positions, vertex, target, rule, star_state<M>(mesh, positions, vertex, positions[vertex]),
+                      [&]() DMOSCOPE_INLINE_LAMBDA { return star_state<M>(mesh, positions, vertex, target); });
+}
 template <Metric M, class Frame>
 [[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE bool gains_at(const MeshView<Frame>& mesh, PositionView positions, Index vertex,
                                                               Vec3 target, const Untangling& rule) {
-  return gains_from(mesh, positions, vertex, target, rule, star_state<M>(mesh, positions, vertex, positions[vertex]),
-                    [&]() DMOSCOPE_INLINE_LAMBDA { return star_state<M>(mesh, positions, vertex, target); });
+  return confirm_at<M>(mesh, positions, vertex, target, rule) == Confirmation::Gains;
+}
+
+/// Where a vertex goes, if anywhere.
+struct ConfirmedMove {
+  bool gains = false;
+  Vec3 to{};
+};
+/// How often a step is halved that would invert a hexahedron or wedge.
+inline constexpr int kMostHalvings = 4;
+/// The longest of a step, its half and so on that gains without inverting an element inside. place(step): where it leads; confirm(place).
+template <class Offset, class Place, class Confirm>
+[[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE ConfirmedMove confirmed_move(Offset step, const Place& place, const Confirm& confirm) {
+  ConfirmedMove move;
+  DMOSCOPE_NO_UNROLL
+  for (int i = 0; i <= kMostHalvings; ++i) {
+    move.to = place(step);
+    const Confirmation found = confirm(move.to);
+    move.gains = found == Confirmation::Gains;
+    if (found != Confirmation::Inverts) break;
+    step = times(step, 0.5);
+  }
+  return move;
 }
 
 /// The untangling objective costs more and is needed only where an element of the star is inverted now; in a repair nothing else is looked

@@ -104,24 +104,28 @@ template <Metric M, class Frame>
   return sum / static_cast<double>(mesh.star(vertex).size());
 }
 
-/// Does a vertex gain by going from where its star is `before` to where it is `after`? `aims`: Aims or what else has its beyond() and
-/// raise_mean(); keeps_sound(): see keeps_sound(); second_rises(): is the second aim greater there?
-template <class AimsT, class KeepsSound, class SecondRises>
-[[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE bool gains_by_two(const AimsT& aims, const StarState& before, const StarState& after,
-                                                                  const Untangling& untangling, const KeepsSound& keeps_sound,
-                                                                  const SecondRises& second_rises) {
-  if (!(before.jacobian > 0.0)) {
-    if (!after.better_than(before, untangling)) return false;
-    if (!untangling.attempt && !keeps_sound()) return false;
+/// What would become of a vertex that goes from where its star is `before` to where it is `after`? `aims`: Aims or what else has its
+/// beyond() and raise_mean(); confirm_soundness(tangled): see there; second_rises(): is the second aim greater there?
+template <class AimsT, class ConfirmSoundness, class SecondRises>
+[[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE Confirmation confirm_by_two(const AimsT& aims, const StarState& before,
+                                                                            const StarState& after, const Untangling& untangling,
+                                                                            const ConfirmSoundness& confirm_soundness,
+                                                                            const SecondRises& second_rises) {
+  const bool tangled = !(before.jacobian > 0.0);
+  bool decided = false;  // without the second aim
+  if (tangled) {
+    if (!after.better_than(before, untangling)) return Confirmation::GainsNothing;
     // Raising the mean lowers neither the minimum nor the mean, not even for the sake of untangling.
-    if (!aims.raise_mean()) return true;
-    if (!(after.quality >= before.quality)) return false;
+    decided = !aims.raise_mean();
+    if (!decided && !(after.quality >= before.quality)) return Confirmation::GainsNothing;
   } else {
-    if (untangling.repair || !(after.jacobian > 0.0)) return false;
-    if (!aims.beyond(before.quality)) return after.quality > before.quality;
-    if (!aims.beyond(after.quality)) return false;
+    if (untangling.repair || !(after.jacobian > 0.0)) return Confirmation::GainsNothing;
+    decided = !aims.beyond(before.quality);
+    if (!(decided ? after.quality > before.quality : aims.beyond(after.quality))) return Confirmation::GainsNothing;
   }
-  return second_rises();  // in one place: a device's code has a copy for each
+  const Confirmation confirmed = confirm_soundness(tangled);
+  if (confirmed != Confirmation::Gains || decided) return confirmed;
+  return second_rises() ? Confirmation::Gains : Confirmation::GainsNothing;  // in one place: a device's code has a copy for each
 }
 
 }  // namespace dmoscope

@@ -34,6 +34,14 @@ struct RuleMesh {
     if (!is_finite(offset)) return std::nullopt;
     return displaced(view.frame, place, offset, single);
   }
+  /// Where it stands by the longest step that confirm(place) lets it go: see confirmed_move().
+  template <class Confirm>
+  [[nodiscard]] std::optional<Vec3> moved_if(Vec3 place, Offset step, const Confirm& confirm) const {
+    if (!is_finite(step)) return std::nullopt;
+    const ConfirmedMove move = confirmed_move(
+        step, [&](Offset by) { return displaced(view.frame, place, by, single); }, confirm);
+    return move.gains ? std::optional(move.to) : std::nullopt;
+  }
   /// By an offset in units of a star's scale: where it gains by it, and nowhere else (promise 1).
   template <Metric M>
   [[nodiscard]] std::optional<Vec3> moved_if_gaining(PositionView positions, Index vertex, Offset found, double scale) const {
@@ -41,8 +49,7 @@ struct RuleMesh {
   }
   template <Metric M>
   [[nodiscard]] std::optional<Vec3> moved_if_gaining(PositionView positions, Index vertex, Offset offset) const {
-    const auto target = moved(positions[vertex], offset);
-    return target && gains_at<M>(view, positions, vertex, *target, untangling) ? target : std::nullopt;
+    return moved_if(positions[vertex], offset, [&](Vec3 target) { return confirm_at<M>(view, positions, vertex, target, untangling); });
   }
 };
 

@@ -21,6 +21,10 @@ struct Patch {
   /// The same bits as those of the whole mesh.
   [[nodiscard]] double quality(Metric metric, Index k) const;
   [[nodiscard]] bool inverted(Index k) const { return smallest_jacobian({mesh, geometry}, mesh.positions, k) <= 0.0; }
+  /// See dmoscope::inverted_inside().
+  [[nodiscard]] std::optional<Vec3> inverted_inside(Index k) const {
+    return dmoscope::inverted_inside({mesh, geometry}, mesh.positions, k);
+  }
 };
 
 /// Brings all that is needed in one go. Throws DeviceError.

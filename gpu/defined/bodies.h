@@ -159,12 +159,20 @@ struct SettleDefined {
     const LaneJudge<Frame> judge(task, lane);
     const Index vertex = task.vertex_of_rank[rank];
     const auto offset = times(offset_of(star), star.scale);
-    const Vec3 to = displaced(judge.mesh().frame, judge.positions()[vertex], offset, task.frame.single_precision);
-    const bool gains = leads_away(offset) && gains_from(judge.mesh(), judge.positions(), vertex, to, task.untangling,
-                                                        task.defined.before[rank - task.defined.search.first_of_stretch],
-                                                        [&]() DMOSCOPE_INLINE_LAMBDA { return judge.state(vertex, to); });
-    if (gains)
-      move(task, judge.mesh(), static_cast<Index>(rank), to);
+    ConfirmedMove found;
+    if (leads_away(offset))
+      found = confirmed_move(
+          offset,
+          [&](const auto& step) DMOSCOPE_INLINE_LAMBDA {
+            return displaced(judge.mesh().frame, judge.positions()[vertex], step, task.frame.single_precision);
+          },
+          [&](Vec3 to) DMOSCOPE_INLINE_LAMBDA {
+            return confirm_from(judge.mesh(), judge.positions(), vertex, to, task.untangling,
+                                task.defined.before[rank - task.defined.search.first_of_stretch],
+                                [&]() DMOSCOPE_INLINE_LAMBDA { return judge.state(vertex, to); });
+          });
+    if (found.gains)
+      move(task, judge.mesh(), static_cast<Index>(rank), found.to);
     else
       set_flag(task.awake + rank, false);
   }
@@ -187,7 +195,7 @@ struct JudgeDefined {
       const auto element = static_cast<Index>(e);
       task.quality[e] = judge.quality(element, kNoIndex, at);
       task.inverted[e] = visit_shape(judge.mesh().frame_of(element), judge.mesh().corners_of(element), at,
-                                     [](const auto& shape) { return formulas::smallest_jacobian(shape) <= 0.0; })
+                                     [](const auto& shape) { return least_jacobian(shape) <= 0.0; })
                              ? 1
                              : 0;
     }

@@ -47,8 +47,9 @@ struct VisitTargets {
     StarState states[2];
     DMOSCOPE_NO_UNROLL  // a program is long
         for (int i = 0; i < 2; ++i) states[i] = judge.state(vertex, i == 0 ? judge.positions()[vertex] : to);
-    return gains_from(judge.mesh(), judge.positions(), vertex, to, task.untangling, states[0],
-                      [&]() DMOSCOPE_INLINE_LAMBDA { return states[1]; });
+    const Confirmation found = confirm_from(judge.mesh(), judge.positions(), vertex, to, task.untangling, states[0],
+                                            [&]() DMOSCOPE_INLINE_LAMBDA { return states[1]; });
+    return found == Confirmation::Gains;
   }
 };
 

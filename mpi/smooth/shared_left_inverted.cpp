@@ -9,6 +9,8 @@ namespace {
 struct Element {
   double jacobian = 0.0;
   WholeIndex number = ~WholeIndex{0};
+  bool inside_alone = false;
+  Vec3 inside{};  // likewise: where
 };
 struct Vertex {
   std::uint64_t around = 0, fixed = 0;
@@ -37,7 +39,9 @@ std::optional<LeftInverted> find_left_inverted(const Run& run, const RankShare& 
     if (!(jacobian <= 0.0)) continue;
     for (const Index v : input.mesh.elements.corners(e)) ++around[v];
     if (share.share().home[e] == 0) continue;
-    if (count++ == 0 || jacobian < worst.jacobian) worst = {jacobian, share.share().elements[e]};
+    if (count++ != 0 && !(jacobian < worst.jacobian)) continue;
+    const std::optional<Vec3> inside = inverted_inside(context, positions, e);
+    worst = {jacobian, share.share().elements[e], inside.has_value(), inside.value_or(Vec3{})};
   }
   const std::uint64_t all = world.sum(count);
   if (all == 0) return std::nullopt;
@@ -64,6 +68,7 @@ std::optional<LeftInverted> find_left_inverted(const Run& run, const RankShare& 
   LeftInverted found;
   found.count = as_index(all);
   found.element = as_index(worst.number);
+  if (worst.inside_alone) found.inside = worst.inside;
   found.vertex = as_index(vertex.number);
   found.around = static_cast<Index>(vertex.around);
   found.place = vertex.place;

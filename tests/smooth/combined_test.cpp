@@ -212,7 +212,7 @@ void expect_gains_as_promised(const CompositeObjective& composite, const SecondA
     if (before.jacobian <= 0.0)
       expected = after.jacobian > before.jacobian && after.inverted <= before.inverted &&
                  (!composite.raise_mean() || (after.first >= before.first && rises));
-    const bool gains = CompositeRule<Plane>(*wheel, composite, {}).gains(wheel->mesh.positions, 0, there);
+    const bool gains = CompositeRule<Plane>(*wheel, composite, {}).confirm(wheel->mesh.positions, 0, there) == Confirmation::Gains;
     EXPECT_EQ(gains, expected) << trial;
     allowed += gains ? 1 : 0;
     refused_below += beyond(before.first) && rises && !beyond(after.first) ? 1 : 0;

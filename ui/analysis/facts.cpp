@@ -31,6 +31,7 @@ void read_element(PickedFacts& facts, const Frame& frame, Index element) {
   const Patch patch = patch_of(frame, {&element, 1});
   const InputMesh& input = *frame.input;
   facts.inverted = patch.inverted(0);
+  facts.inverted_inside = patch.inverted_inside(0);
   const auto add = [&](const MetricInfo& metric) {
     facts.metrics.push_back(
         {&metric, patch.quality(metric.metric, 0), element_quality(input.quality_context(), input.mesh.positions, metric.metric, element)});

@@ -26,6 +26,7 @@ struct PickedFacts {
   };
   std::vector<Row> metrics;
   bool inverted = false;
+  std::optional<Vec3> inverted_inside;          // where, if its corners do not tell
   std::optional<double> aspect, target_aspect;  // longest over shortest axis, where the shown metric has a target
 };
 

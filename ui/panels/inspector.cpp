@@ -305,7 +305,9 @@ void draw_element(PanelContext& context, const Frame& frame, Index element) {
   heading(context, fmt::format("Element {}", element).c_str());
   const ElementTable& elements = frame.input->mesh.elements;
   value_row(context, "kind", std::string(info(elements.kind(element)).name));
-  if (context.derived.facts.inverted) value_row(context, "inverted", "yes", {}, context.palette.error);
+  if (const PickedFacts& facts = context.derived.facts; facts.inverted)
+    value_row(context, "inverted", facts.inverted_inside ? "inside alone" : "yes", {}, context.palette.error,
+              facts.inverted_inside ? "not at its corners: where the diamond is" : nullptr);
   if (frame.input->is_volume() && !frame.positions.empty())
     number_row(context, "volume", signed_volume(elements, frame.positions, element), "negative where it is inside out");
   if (const PickedFacts& facts = context.derived.facts; facts.aspect && facts.target_aspect) {

@@ -123,6 +123,11 @@ render::SpaceMarks PaneView::space_marks(const Scenery& scenery, Vec2<double> vi
     add_inspection_marks(marks, state.inspection, scenery.inspection,
                          inspection_look(of_quality, palette(state.theme).accent, units, state.scale));
   }
+  if (const auto& inside = scenery.derived.facts.inverted_inside; inside && picked.kind == Picked::Kind::Element && !searching) {
+    const render::Style style = scene_style(state);
+    marks.dots.push_back({*inside, 17.0F, style.casing_colour, render::DotShape::Diamond});
+    marks.dots.push_back({*inside, 12.0F, style.highlight_colour, render::DotShape::Diamond});
+  }
   if (!searching && !marks.cells.empty() && picked.kind == Picked::Kind::Element)
     add_space_target(marks, *frame(), metric_of_targets(), picked.id);
   if (!searching) stepping_.add_space_marks(marks, state, *session_, *volume_, viewport);

@@ -50,6 +50,8 @@ struct VolumeKernel {
   // Of the elements for which the metric is defined:
   BeforeAndAfter (*least_ranks)(const VolumeComparison& comparison) = nullptr;  // formulas::rank_around
   BeforeAndAfter (*means)(const VolumeComparison& comparison) = nullptr;        // formulas::metric
+  // Is every hexahedron and wedge certain to be valid inside with the vertex at `after`? Where not, validity_of() has to say.
+  bool (*valid_after)(const VolumeComparison& comparison) = nullptr;
 };
 
 /// The kernel for a metric that is defined for volumes. `level` must be one of supported_simd_levels().

@@ -7,6 +7,7 @@
 
 #include "core/numeric/pack.h"
 // After the packs:
+#include "core/quality/validity.h"
 #include "core/search/grid_search.h"
 #include "core/smooth/kernels/mean_ratio_search.h"
 #include "core/smooth/kernels/star_packs.h"
@@ -175,12 +176,24 @@ template <Metric M, class D>
   return mean;
 }
 
+template <class D>
+[[gnu::flatten]] bool valid_after(const VolumeComparison& task) {
+  using scalar::min;
+  const Vec3Of<D> after = point_of<D>(task.after);
+  D least(std::numeric_limits<double>::max());
+  for_packs<D>(task.star, task.others, [&](const auto& element, std::size_t /*used*/) {
+    const auto shape = element.with(after);
+    if constexpr (requires { validity::coefficients_of(shape); }) least = min(least, validity::least_coefficient(shape));
+  });
+  return least_slot_of(least) > validity::kRounding;
+}
+
 /// The kernel for `metric` with this translation unit's widest packs of floats, F, and of doubles, D.
 template <class F, class D>
 VolumeKernel kernel_for(Metric metric) {
   return formulas::with_volume_metric(metric, []<Metric M>() -> VolumeKernel {
     using Search = std::conditional_t<M == Metric::MeanRatio, FormSearch<F>, RankSearch<M, F>>;
-    return {&search_levels<Search>, &least_ranks<M, D>, &means<M, D>};
+    return {&search_levels<Search>, &least_ranks<M, D>, &means<M, D>, &valid_after<D>};
   });
 }
 

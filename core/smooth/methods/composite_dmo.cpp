@@ -1,5 +1,6 @@
 #include "core/smooth/methods/composite_dmo.h"
 
+#include <algorithm>
 #include <array>
 
 #include "core/smooth/edge_neighbours.h"
@@ -125,6 +126,7 @@ template <class Frame>
 CompositeRule<Frame>::CompositeRule(const InputMesh& input, CompositeObjective composite, const SearchParameters& parameters)
     : StarJudge<Frame>(input, std::move(composite)),
       mesh_(input),
+      has_inside_(input.is_volume() && std::ranges::any_of(input.mesh.elements.kinds(), &has_inside)),
       parameters_(parameters),
       kernel_(parameters.precision == Precision::Double || !is_for_kernels(this->composite())
                   ? nullptr
@@ -217,12 +219,12 @@ CompositeScore<Frame> StarJudge<Frame>::score_of(const Star& star, PositionView 
 }
 
 template <class Frame>
-bool StarJudge<Frame>::gains(PositionView positions, Index vertex, Vec3 target) const {
+Confirmation StarJudge<Frame>::confirm(PositionView positions, Index vertex, Vec3 target) const {
   const Vec3 here = positions[vertex];
   const StarState before = state(composite_.first, positions, vertex, here), after = state(composite_.first, positions, vertex, target);
   const auto second_rises = [&] { return second(positions, vertex, target) > second(positions, vertex, here); };
-  return gains_by_two(
-      composite_, before, after, untangling_, [&] { return keeps_sound(view_, positions, vertex, target); }, second_rises);
+  const auto soundness = [&](bool tangled) { return confirm_soundness(view_, positions, vertex, target, tangled, untangling_); };
+  return confirm_by_two(composite_, before, after, untangling_, soundness, second_rises);
 }
 
 template <class Frame>
@@ -273,15 +275,25 @@ std::optional<bool> CompositeRule<Frame>::gains_for_certain(Index vertex, const 
 }
 
 template <class Frame>
+bool CompositeRule<Frame>::keeps_valid(PositionView positions, Index vertex, const Scratch& scratch, Vec3 target) const {
+  if constexpr (std::is_same_v<Frame, Space>)
+    if (comparison_->valid_at(stars_->of(vertex).elements, scratch.points, target)) return true;
+  return keeps_sound(mesh_.view, positions, vertex, target);
+}
+
+template <class Frame>
 std::optional<Vec3> CompositeRule<Frame>::target(PositionView positions, Index vertex, Scratch& scratch) const {
   const auto indexed = search_indexed(positions, vertex, scratch);
   if (!indexed) this->gather(positions, vertex, scratch.star);
   const Offset found = indexed ? indexed->offset : search(scratch.star, positions, vertex).offset;
   if (found == Offset{}) return std::nullopt;
-  const auto target = mesh_.moved(positions[vertex], times(found, scratch.star.scale));
+  const Offset step = times(found, scratch.star.scale);
+  const auto target = mesh_.moved(positions[vertex], step);
   if (!target) return std::nullopt;
   const auto known = indexed ? gains_for_certain(vertex, scratch, positions[vertex], *target) : std::nullopt;
-  return known.value_or(false) || (!known && this->gains(positions, vertex, *target)) ? target : std::nullopt;
+  if (known && !*known) return std::nullopt;
+  if (known && (!has_inside_ || keeps_valid(positions, vertex, scratch, *target))) return target;
+  return mesh_.moved_if(positions[vertex], step, [&](Vec3 place) { return this->confirm(positions, vertex, place); });
 }
 
 template class CompositeRule<Plane>;

@@ -180,8 +180,8 @@ class StarJudge {
   [[nodiscard]] CompositeScore<Frame> score_of(const Star& star, PositionView positions, Index vertex, bool tangled) const;
   /// How good its star is by a metric, the first or second one, with a vertex at a place; by the statistics' formulas.
   [[nodiscard]] StarState state(Metric metric, PositionView positions, Index vertex, Vec3 place) const;
-  /// Judged by the statistics' own formulas: does the vertex gain by standing at `target`?
-  [[nodiscard]] bool gains(PositionView positions, Index vertex, Vec3 target) const;
+  /// By the statistics' own formulas: does the vertex gain by standing at `target`?
+  [[nodiscard]] Confirmation confirm(PositionView positions, Index vertex, Vec3 target) const;
 
   [[nodiscard]] const CompositeObjective& composite() const noexcept { return composite_; }
 
@@ -245,9 +245,11 @@ class CompositeRule : public StarJudge<Frame> {
  private:
   [[nodiscard]] std::optional<CompositeFound<Frame>> search_indexed(PositionView positions, Index vertex, Scratch& scratch) const;
   [[nodiscard]] std::optional<bool> gains_for_certain(Index vertex, const Scratch& scratch, Vec3 from, Vec3 target) const;
+  [[nodiscard]] bool keeps_valid(PositionView positions, Index vertex, const Scratch& scratch, Vec3 target) const;
   [[nodiscard]] CompositeSearch<Frame> task_of(const Star& star, PositionView positions, Index vertex) const;
 
   RuleMesh<Frame> mesh_;
+  bool has_inside_;  // any element: see there
   SearchParameters parameters_;
   CompositeKernel<Frame> kernel_;                // null: the plain search alone
   std::shared_ptr<const IndexedStars> stars_;    // where there is a kernel; shared: the rule is moved about

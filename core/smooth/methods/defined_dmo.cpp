@@ -34,7 +34,7 @@ class DefinedDmo {
     return mesh_.moved_if_gaining(positions, vertex, found, before);
   }
   bool gains(Index vertex, Vec3 target, PositionView positions) const {
-    return defined_gains_at(mesh_.star_judge(), positions, vertex, target, mesh_.untangling());
+    return defined_confirm_at(mesh_.star_judge(), positions, vertex, target, mesh_.untangling()) == Confirmation::Gains;
   }
 
  private:

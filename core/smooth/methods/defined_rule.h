@@ -26,11 +26,10 @@ class DefinedRuleMesh {
   }
   /// By an offset in mesh units: where the vertex gains by it, and nowhere else (promise 1). `before`: its star where it stands.
   [[nodiscard]] std::optional<Vec3> moved_if_gaining(PositionView positions, Index vertex, Offset offset, const StarState& before) const {
-    const auto target = mesh_.moved(positions[vertex], offset);
-    if (!target) return std::nullopt;
-    const bool gains =
-        gains_from(mesh_.view, positions, vertex, *target, mesh_.untangling, before, [&] { return state(positions, vertex, *target); });
-    return gains ? target : std::nullopt;
+    return mesh_.moved_if(positions[vertex], offset, [&](Vec3 target) {
+      return confirm_from(mesh_.view, positions, vertex, target, mesh_.untangling, before,
+                          [&] { return state(positions, vertex, target); });
+    });
   }
   [[nodiscard]] std::optional<Vec3> moved_if_gaining(PositionView positions, Index vertex, Offset offset) const {
     return moved_if_gaining(positions, vertex, offset, state(positions, vertex, positions[vertex]));

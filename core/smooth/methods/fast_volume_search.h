@@ -1,6 +1,7 @@
 #pragma once
 // The fast search of a volume's star: in float by the kernel, confirmed in double.
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -36,6 +37,10 @@ class VolumeStarSearch {
   /// `points`: as find() left them.
   [[nodiscard]] std::optional<bool> gains(const IndexedStars::Star& star, const Points& points, Vec3 from, Vec3 target,
                                           const VolumeTargets& targets = {}) const;
+  /// Are the star's elements certain to be valid inside with the vertex at `target`? `points`: as find() left them.
+  [[nodiscard]] bool valid_at(const IndexedStars::Star& star, const Points& points, Vec3 target) const {
+    return kernel_.valid_after({star.elements, points.at.data(), target, target});
+  }
 
  private:
   Metric metric_;
@@ -58,22 +63,26 @@ class FastVolumeSearch {
       : mesh_(*task.input),
         parameters_(task.search),
         search_(M, task.search),
+        has_inside_(std::ranges::any_of(task.input->mesh.elements.kinds(), &has_inside)),
         stars_(std::make_shared<const IndexedStars>(*task.input, *task.colouring, task.pool)) {}
 
   void begin(const Sweep& sweep) { mesh_.untangling = sweep.untangling; }
   [[nodiscard]] std::span<const Index> others(Index vertex) const { return stars_->of(vertex).vertices; }
   std::optional<Vec3> target(PositionView positions, Index vertex, Scratch& scratch) const {
     const IndexedStars::Star star = stars_->of(vertex);
-    const VolumeFound found =
-        mesh_.untangling.repair ? VolumeFound{} : search_.find(star, positions, vertex, parameters_.levels, scratch.points);
+    const Untangling& rule = mesh_.untangling;
+    const bool plain = rule.repair || (has_inside_ && rule.looks_inside() && has_inverted(mesh_.view, positions, vertex));
+    const VolumeFound found = plain ? VolumeFound{} : search_.find(star, positions, vertex, parameters_.levels, scratch.points);
     if (!found.ready) return target_by_plain_search(positions, vertex, scratch.star);
     const Vec3 offset{found.offset.x, found.offset.y, found.offset.z};
     if (offset == Vec3{}) return std::nullopt;
     const std::optional<Vec3> target = mesh_.moved(positions[vertex], times(offset, scratch.points.scale));
     if (!target) return std::nullopt;
     const std::optional<bool> known = search_.gains(star, scratch.points, positions[vertex], *target);
-    return known.value_or(false) || (!known && gains_at<M>(mesh_.view, positions, vertex, *target, mesh_.untangling)) ? target
-                                                                                                                      : std::nullopt;
+    if (known && !*known) return std::nullopt;
+    if (known && (!has_inside_ || search_.valid_at(star, scratch.points, *target) || keeps_sound(mesh_.view, positions, vertex, *target)))
+      return target;
+    return mesh_.template moved_if_gaining<M>(positions, vertex, offset, scratch.points.scale);
   }
 
  private:
@@ -87,6 +96,7 @@ class FastVolumeSearch {
   RuleMesh<Space> mesh_;
   SearchParameters parameters_;
   VolumeStarSearch search_;
+  bool has_inside_;
   std::shared_ptr<const IndexedStars> stars_;  // shared: the rule is moved about
 };
 

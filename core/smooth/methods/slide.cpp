@@ -161,7 +161,7 @@ double Slide<Frame>::search_grid(const Visit& visit, const Stretch& stretch) con
 
 template <class Frame>
 bool Slide<Frame>::may_go(const Visit& visit, Vec3 target) const {
-  return !choice_.must_gain || judge_.gains(visit.positions, visit.vertex, target);
+  return !choice_.must_gain || judge_.confirm(visit.positions, visit.vertex, target) == Confirmation::Gains;
 }
 
 template <class Frame>

@@ -34,6 +34,10 @@ class TwoAimsComparison {
 
   /// Would the star's vertex gain by going to `target`? See gains_for_certain().
   [[nodiscard]] std::optional<bool> gains(const IndexedStar& star, const StarPoints<Space>& points, Vec3 from, Vec3 target) const;
+  /// Are the star's elements certain to be valid inside with its vertex at `target`?
+  [[nodiscard]] bool valid_at(const IndexedStar& star, const StarPoints<Space>& points, Vec3 target) const {
+    return first_kernel_.valid_after({star, points.at.data(), target, target});
+  }
 
  private:
   Metric first_;

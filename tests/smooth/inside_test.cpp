@@ -1,0 +1,77 @@
+// No element becomes inverted inside, where its corners do not tell.
+
+#include "tests/support/inside.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "tests/smooth/promises.h"
+
+namespace dmoscope {
+namespace {
+
+using test::Fill;
+using testing::input;
+using testing::make_run;
+
+class Inside : public ::testing::TestWithParam<MethodInfo> {};
+
+TEST_P(Inside, NothingIsInvertedThere) {
+  Progress progress;
+  int runs = 0;
+  for (const Fill fill : {Fill::Hexahedra, Fill::Mixed})
+    for (unsigned seed = 1; seed <= 4; ++seed) {
+      const auto mesh = input(test::twisted_block(3, fill, seed));
+      for (const Metric metric : {Metric::MeanRatio, Metric::ScaledJacobian, Metric::Condition}) {
+        if ((GetParam().mean_ratio_only && metric != Metric::MeanRatio) || !testing::can_optimise(GetParam(), metric, *mesh)) continue;
+        for (const Precision precision : {Precision::Float, Precision::Double}) {
+          if (precision == Precision::Double && !GetParam().searches_grid) continue;
+          RunParameters parameters{.method = std::string(GetParam().name), .metric = metric};
+          parameters.search.precision = precision;
+          if (precision == Precision::Double) parameters.search.grid_points = 4;
+          dmoscope::Run run = make_run(mesh, parameters);
+          const std::string what = fmt::format("{} {}, seed {}", GetParam().name, info(metric).name, seed);
+          for (int i = 0; i < 6; ++i) {
+            run.step(StepUnit::Iteration, progress);
+            ASSERT_EQ(test::inverted_inside(mesh->mesh, run.positions()), 0U) << what << ", iteration " << i;
+            ASSERT_EQ(run.statistics().inverted, 0U) << what << ", iteration " << i;
+          }
+          EXPECT_GT(run.statistics().mean,
+                    compute_statistics(mesh->quality_context(), mesh->mesh.positions, metric, std::span<const Index>(), nullptr).mean)
+              << what;
+          ++runs;
+        }
+      }
+    }
+  EXPECT_GT(runs, 0);
+}
+
+std::vector<MethodInfo> volume_optimisers() {
+  std::vector<MethodInfo> all;
+  for (const MethodInfo& method : method_table())
+    if (method.optimises && !method.planar_only) all.push_back(method);
+  return all;
+}
+INSTANTIATE_TEST_SUITE_P(Optimisers, Inside, ::testing::ValuesIn(volume_optimisers()), [](const auto& tested) {
+  std::string name(tested.param.name);
+  std::erase(name, '-');
+  return name;
+});
+
+/// Corners alone call this hexahedron sound: the least of their Jacobians is 92. Half-way up its second edge the determinant is negative.
+TEST(InsideAlone, IsCountedAsInverted) {
+  Mesh mesh;
+  mesh.positions = {{5, -6, -2}, {11, -6, -2}, {17, 6, 3}, {7, 6, 1}, {7, -2, 15}, {5, 5, 5}, {4, 4, 11}, {2, 6, 8}};
+  mesh.elements.add(ElementKind::Hexahedron, std::array<Index, 8>{0, 1, 2, 3, 4, 5, 6, 7});
+  ASSERT_EQ(test::inverted_inside(mesh, mesh.positions), 1U);
+  const auto prepared = input(mesh);
+  EXPECT_EQ(prepared->report.inverted_elements, std::vector<Index>{0});
+  for (const Metric metric : {Metric::MeanRatio, Metric::ScaledJacobian}) {
+    const Statistics found = compute_statistics(prepared->quality_context(), mesh.positions, metric, std::span<const Index>(), nullptr);
+    EXPECT_EQ(found.inverted, 1U);
+    EXPECT_GT(found.minimum, 0.0) << "what corners say";
+  }
+}
+
+}  // namespace
+}  // namespace dmoscope

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/io/mesh_io.h"
+#include "core/io/source_again.h"
 #include "core/io/vtk/vtk_order.h"
 #include "library/mesh_data.h"
 #include "library/translate.h"
@@ -117,6 +118,7 @@ const Mesh::Data::Arrays& Mesh::Data::arrays() const {
 Mesh moved_mesh(const Mesh& mesh, std::vector<Vec3> positions) {
   auto data = std::make_shared<Mesh::Data>();
   data->input = mesh.data()->input;
+  data->as_read = mesh.data()->as_read;
   data->moved = std::make_shared<const std::vector<Vec3>>(std::move(positions));
   return Mesh(std::shared_ptr<const Mesh::Data>(std::move(data)));
 }
@@ -144,7 +146,10 @@ Mesh Mesh::read(const std::string& path, const Progress& progress) {
 }
 
 std::vector<std::string> Mesh::write(const std::string& path, const Progress& progress) const {
-  return translated([&] { return write_mesh(path, data_->input->mesh, data_->positions(), {progress.state().progress, nullptr}); });
+  return translated([&] {
+    const bool again = data_->as_read && writes_source_again(path, *data_->as_read);
+    return write_mesh(path, again ? *data_->as_read : data_->input->mesh, data_->positions(), {progress.state().progress, nullptr});
+  });
 }
 
 std::size_t Mesh::vertex_count() const { return data_->input->mesh.vertex_count(); }
@@ -161,7 +166,11 @@ const std::uint8_t* Mesh::boundary() const { return data_->input->topology.bound
 Mesh Mesh::with_positions(const double* positions, const Progress& progress) const {
   return translated([&] {
     const Mesh moved = moved_mesh(*this, vectors(positions, vertex_count()));
-    return Mesh(data_of(moved.data()->prepared(progress.state().progress)));
+    auto data = std::make_shared<Data>();
+    data->input = moved.data()->prepared(progress.state().progress);
+    data->as_read = data_->as_read;
+    if (!data->as_read && data_->input->mesh.source) data->as_read = {data_->input, &data_->input->mesh};
+    return Mesh(std::shared_ptr<const Data>(std::move(data)));
   });
 }
 

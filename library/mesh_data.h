@@ -19,6 +19,7 @@ struct Progress::State {
 struct Mesh::Data {
   std::shared_ptr<const dmoscope::InputMesh> input;
   std::shared_ptr<const std::vector<dmoscope::Vec3>> moved;  // null: where `input` has them
+  std::shared_ptr<const dmoscope::Mesh> as_read;  // with the positions of the file that it was read from; null: as `input` has it
 
   [[nodiscard]] std::span<const dmoscope::Vec3> positions() const { return moved ? *moved : input->mesh.positions; }
   /// The mesh as it is prepared at its own positions, which is `input` where nothing has moved.

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "core/base/rounding.h"
-#include "core/io/mesh_io.h"
 #include "core/io/reading/source_file.h"
+#include "core/io/source_again.h"
 #include "core/quality/quality.h"
 
 namespace dmoscope {
@@ -41,9 +41,7 @@ std::string seen_as_floats(const InputMesh& input, std::span<const Vec3> positio
 
 std::string written_as_floats(const std::filesystem::path& path, const InputMesh& input, std::span<const Vec3> positions, Metric metric,
                               ThreadPool* pool) {
-  const FormatInfo* format = format_by_extension(mesh_extension(path));
-  if (!input.mesh.source || format == nullptr || format->name != input.mesh.source->format()) return {};
-  return seen_as_floats(input, positions, metric, pool);
+  return writes_source_again(path, input.mesh) ? seen_as_floats(input, positions, metric, pool) : std::string();
 }
 
 }  // namespace dmoscope

@@ -15,6 +15,7 @@
 #include "core/io/mesh_io.h"
 #include "core/io/reading/gzip.h"
 #include "core/io/reading/tokenizer.h"
+#include "core/io/source_again.h"
 #include "core/io/writing/patch_writer.h"
 
 namespace dmoscope {
@@ -262,6 +263,11 @@ Mesh read_mesh(const std::filesystem::path& path, const IoContext& context) {
   } catch (const std::bad_alloc&) {
     throw InputError(path.string(), 0, "not enough memory for this mesh");
   }
+}
+
+bool writes_source_again(const std::filesystem::path& path, const Mesh& mesh) {
+  const FormatHandler* handler = by_extension(mesh_extension(path));
+  return handler != nullptr && can_patch(mesh, *handler);
 }
 
 std::vector<std::string> write_mesh(const std::filesystem::path& path, const Mesh& mesh, std::span<const Vec3> positions,

@@ -267,6 +267,49 @@ TEST(Library, FilesAreReadAndWritten) {
   }
 }
 
+/// Triangles whose coordinates every format holds exactly: multiples of 1/64.
+Arrays coarse_sheet(dmo::Index n) {
+  const Arrays from = sheet(n);
+  Arrays arrays;
+  for (std::size_t i = 0; i < from.positions.size(); ++i)
+    arrays.positions.push_back(i % 3 == 2 ? 0.0 : std::round(from.positions[i] * 64) / 64);
+  for (std::size_t c = 0; c < from.kinds.size(); ++c) {
+    const dmo::Index* at = from.connectivity.data() + from.offsets[c];
+    arrays.add(dmo::CellKind::Triangle, {at[0], at[1], at[2]});
+    if (from.kinds[c] == dmo::CellKind::Quadrilateral) arrays.add(dmo::CellKind::Triangle, {at[0], at[2], at[3]});
+  }
+  return arrays;
+}
+
+TEST(Library, NewPlacesAreWrittenInTheFilesOwnFormat) {
+  const Arrays arrays = coarse_sheet(8);
+  const std::string folder = ::testing::TempDir() + "/library_places";
+  for (const std::string extension :
+       {".off", ".obj", ".ply", ".stl", ".vtk", ".vtu", ".xdmf", ".14", ".su2", ".msh", ".mesh", ".node", ".inp", ".2dm", ".bdf"}) {
+    SCOPED_TRACE(extension);
+    (void)arrays.mesh().write(folder + extension);
+    const dmo::Mesh read = dmo::Mesh::read(folder + extension);
+    const std::size_t bytes = 3 * read.vertex_count() * sizeof(double);
+    std::vector<double> places(read.positions(), read.positions() + 3 * read.vertex_count());
+    for (std::size_t i = 0; i < places.size(); ++i) places[i] = i % 3 == 2 ? 0.0 : 2.0 * places[i] + 0.5;
+    places[3 * 30] = read.positions()[3 * 30];  // one that stays
+    const dmo::Mesh moved = read.with_positions(places.data());
+    const dmo::Smoothed smoothed = dmo::smooth(moved);
+    EXPECT_NE(std::memcmp(smoothed.mesh.positions(), places.data(), bytes), 0);
+    for (const dmo::Mesh& mesh : {moved, smoothed.mesh, smoothed.mesh.with_positions(places.data())}) {
+      const std::vector<std::string> told = mesh.write(folder + "_new" + extension);
+      const dmo::Mesh written = dmo::Mesh::read(folder + "_new" + extension);
+      ASSERT_EQ(written.vertex_count(), read.vertex_count());
+      const bool rounded = !told.empty() && told[0].find("rounded") != std::string::npos;  // only by formats with few digits
+      std::size_t wrong = 0;
+      for (std::size_t i = 0; i < places.size(); ++i)
+        wrong += std::abs(written.positions()[i] - mesh.positions()[i]) <= (rounded ? 1e-5 : 0.0) ? 0 : 1;
+      EXPECT_EQ(wrong, 0U);
+      EXPECT_TRUE(!rounded || extension == ".bdf");
+    }
+  }
+}
+
 TEST(Library, ATraceEndsWhereTheFirstVisitDoes) {
   for (const Arrays& arrays : {sheet(2), solids()}) {
     const dmo::Mesh mesh = arrays.mesh();

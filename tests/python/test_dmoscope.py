@@ -308,6 +308,21 @@ def test_meshes_can_be_pickled():
     assert (again.points == mesh.points).all() and (again.cells[0][1] == mesh.cells[0][1]).all()
 
 
+def test_new_places_are_written_in_the_file_s_own_format(coast, tmp_path):
+    mesh = dmoscope.read(coast)
+    moved = mesh.with_points(mesh.points * [2, 2, 1] + [1000, 0, 0])
+    smoothed = dmoscope.smooth(moved)
+    count = int(coast.read_text().split("\n")[1].split()[1])
+    before = [line.split() for line in coast.read_text().splitlines()]
+    for one in (moved, smoothed.mesh, dmoscope.smooth(smoothed.mesh.with_points(moved.points)).mesh):
+        one.write(tmp_path / "new.14")
+        after = [line.split() for line in (tmp_path / "new.14").read_text().splitlines()]
+        nodes = slice(2, 2 + count)
+        assert [[float(x), float(y)] for _, x, y, *_ in after[nodes]] == one.points[:, :2].tolist()
+        assert [line[:1] + line[3:] for line in after[nodes]] == [line[:1] + line[3:] for line in before[nodes]]
+        assert after[:2] + after[2 + count:] == before[:2] + before[2 + count:]
+
+
 def test_numbers_that_are_not_whole_are_refused():
     points, triangles, _ = sheet(2)
     with pytest.raises(ValueError, match="whole"):

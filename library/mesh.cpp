@@ -1,5 +1,6 @@
 #include "library/include/dmoscope/mesh.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -7,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/io/mesh_io.h"
+#include "core/io/reading/binary_scalar.h"
 #include "core/io/source_again.h"
 #include "core/io/vtk/vtk_order.h"
 #include "library/mesh_data.h"
@@ -15,6 +17,7 @@
 namespace dmo {
 
 using dmoscope::ElementKind;
+using dmoscope::Field;
 using dmoscope::InputMesh;
 using dmoscope::Need;
 using dmoscope::Vec3;
@@ -28,6 +31,7 @@ namespace {
 [[noreturn]] void refuse(const std::string& what) { throw dmoscope::InputError(kNoFile, 0, what); }
 
 std::vector<Vec3> vectors(const double* positions, std::size_t vertices) {
+  if (positions == nullptr && vertices > 0) refuse(fmt::format("positions is null, but there are {} vertices", vertices));
   std::vector<Vec3> result(vertices);
   for (std::size_t v = 0; v < vertices; ++v) {
     const double* p = positions + 3 * v;
@@ -41,20 +45,40 @@ std::vector<Vec3> vectors(const double* positions, std::size_t vertices) {
 /// Corners are read only where the offsets are known to lie within connectivity.
 void require_rising_offsets(const Cells& cells) {
   if (cells.count == 0) return;
+  for (const auto& [array, name] :
+       {std::pair<const void*, const char*>(cells.kinds, "kinds"), {cells.offsets, "offsets"}, {cells.connectivity, "connectivity"}})
+    if (array == nullptr) refuse(fmt::format("{} is null, but there are {} cells", name, cells.count));
   if (cells.offsets[0] != 0) refuse(fmt::format("the first offset is {}, not 0", cells.offsets[0]));
   for (std::size_t c = 0; c < cells.count; ++c)
     if (cells.offsets[c + 1] < cells.offsets[c])
       refuse(fmt::format("cell {}: its offsets {} and {} do not rise", c, cells.offsets[c], cells.offsets[c + 1]));
 }
 
-void add_data(dmoscope::Mesh& mesh, const CellData& data) {
-  if (data.values.size() != mesh.elements.size())
-    refuse(fmt::format("the data \"{}\" has {} values, the mesh {} cells", data.name, data.values.size(), mesh.elements.size()));
-  dmoscope::Field field;
+void add_data(dmoscope::Mesh& mesh, const Numbers& data, Field::On on) {
+  const std::size_t things = on == Field::On::Elements ? mesh.elements.size() : mesh.positions.size();
+  if (data.components < 1 || data.components > 0xffff || data.values.size() != things * data.components)
+    refuse(fmt::format("the data \"{}\" has {} values of {} components, the mesh {} {}", data.name, data.values.size(), data.components,
+                       things, on == Field::On::Elements ? "cells" : "vertices"));
+  Field field;
   field.name = data.name;
-  field.on = dmoscope::Field::On::Elements;
+  field.on = on;
+  field.components = static_cast<int>(data.components);
   field.values = data.values;
+  const auto is_whole = [](double value) { return value == std::floor(value) && std::abs(value) < 0x1p53; };
+  const auto is_short = [](double value) { return std::abs(value) < 0x1p31; };
+  if (data.whole && std::ranges::all_of(field.values, is_whole)) field.type = std::ranges::all_of(field.values, is_short) ? "int" : "long";
   mesh.fields.push_back(std::move(field));
+}
+
+std::vector<Numbers> numbers_of(const dmoscope::Mesh& mesh, Field::On on) {
+  std::vector<Numbers> all;
+  for (const Field& field : mesh.fields) {
+    if (field.on != on) continue;
+    dmoscope::ScalarType type = dmoscope::ScalarType::Float64;
+    const bool whole = field.type == "bit" || (scalar_of_word(field.type, type) && is_whole(type));
+    all.push_back({field.name, field.values, static_cast<std::size_t>(field.components), whole});
+  }
+  return all;
 }
 
 void add_cell(dmoscope::ElementTable& elements, const Cells& cells, std::size_t c, std::size_t vertices) {
@@ -75,6 +99,16 @@ void add_cell(dmoscope::ElementTable& elements, const Cells& cells, std::size_t 
   dmoscope::exchange_vtk_order(kind, corners.data());
   elements.add(kind, std::span(corners).first(wanted));
 }
+
+}  // namespace
+
+void add_cells(dmoscope::ElementTable& elements, const Cells& cells, std::size_t vertices) {
+  require_rising_offsets(cells);
+  if (cells.count > 0) elements.reserve(cells.count, cells.offsets[cells.count]);
+  for (std::size_t c = 0; c < cells.count; ++c) add_cell(elements, cells, c, vertices);
+}
+
+namespace {
 
 std::shared_ptr<const Mesh::Data> data_of(std::shared_ptr<const InputMesh> input) {
   auto data = std::make_shared<Mesh::Data>();
@@ -123,16 +157,16 @@ Mesh moved_mesh(const Mesh& mesh, std::vector<Vec3> positions) {
   return Mesh(std::shared_ptr<const Mesh::Data>(std::move(data)));
 }
 
-Mesh::Mesh(const double* positions, std::size_t vertices, const Cells& cells, const std::vector<CellData>& data, const Progress& progress) {
+Mesh::Mesh(const double* positions, std::size_t vertices, const Cells& cells, const std::vector<CellData>& data,
+           const std::vector<PointData>& point_data, const Progress& progress) {
   data_ = translated([&] {
     if (vertices >= dmoscope::kNoIndex) refuse(fmt::format("{} vertices are too many", vertices));
     dmoscope::Mesh mesh;
     mesh.name = kNoFile;
     mesh.positions = vectors(positions, vertices);
-    require_rising_offsets(cells);
-    if (cells.count > 0) mesh.elements.reserve(cells.count, cells.offsets[cells.count]);
-    for (std::size_t c = 0; c < cells.count; ++c) add_cell(mesh.elements, cells, c, vertices);
-    for (const CellData& one : data) add_data(mesh, one);
+    add_cells(mesh.elements, cells, vertices);
+    for (const CellData& one : data) add_data(mesh, one, Field::On::Elements);
+    for (const PointData& one : point_data) add_data(mesh, one, Field::On::Vertices);
     return data_of(prepare_input(std::move(mesh), {}, Need::Smoothing, progress.state().progress));
   });
 }
@@ -158,6 +192,14 @@ const double* Mesh::positions() const { return &data_->positions().data()->x; }
 Cells Mesh::cells() const {
   const Data::Arrays& arrays = data_->arrays();
   return {arrays.kinds.size(), arrays.kinds.data(), arrays.offsets.data(), arrays.connectivity.data()};
+}
+std::vector<CellData> Mesh::cell_data() const { return numbers_of(data_->input->mesh, Field::On::Elements); }
+std::vector<PointData> Mesh::point_data() const { return numbers_of(data_->input->mesh, Field::On::Vertices); }
+std::vector<CellGroup> Mesh::cell_groups() const {
+  std::vector<CellGroup> all;
+  for (const dmoscope::Group& group : data_->input->mesh.groups)
+    if (group.of_elements()) all.push_back({group.name, group.members});
+  return all;
 }
 bool Mesh::is_volume() const { return data_->input->is_volume(); }
 bool Mesh::is_surface() const { return data_->input->is_surface(); }

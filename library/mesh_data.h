@@ -37,6 +37,9 @@ struct Mesh::Data {
   mutable Arrays arrays_;
 };
 
+/// Throws dmoscope::InputError for cells that cannot be.
+void add_cells(dmoscope::ElementTable& elements, const Cells& cells, std::size_t vertices);
+
 /// The same mesh with its vertices elsewhere.
 [[nodiscard]] Mesh moved_mesh(const Mesh& mesh, std::vector<dmoscope::Vec3> positions);
 

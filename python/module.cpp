@@ -49,8 +49,33 @@ void require_points(const Array<double>& points) {
   if (points.ndim() != 2 || points.shape(1) != 3) throw py::value_error("points must be an array of n x 3");
 }
 
+using NumbersByName = std::map<std::string, py::array>;
+
+/// Of each vertex or cell one number, or a row of them.
+std::vector<dmo::Numbers> numbers_of(const NumbersByName& arrays) {
+  std::vector<dmo::Numbers> all;
+  for (const auto& [name, array] : arrays) {
+    const Array<double> values(array);
+    const std::size_t components = values.ndim() < 2 ? 1 : static_cast<std::size_t>(values.shape(1));
+    const bool whole = std::string("iub").find(array.dtype().kind()) != std::string::npos;
+    all.push_back({name, {values.data(), values.data() + values.size()}, components, whole});
+  }
+  return all;
+}
+
+py::dict arrays_of(std::vector<dmo::Numbers> all) {
+  py::dict arrays;
+  for (dmo::Numbers& one : all) {
+    std::vector<py::ssize_t> shape{length(one.values.size() / one.components)};
+    if (one.components > 1) shape.push_back(length(one.components));
+    const py::array values = array_of(std::move(one.values), shape);
+    arrays[py::str(one.name)] = one.whole ? values.attr("astype")("int64") : py::object(values);
+  }
+  return arrays;
+}
+
 dmo::Mesh make_mesh(const Array<double>& points, const Array<std::uint8_t>& kinds, const Array<dmo::Index>& offsets,
-                    const Array<dmo::Index>& connectivity, const std::map<std::string, Array<double>>& numbers) {
+                    const Array<dmo::Index>& connectivity, const NumbersByName& cell_numbers, const NumbersByName& point_numbers) {
   require_points(points);
   if (kinds.ndim() != 1 || offsets.ndim() != 1 || connectivity.ndim() != 1 || offsets.shape(0) != kinds.shape(0) + 1 ||
       offsets.data()[kinds.shape(0)] > connectivity.shape(0))
@@ -59,10 +84,9 @@ dmo::Mesh make_mesh(const Array<double>& points, const Array<std::uint8_t>& kind
   const dmo::Cells cells{static_cast<std::size_t>(kinds.shape(0)), reinterpret_cast<const dmo::CellKind*>(kinds.data()), offsets.data(),
                          connectivity.data()};
   const auto vertices = static_cast<std::size_t>(points.shape(0));
-  std::vector<dmo::CellData> data;
-  for (const auto& [name, values] : numbers) data.push_back({name, {values.data(), values.data() + values.size()}});
+  const std::vector<dmo::Numbers> cell_data = numbers_of(cell_numbers), point_data = numbers_of(point_numbers);
   const py::gil_scoped_release release;
-  return dmo::Mesh(points.data(), vertices, cells, data);
+  return dmo::Mesh(points.data(), vertices, cells, cell_data, point_data);
 }
 
 /// Lets a thread that works ask the one that has Python.
@@ -222,7 +246,8 @@ py::dict trace(const dmo::Mesh& mesh, dmo::Index vertex, const dmo::SmoothOption
 
 void define_mesh(py::module_& module) {
   py::class_<dmo::Mesh>(module, "Mesh")
-      .def(py::init(&make_mesh), py::arg("points"), py::arg("kinds"), py::arg("offsets"), py::arg("connectivity"), py::arg("data"))
+      .def(py::init(&make_mesh), py::arg("points"), py::arg("kinds"), py::arg("offsets"), py::arg("connectivity"), py::arg("cell_data"),
+           py::arg("point_data"))
       .def_static("read", &read, py::arg("path"))
       .def(
           "write", [](const dmo::Mesh& mesh, const std::string& path) { return mesh.write(path); }, py::arg("path"),
@@ -258,6 +283,17 @@ void define_mesh(py::module_& module) {
                              [](const py::object& self) {
                                const auto& mesh = self.cast<const dmo::Mesh&>();
                                return view_of(mesh.boundary(), {length(mesh.vertex_count())}, self);
+                             })
+      .def_property_readonly("cell_data", [](const dmo::Mesh& mesh) { return arrays_of(mesh.cell_data()); })
+      .def_property_readonly("point_data", [](const dmo::Mesh& mesh) { return arrays_of(mesh.point_data()); })
+      .def_property_readonly("cell_groups",
+                             [](const dmo::Mesh& mesh) {
+                               py::dict groups;
+                               for (dmo::CellGroup& group : mesh.cell_groups()) {
+                                 const py::ssize_t count = length(group.cells.size());
+                                 groups[py::str(group.name)] = array_of(std::move(group.cells), {count});
+                               }
+                               return groups;
                              })
       .def_property_readonly("is_volume", &dmo::Mesh::is_volume)
       .def_property_readonly("is_surface", &dmo::Mesh::is_surface);

@@ -46,6 +46,25 @@ def _indices(array, what="cells"):
     return array.astype(np.uint32)
 
 
+def _numbers(data, things):
+    """{"name": n numbers or n rows of them, ...}; (n, 1) is n."""
+    arrays = {}
+    for name, values in (data or {}).items():
+        values = np.asarray(values)
+        if not _are_numbers(values):
+            raise ValueError(f"the data {name!r} must be one number of each of the {things}, or a row, not {values.dtype} of {values.shape}")
+        arrays[str(name)] = _columns(values)
+    return arrays
+
+
+def _labels(groups, cells):
+    """A number for each cell that tells which of the groups it belongs to."""
+    belongs = np.zeros((cells, len(groups)), dtype=bool)
+    for column, members in enumerate(groups):
+        belongs[members, column] = True
+    return np.unique(belongs, axis=0, return_inverse=True)[1].ravel()
+
+
 def _cell_arrays(cells):
     """Kinds, offsets and connectivity of cells in meshio's form: {"triangle": m x 3, ...}, or a list of such pairs or blocks."""
     blocks = list(cells.items()) if isinstance(cells, dict) else [(b.type, b.data) if hasattr(b, "type") else b for b in cells]
@@ -72,12 +91,12 @@ class Mesh:
     points: n x 3 (or n x 2) numbers in mesh units. cells: {"triangle": m x 3 vertices from 0 on, "quad": ..., "tetra": ...,
     "hexahedron": ..., "wedge": ..., "pyramid": ...}, corners in VTK's order, or a list of such pairs.
     cell_data: {"material": m numbers, ...}. What lies between cells of different materials ("material", "region", "gmsh:physical" ...) stays.
+    point_data: {"depth": n numbers, "wind": n x k, ...}.
     Raises InputError for a mesh that cannot be, ValueError for arrays of another form.
     """
 
-    def __init__(self, points, cells, cell_data=None):
-        data = {str(name): np.asarray(values, dtype=np.float64).ravel() for name, values in (cell_data or {}).items()}
-        self._mesh = _dmoscope.Mesh(_points(points), *_cell_arrays(cells), data)
+    def __init__(self, points, cells, cell_data=None, point_data=None):
+        self._mesh = _dmoscope.Mesh(_points(points), *_cell_arrays(cells), _numbers(cell_data, "cells"), _numbers(point_data, "points"))
 
     @classmethod
     def _of(cls, inner):
@@ -90,12 +109,32 @@ class Mesh:
         """Where the vertices are: n x 3 doubles, mesh units; a view, without a copy, that cannot be written."""
         return self._mesh.points
 
+    def _blocks(self):
+        """(first, end) of the cells of one kind, one after the other."""
+        kinds = self._mesh.kinds
+        starts = np.concatenate([[0], np.flatnonzero(np.diff(kinds)) + 1, [len(kinds)]])
+        return list(zip(starts[:-1], starts[1:]))
+
     @property
     def cells(self):
         """The cells as a list of (kind, m x corners array), in their order: a new pair wherever the kind changes."""
         kinds, offsets, connectivity = self._mesh.kinds, self._mesh.offsets, self._mesh.connectivity
-        starts = np.concatenate([[0], np.flatnonzero(np.diff(kinds)) + 1, [len(kinds)]])
-        return [(_KINDS[kinds[a]][0], connectivity[offsets[a]:offsets[b]].reshape(b - a, -1)) for a, b in zip(starts[:-1], starts[1:])]
+        return [(_KINDS[kinds[a]][0], connectivity[offsets[a]:offsets[b]].reshape(b - a, -1)) for a, b in self._blocks()]
+
+    @property
+    def cell_data(self) -> Dict[str, np.ndarray]:
+        """Numbers of the cells by name, m or m x k: what was given, or what the file held. Copies."""
+        return self._mesh.cell_data
+
+    @property
+    def point_data(self) -> Dict[str, np.ndarray]:
+        """Numbers of the points by name, n or n x k, likewise."""
+        return self._mesh.point_data
+
+    @property
+    def cell_groups(self) -> Dict[str, np.ndarray]:
+        """Cells that the file names: by name, their numbers."""
+        return self._mesh.cell_groups
 
     @property
     def boundary(self) -> np.ndarray:
@@ -129,13 +168,17 @@ class Mesh:
             warnings.warn(f"{path}: {sentence}", stacklevel=2)
 
     def to_meshio(self):
-        """A meshio.Mesh."""
+        """A meshio.Mesh, with the data of points and cells, and the groups of cells as its cell_sets."""
         import meshio
 
-        return meshio.Mesh(np.array(self.points), [(kind, _in_meshio_order(kind, data).astype(np.int64)) for kind, data in self.cells])
+        blocks = self._blocks()
+        return meshio.Mesh(np.array(self.points), [(kind, _in_meshio_order(kind, data).astype(np.int64)) for kind, data in self.cells],
+                           point_data=self.point_data, cell_data={name: [values[a:b] for a, b in blocks] for name, values in self.cell_data.items()},
+                           cell_sets={name: [cells[(cells >= a) & (cells < b)].astype(np.int64) - a for a, b in blocks]
+                                      for name, cells in self.cell_groups.items()})
 
     def to_pyvista(self):
-        """A pyvista.UnstructuredGrid."""
+        """A pyvista.UnstructuredGrid, with the data of points and cells; "group" tells cells of different groups apart."""
         import pyvista
 
         kinds = self._mesh.kinds
@@ -148,7 +191,13 @@ class Mesh:
         others[heads] = False
         cells[others] = self._mesh.connectivity
         types = np.array([number for _, number, _ in _KINDS], dtype=np.uint8)[kinds]
-        return pyvista.UnstructuredGrid(cells, types, np.array(self.points))
+        grid = pyvista.UnstructuredGrid(cells, types, np.array(self.points))
+        groups = list(self.cell_groups.values())
+        for name, values in {**({"group": _labels(groups, len(counts))} if groups else {}), **self.cell_data}.items():
+            grid.cell_data[name] = values
+        for name, values in self.point_data.items():
+            grid.point_data[name] = values
+        return grid
 
     def __reduce__(self):
         return (Mesh, (np.array(self.points), [(kind, np.array(data)) for kind, data in self.cells]))
@@ -178,17 +227,39 @@ _VTK_POINTS_AND_LINES = {1, 2, 3, 4, 21}
 _PLANAR = {"triangle", "quad"}
 
 
+def _columns(values):
+    """(n, 1) as n, which legacy VTK's scalars are to meshio."""
+    values = np.asarray(values)
+    return values[:, 0] if values.ndim == 2 and values.shape[1] == 1 else values
+
+
+def _are_numbers(values):
+    return values.ndim in (1, 2) and 0 not in values.shape and values.dtype.kind in "iufb"
+
+
+def _point_data(mesh):
+    data = {str(name): _columns(values) for name, values in dict(getattr(mesh, "point_data", {})).items()}
+    return {name: values for name, values in data.items() if _are_numbers(values)}
+
+
 def _from_meshio(mesh) -> Mesh:
-    """Points and lines are left out, and faces where there are solids: they mark boundaries. Numbers that sort cells go along."""
+    """Points and lines are left out, and faces where there are solids: they mark boundaries. Data go along, and sets of cells as a number."""
     blocks = [(b.type, b.data) if hasattr(b, "type") else tuple(b) for b in mesh.cells]
     solid = any(kind in _KIND_BY_NAME and kind not in _PLANAR for kind, _ in blocks)
     kept = [i for i, (kind, _) in enumerate(blocks) if kind not in _POINTS_AND_LINES and not (solid and kind in _PLANAR)]
+    counts = [len(blocks[i][1]) for i in kept]
     data = {}
+    # Gmsh's own sets name entities and no cells.
+    sets = [[parts[i] for i in kept] for name, parts in getattr(mesh, "cell_sets", {}).items() if not name.startswith("gmsh:")]
+    if sets:
+        starts = np.cumsum([0] + counts)
+        data["group"] = _labels([np.concatenate([np.zeros(0, dtype=np.int64)] + [np.asarray(part, dtype=np.int64) + start
+                                                 for part, start in zip(parts, starts) if part is not None]) for parts in sets], starts[-1])
     for name, parts in mesh.cell_data.items():
-        parts = [np.asarray(parts[i]) for i in kept]
-        if parts and all(part.ndim == 1 and part.dtype.kind in "iufb" for part in parts):
+        parts = [_columns(parts[i]) for i in kept]
+        if parts and all(_are_numbers(part) and part.shape[1:] == parts[0].shape[1:] for part in parts):
             data[name] = np.concatenate(parts)
-    return Mesh(mesh.points, [(blocks[i][0], _in_meshio_order(*blocks[i])) for i in kept], data)
+    return Mesh(mesh.points, [(blocks[i][0], _in_meshio_order(*blocks[i])) for i in kept], data, _point_data(mesh))
 
 
 def _from_pyvista(grid) -> Mesh:
@@ -207,11 +278,12 @@ def _from_pyvista(grid) -> Mesh:
     connectivity = corners[np.repeat(~left_out, counts)]
     data = {}
     for name, values in dict(getattr(grid, "cell_data", {})).items():
-        values = np.asarray(values)
-        if values.ndim == 1 and values.dtype.kind in "iufb":
-            data[str(name)] = values[~left_out].astype(np.float64)
+        values = _columns(values)
+        if _are_numbers(values):
+            data[str(name)] = values[~left_out]
     ends = np.concatenate([[0], np.cumsum(counts[~left_out])])
-    return Mesh._of(_dmoscope.Mesh(_points(grid.points), table[types[~left_out]], _indices(ends), _indices(connectivity), data))
+    return Mesh._of(_dmoscope.Mesh(_points(grid.points), table[types[~left_out]], _indices(ends), _indices(connectivity), data,
+                                   _point_data(grid)))
 
 
 def _mesh_of(mesh) -> Mesh:

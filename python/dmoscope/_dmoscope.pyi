@@ -20,9 +20,13 @@ class Mesh:
     offsets: np.ndarray
     connectivity: np.ndarray
     boundary: np.ndarray
+    cell_data: Dict[str, np.ndarray]
+    point_data: Dict[str, np.ndarray]
+    cell_groups: Dict[str, np.ndarray]
     is_volume: bool
     is_surface: bool
-    def __init__(self, points: np.ndarray, kinds: np.ndarray, offsets: np.ndarray, connectivity: np.ndarray, data: Dict[str, np.ndarray]) -> None: ...
+    def __init__(self, points: np.ndarray, kinds: np.ndarray, offsets: np.ndarray, connectivity: np.ndarray, cell_data: Dict[str, np.ndarray],
+                 point_data: Dict[str, np.ndarray]) -> None: ...
     @staticmethod
     def read(path: str) -> "Mesh": ...
     def write(self, path: str) -> List[str]: ...

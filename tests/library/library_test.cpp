@@ -88,6 +88,55 @@ TEST(Library, ClockwiseTrianglesStayClockwise) {
   EXPECT_EQ(std::vector(cells.connectivity, cells.connectivity + arrays.connectivity.size()), arrays.connectivity);
 }
 
+TEST(Library, NullArraysAreRefusedByName) {
+  const Arrays arrays = sheet(2);
+  const std::size_t vertices = arrays.positions.size() / 3;
+  const dmo::Cells whole = arrays.cells();
+  const auto told = [&](const double* positions, const dmo::Cells& cells) -> std::string {
+    try {
+      (void)dmo::Mesh(positions, vertices, cells);
+    } catch (const dmo::InputError& error) {
+      return error.what();
+    }
+    return "taken";
+  };
+  EXPECT_THAT(told(nullptr, whole), HasSubstr("positions is null, but there are 9 vertices"));
+  for (const char* name : {"kinds", "offsets", "connectivity"}) {
+    dmo::Cells cells = whole;
+    if (name[0] == 'k') cells.kinds = nullptr;
+    if (name[0] == 'o') cells.offsets = nullptr;
+    if (name[0] == 'c') cells.connectivity = nullptr;
+    EXPECT_THAT(told(arrays.positions.data(), cells), HasSubstr(std::string(name) + " is null"));
+  }
+  EXPECT_THROW((void)arrays.mesh().with_positions(nullptr), dmo::InputError);
+}
+
+/// Two materials, and data of other shapes.
+dmo::Mesh sheet_with_data(const Arrays& arrays) {
+  std::vector<double> material, wind;
+  for (std::size_t c = 0; c < arrays.kinds.size(); ++c) material.push_back(c < arrays.kinds.size() / 2 ? 1.0 : 2.0);
+  for (std::size_t v = 0; v < arrays.positions.size() / 3; ++v) wind.insert(wind.end(), {0.5, static_cast<double>(v), -1.0});
+  return {arrays.positions.data(),
+          arrays.positions.size() / 3,
+          arrays.cells(),
+          {{.name = "material", .values = std::move(material), .components = 1, .whole = true}},
+          {{.name = "wind", .values = std::move(wind), .components = 3, .whole = false}}};
+}
+
+TEST(Library, DataComeBackAsTheyWentIn) {
+  const Arrays arrays = sheet(4);
+  const dmo::Mesh mesh = sheet_with_data(arrays);
+  ASSERT_EQ(mesh.cell_data().size(), 1U);
+  EXPECT_EQ(mesh.cell_data()[0].name, "material");
+  EXPECT_TRUE(mesh.cell_data()[0].whole);
+  EXPECT_EQ(mesh.cell_data()[0].values.back(), 2.0);
+  ASSERT_EQ(mesh.point_data().size(), 1U);
+  EXPECT_EQ(mesh.point_data()[0].components, 3U);
+  EXPECT_EQ(mesh.point_data()[0].values[3 * 24 + 1], 24.0);
+  EXPECT_TRUE(mesh.cell_groups().empty());
+  EXPECT_THROW((void)dmo::Mesh(arrays.positions.data(), 25, arrays.cells(), {}, {{"wind", {1.0, 2.0}, 3}}), dmo::InputError);
+}
+
 TEST(Library, QualityIsWhatTheFormulaSays) {
   Arrays arrays;  // an equilateral triangle, and one with a right angle and equal legs: mean ratio 4 sqrt(3) A / sum of squares
   arrays.positions = {0, 0, 0, 1, 0, 0, 0.5, std::sqrt(0.75), 0, 1, -1, 0};
@@ -287,7 +336,7 @@ TEST(Library, NewPlacesAreWrittenInTheFilesOwnFormat) {
   for (const std::string extension :
        {".off", ".obj", ".ply", ".stl", ".vtk", ".vtu", ".xdmf", ".14", ".su2", ".msh", ".mesh", ".node", ".inp", ".2dm", ".bdf"}) {
     SCOPED_TRACE(extension);
-    (void)arrays.mesh().write(folder + extension);
+    (void)sheet_with_data(arrays).write(folder + extension);
     const dmo::Mesh read = dmo::Mesh::read(folder + extension);
     const std::size_t bytes = 3 * read.vertex_count() * sizeof(double);
     std::vector<double> places(read.positions(), read.positions() + 3 * read.vertex_count());
@@ -306,6 +355,11 @@ TEST(Library, NewPlacesAreWrittenInTheFilesOwnFormat) {
         wrong += std::abs(written.positions()[i] - mesh.positions()[i]) <= (rounded ? 1e-5 : 0.0) ? 0 : 1;
       EXPECT_EQ(wrong, 0U);
       EXPECT_TRUE(!rounded || extension == ".bdf");
+      ASSERT_EQ(written.cell_data().size(), read.cell_data().size());
+      for (std::size_t k = 0; k < read.cell_data().size(); ++k) EXPECT_EQ(written.cell_data()[k].values, read.cell_data()[k].values);
+      ASSERT_EQ(written.point_data().size(), read.point_data().size());
+      ASSERT_EQ(written.cell_groups().size(), read.cell_groups().size());
+      for (std::size_t k = 0; k < read.cell_groups().size(); ++k) EXPECT_EQ(written.cell_groups()[k].cells, read.cell_groups()[k].cells);
     }
   }
 }

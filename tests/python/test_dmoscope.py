@@ -216,6 +216,25 @@ def test_meshio_is_taken_and_given_back(tmp_path):
     assert (given.point_data["depth"] == before).all()
 
 
+@pytest.mark.parametrize("extension", [".vtk", ".vtu", ".inp"])
+def test_materials_come_and_go_by_meshio(tmp_path, extension):
+    """meshio has the scalars of legacy VTK as (n, 1), and the element sets of Abaqus as cell_sets."""
+    meshio = pytest.importorskip("meshio")
+    path = tmp_path / ("nested" + extension)
+    run("generate", "nested", "-o", path)
+    own = dmoscope.read(path)
+    held = dmoscope.smooth(own, until_converged=True).mesh.points
+    assert (held == dmoscope.smooth(own.to_meshio(), until_converged=True).mesh.points).all()
+    given = meshio.read(path)
+    given.point_data["column"] = np.arange(len(given.points), dtype=float).reshape(-1, 1)
+    smoothed = dmoscope.smooth(given, until_converged=True).mesh
+    assert (held == smoothed.points).all() and smoothed.point_data["column"].shape == (len(held), 1)
+    assert (held != dmoscope.smooth(own, until_converged=True, interfaces="free").mesh.points).any()
+    back = dmoscope.Mesh(own.points, own.cells, {"region": np.ones((len(own.quality()), 1), dtype=int)}, {"wind": own.points}).to_meshio()
+    assert back.point_data["wind"].tolist() == own.points.tolist()
+    assert all(part.dtype.kind == "i" and (part == 1).all() for part in back.cell_data["region"])
+
+
 def test_meshio_s_wedges_have_another_order(tmp_path):
     meshio = pytest.importorskip("meshio")
     run("generate", "solids", "-o", tmp_path / "solids.vtk")
@@ -349,6 +368,11 @@ def test_pyvista_is_taken_and_given_back():
 
     points, triangles, _ = sheet()
     grid = Grid(np.column_stack([points, np.zeros(len(points))]), triangles)
+    material = (points[triangles].mean(axis=1)[:, 0] > 4).astype(int)
+    grid.cell_data["material"] = material.reshape(-1, 1)
+    held = dmoscope.smooth(dmoscope.Mesh(points, {"triangle": triangles}, {"material": material}), iterations=3)
+    assert (dmoscope.smooth(grid, iterations=3).mesh.points == held.mesh.points).all()
+    grid.cell_data.clear()
     smoothed = dmoscope.smooth(grid, iterations=3)
     assert isinstance(smoothed.mesh, Grid)
     mesh = dmoscope.Mesh(points, {"triangle": triangles})

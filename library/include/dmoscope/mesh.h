@@ -28,11 +28,21 @@ struct Cells {
   const Index* connectivity = nullptr;  // offsets[count] vertices
 };
 
-/// A number for each cell. Where its name is one that programs use for materials ("material", "gmsh:physical", "region" ...), what lies
-/// between cells of different numbers is an interface, which stays.
-struct CellData {
+/// Numbers of each vertex, or of each cell. Where each cell has one and its name is one that programs use for materials ("material",
+/// "gmsh:physical", "region" ...), what lies between cells of different numbers is an interface, which stays.
+struct Numbers {
   std::string name;
-  std::vector<double> values;
+  std::vector<double> values;  // those of the first vertex or cell, then of the next
+  std::size_t components = 1;  // how many each has
+  bool whole = false;          // are they of a type of whole numbers?
+};
+using PointData = Numbers;
+using CellData = Numbers;
+
+/// Cells that a file names. What lies between cells of different groups is an interface, likewise.
+struct CellGroup {
+  std::string name;
+  std::vector<Index> cells;
 };
 
 /// A mesh that does not change: smooth() gives a new one, which shares all but the positions with the old. Cheap to copy. All members may
@@ -40,10 +50,10 @@ struct CellData {
 class DMO_API Mesh {
  public:
   /// Copies the arrays. `positions`: vertices x 3, mesh units; of a planar mesh one of the coordinates is the same everywhere. Throws
-  /// InputError: corners that do not exist or repeat, a number of corners that the kind has not, offsets that do not rise from 0 on,
-  /// coordinates that are not finite, planar and volume cells mixed, data of another length.
+  /// InputError: null pointers, corners that do not exist or repeat, a number of corners that the kind has not, offsets that do not rise
+  /// from 0 on, coordinates that are not finite, planar and volume cells mixed, data of another length.
   Mesh(const double* positions, std::size_t vertices, const Cells& cells, const std::vector<CellData>& data = {},
-       const Progress& progress = {});
+       const std::vector<PointData>& point_data = {}, const Progress& progress = {});
   ~Mesh();
   Mesh(const Mesh&);
   Mesh& operator=(const Mesh&);
@@ -66,6 +76,10 @@ class DMO_API Mesh {
   [[nodiscard]] bool is_surface() const;
   /// vertex_count() of them: 1 on the boundary, else 0; as long as this mesh or a copy lives.
   [[nodiscard]] const std::uint8_t* boundary() const;
+  /// What was given, or what the file held.
+  [[nodiscard]] std::vector<CellData> cell_data() const;
+  [[nodiscard]] std::vector<PointData> point_data() const;
+  [[nodiscard]] std::vector<CellGroup> cell_groups() const;
   /// The same mesh with its vertices elsewhere: vertex_count() x 3, copied. Throws InputError as the constructor does.
   [[nodiscard]] Mesh with_positions(const double* positions, const Progress& progress = {}) const;
 

@@ -199,13 +199,23 @@ class Mesh:
             grid.point_data[name] = values
         return grid
 
+    def __copy__(self):
+        return self
+
+    def __deepcopy__(self, memo):
+        return self
+
     def __reduce__(self):
-        return (Mesh, (np.array(self.points), [(kind, np.array(data)) for kind, data in self.cells]))
+        return (_from_bytes, (self._mesh.to_bytes(),))
 
     def __repr__(self):
         counts = np.bincount(self._mesh.kinds, minlength=len(_KINDS))
         cells = ", ".join(f"{count} {_KINDS[kind][0]}" for kind, count in enumerate(counts) if count)
         return f"<dmoscope.Mesh: {len(self.points)} points, {cells}>"
+
+
+def _from_bytes(data) -> Mesh:
+    return Mesh._of(_dmoscope.Mesh.from_bytes(data))
 
 
 def _in_meshio_order(kind, cells):

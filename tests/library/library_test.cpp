@@ -137,6 +137,36 @@ TEST(Library, DataComeBackAsTheyWentIn) {
   EXPECT_THROW((void)dmo::Mesh(arrays.positions.data(), 25, arrays.cells(), {}, {{"wind", {1.0, 2.0}, 3}}), dmo::InputError);
 }
 
+/// What smooth() and write() in the file's own format make of a mesh.
+std::string smoothed_file(const dmo::Mesh& mesh, const std::string& path) {
+  (void)dmo::smooth(mesh).mesh.write(path);
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(Library, BytesHoldAllOfAMesh) {
+  const std::string path = ::testing::TempDir() + "/library_bytes.vtk", out = ::testing::TempDir() + "/library_bytes_out.vtk";
+  (void)sheet_with_data(sheet(6)).write(path);
+  std::ofstream(path, std::ios::app) << "FIELD more 1\nunread 1 1 string\nwords\n";  // what only the file holds
+  const dmo::Mesh read = dmo::Mesh::read(path), moved = dmo::smooth(read, {}).mesh;
+  std::vector<double> places(read.positions(), read.positions() + 3 * read.vertex_count());
+  for (double& x : places) x *= 2.0;
+  for (const dmo::Mesh& mesh : {sheet_with_data(sheet(6)), solids().mesh(), read, moved, read.with_positions(places.data()),
+                                dmo::smooth(read.with_positions(places.data())).mesh}) {
+    const std::string bytes = mesh.to_bytes();
+    const dmo::Mesh again = dmo::Mesh::from_bytes(bytes);
+    EXPECT_EQ(again.to_bytes(), bytes);
+    EXPECT_EQ(std::memcmp(again.positions(), mesh.positions(), 3 * mesh.vertex_count() * sizeof(double)), 0);
+    const std::string file = smoothed_file(mesh, out);
+    EXPECT_EQ(smoothed_file(again, out), file);
+    EXPECT_FALSE(file.empty());
+  }
+  std::string damaged = read.to_bytes();
+  damaged[damaged.size() / 2] = static_cast<char>(damaged[damaged.size() / 2] ^ 1);
+  for (const std::string& bytes : {std::string(), damaged, read.to_bytes().substr(0, 1000)})
+    EXPECT_THROW((void)dmo::Mesh::from_bytes(bytes), dmo::InputError);
+}
+
 TEST(Library, QualityIsWhatTheFormulaSays) {
   Arrays arrays;  // an equilateral triangle, and one with a right angle and equal legs: mean ratio 4 sqrt(3) A / sum of squares
   arrays.positions = {0, 0, 0, 1, 0, 0, 0.5, std::sqrt(0.75), 0, 1, -1, 0};
@@ -345,7 +375,8 @@ TEST(Library, NewPlacesAreWrittenInTheFilesOwnFormat) {
     const dmo::Mesh moved = read.with_positions(places.data());
     const dmo::Smoothed smoothed = dmo::smooth(moved);
     EXPECT_NE(std::memcmp(smoothed.mesh.positions(), places.data(), bytes), 0);
-    for (const dmo::Mesh& mesh : {moved, smoothed.mesh, smoothed.mesh.with_positions(places.data())}) {
+    for (const dmo::Mesh& mesh :
+         {moved, smoothed.mesh, dmo::Mesh::from_bytes(moved.to_bytes()), smoothed.mesh.with_positions(places.data())}) {
       const std::vector<std::string> told = mesh.write(folder + "_new" + extension);
       const dmo::Mesh written = dmo::Mesh::read(folder + "_new" + extension);
       ASSERT_EQ(written.vertex_count(), read.vertex_count());

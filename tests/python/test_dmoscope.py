@@ -1,6 +1,8 @@
 """The Python module: arrays in and out without copies, the program's bits, interrupts, meshio."""
 
+import copy
 import gc
+import multiprocessing
 import os
 import pickle
 import signal
@@ -322,9 +324,28 @@ def test_an_interrupt_at_once_keeps_the_mesh_or_is_raised(tmp_path):
 
 def test_meshes_can_be_pickled():
     points, triangles, _ = sheet()
-    mesh = dmoscope.Mesh(points, {"triangle": triangles})
+    mesh = dmoscope.Mesh(points, {"triangle": triangles}, {"material": np.arange(len(triangles)) // 16}, {"depth": points[:, 0]})
     again = pickle.loads(pickle.dumps(mesh))
     assert (again.points == mesh.points).all() and (again.cells[0][1] == mesh.cells[0][1]).all()
+    assert (again.cell_data["material"] == mesh.cell_data["material"]).all() and (again.point_data["depth"] == points[:, 0]).all()
+    with pytest.raises(dmoscope.InputError, match="damaged"):
+        dmoscope._from_bytes(b"no mesh")
+
+
+def by_copies(mesh):
+    with multiprocessing.get_context("spawn").Pool(1) as pool:
+        elsewhere = pool.map(dmoscope.smooth, [mesh])[0].mesh
+    return [elsewhere] + [dmoscope.smooth(one).mesh for one in (pickle.loads(pickle.dumps(mesh)), copy.copy(mesh), copy.deepcopy(mesh))]
+
+
+@pytest.mark.parametrize("kind, extension", [("coast", ".14"), ("nested", ".vtk"), ("nested", ".msh")])
+def test_copies_are_smoothed_and_written_as_the_mesh_is(tmp_path, kind, extension):
+    run("generate", kind, "-o", tmp_path / ("mesh" + extension))
+    mesh = dmoscope.read(tmp_path / ("mesh" + extension))
+    run("smooth", tmp_path / ("mesh" + extension), "-o", tmp_path / ("program" + extension))
+    for smoothed in by_copies(mesh):
+        smoothed.write(tmp_path / ("copy" + extension))
+        assert (tmp_path / ("copy" + extension)).read_bytes() == (tmp_path / ("program" + extension)).read_bytes()
 
 
 def test_new_places_are_written_in_the_file_s_own_format(coast, tmp_path):

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "dmoscope/export.h"
@@ -64,22 +65,27 @@ class DMO_API Mesh {
   /// again. Returns a sentence for each thing that the format cannot carry. Throws OutputError, UsageError.
   std::vector<std::string> write(const std::string& path, const Progress& progress = {}) const;
 
+  /// All of the mesh, with what its file held, for another process or a later one: it is smoothed and written as this one is.
+  [[nodiscard]] std::string to_bytes() const;
+  /// Of bytes that to_bytes() of the same version made. Throws InputError for others, and where they were damaged.
+  [[nodiscard]] static Mesh from_bytes(std::string_view bytes, const Progress& progress = {});
+
   [[nodiscard]] std::size_t vertex_count() const;
   [[nodiscard]] std::size_t cell_count() const;
   /// vertex_count() x 3, as long as this mesh or a copy lives.
   [[nodiscard]] const double* positions() const;
   /// As they came in; likewise.
   [[nodiscard]] Cells cells() const;
+  /// What was given, or what the file held.
+  [[nodiscard]] std::vector<CellData> cell_data() const;
+  [[nodiscard]] std::vector<PointData> point_data() const;
+  [[nodiscard]] std::vector<CellGroup> cell_groups() const;
   /// Has it volume cells?
   [[nodiscard]] bool is_volume() const;
   /// Is it curved: planar cells that do not lie in a plane?
   [[nodiscard]] bool is_surface() const;
   /// vertex_count() of them: 1 on the boundary, else 0; as long as this mesh or a copy lives.
   [[nodiscard]] const std::uint8_t* boundary() const;
-  /// What was given, or what the file held.
-  [[nodiscard]] std::vector<CellData> cell_data() const;
-  [[nodiscard]] std::vector<PointData> point_data() const;
-  [[nodiscard]] std::vector<CellGroup> cell_groups() const;
   /// The same mesh with its vertices elsewhere: vertex_count() x 3, copied. Throws InputError as the constructor does.
   [[nodiscard]] Mesh with_positions(const double* positions, const Progress& progress = {}) const;
 

@@ -1,6 +1,8 @@
 #include "library/include/dmoscope/quality.h"
 
+#include "core/base/thread_count.h"
 #include "core/base/thread_pool.h"
+#include "core/quality/defined_metric.h"
 #include "core/quality/metric.h"
 #include "core/quality/quality.h"
 #include "library/mesh_data.h"
@@ -15,13 +17,17 @@ Statistics statistics_of(const dmoscope::Statistics& s) {
 
 std::vector<Metric> metrics() {
   std::vector<Metric> all;
-  for (const dmoscope::MetricInfo& m : dmoscope::metric_table())
-    all.push_back({std::string(m.name), std::string(m.title), m.lowest, m.highest, std::string(m.formula), std::string(m.doc)});
+  const auto add = [&all](const dmoscope::MetricInfo& m, std::string_view title, std::string_view formula, std::string_view doc) {
+    all.push_back({std::string(m.name), std::string(title), m.lowest, m.highest, std::string(formula), std::string(doc)});
+  };
+  for (const dmoscope::MetricInfo& m : dmoscope::metric_table()) add(m, m.title, m.formula, m.doc);
+  for (const dmoscope::NamedFormula& m : dmoscope::named_formulas()) add(info(dmoscope::parse_metric(m.name)), m.title, m.formula, m.doc);
   return all;
 }
 
 std::vector<double> quality(const Mesh& mesh, const std::string& metric, unsigned threads) {
   return translated([&] {
+    dmoscope::require_thread_count(threads);
     const dmoscope::Metric parsed = dmoscope::parse_metric(metric);
     dmoscope::ThreadPool pool(threads);
     std::vector<double> values(mesh.cell_count());
@@ -32,6 +38,7 @@ std::vector<double> quality(const Mesh& mesh, const std::string& metric, unsigne
 
 Statistics statistics(const Mesh& mesh, const std::string& metric, unsigned threads) {
   return translated([&] {
+    dmoscope::require_thread_count(threads);
     const dmoscope::InputMesh& input = *mesh.data()->input;
     const dmoscope::Metric parsed = dmoscope::parse_metric(metric);
     require_defined(parsed, input);

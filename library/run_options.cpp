@@ -7,11 +7,13 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/thread_count.h"
 #include "core/base/unknown_value.h"
 #include "core/base/words.h"
 #include "core/mesh/vertex_words.h"
 #include "core/run/recipe.h"
 #include "core/smooth/composite_objective.h"
+#include "core/target/target.h"
 
 namespace dmo {
 
@@ -36,7 +38,7 @@ auto naming(const std::string& option, const Work& work) {
 
 [[noreturn]] void refuse_unknown(const std::string& name) {
   std::vector<std::string_view> known{"combine",  "fix",    "max-iterations", "method", "metric",
-                                      "patience", "recipe", "size-function",  "then"};
+                                      "patience", "recipe", "size-function",  "target", "then"};
   for (const dmoscope::ParameterInfo& row : dmoscope::parameter_table()) known.push_back(row.name);
   std::sort(known.begin(), known.end());
   throw dmoscope::UsageError(dmoscope::unknown_value("option", name, known));
@@ -50,6 +52,8 @@ void set_objective(dmoscope::RunParameters& parameters, Words& words) {
   if (!metric.empty()) parameters.metric = naming("metric", [&] { return dmoscope::parse_metric(metric); });
   if (!combination.empty())
     std::tie(parameters.metric, parameters.combination) = naming("combine", [&] { return dmoscope::parse_combination(combination, size); });
+  if (const std::string target = take(words, "target"); !target.empty())
+    naming("target", [&] { aim_at(parameters, dmoscope::parse_target(target)); });
 }
 
 /// As the program does, which refuses such options together.
@@ -68,7 +72,9 @@ RunRequest request_of(const dmoscope::InputMesh& input, const SmoothOptions& opt
   RunRequest request;
   dmoscope::RunParameters& parameters = request.parameters;
   Words words = options.options;
-  refuse_together(words, options.until_converged);
+  dmoscope::require_thread_count(options.threads);
+  request.until_converged = options.until_converged || (words.count("recipe") > 0 && !options.iterations);
+  refuse_together(words, request.until_converged);
   if (const std::string method = take(words, "method"); !method.empty()) {
     static_cast<void>(dmoscope::method_info(method));
     parameters.method = method;
@@ -98,7 +104,7 @@ RunRequest request_of(const dmoscope::InputMesh& input, const SmoothOptions& opt
   parameters.fixed.erase(std::unique(parameters.fixed.begin(), parameters.fixed.end()), parameters.fixed.end());
   validate(parameters.search);
   validate(parameters.options);
-  if (options.until_converged) be_patient(parameters, request.limits.patience);
+  if (request.until_converged) be_patient(parameters, request.limits.patience);
   return request;
 }
 

@@ -14,6 +14,7 @@ namespace dmo {
 struct RunRequest {
   dmoscope::RunParameters parameters;
   dmoscope::ConvergenceLimits limits;
+  bool until_converged = false;
   std::vector<std::string> warnings;
 };
 

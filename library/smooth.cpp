@@ -28,12 +28,13 @@ void advance(dmoscope::Run& run, const RunRequest& request, const SmoothOptions&
     if (!options.after_iteration(iteration_of(at.history().records()[at.moment().iteration]))) throw dmoscope::Cancelled();
   };
   try {
-    const dmoscope::Outcome outcome =
-        options.until_converged ? run.until_converged(request.limits, progress, after) : run.iterate(options.iterations, progress, after);
+    constexpr std::uint64_t kUsual = 20;
+    const dmoscope::Outcome outcome = request.until_converged ? run.until_converged(request.limits, progress, after)
+                                                              : run.iterate(options.iterations.value_or(kUsual), progress, after);
     const bool optimises = dmoscope::method_info(run.parameters().method).optimises;
-    if (options.until_converged || !optimises) run.end_at_best(progress);
+    if (request.until_converged || !optimises) run.end_at_best(progress);
     for (std::string& sentence : missing_phases(run, outcome)) result.warnings.push_back(std::move(sentence));
-    result.converged = options.until_converged && outcome.reason != dmoscope::StopReason::IterationLimit;
+    result.converged = request.until_converged && outcome.reason != dmoscope::StopReason::IterationLimit;
     result.sentence = run.last_outcome().value_or(outcome).sentence();
   } catch (const dmoscope::Cancelled&) {
     result.cancelled = true;

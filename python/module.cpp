@@ -178,8 +178,8 @@ py::dict history_of(const std::vector<dmo::Iteration>& iterations) {
   return columns;
 }
 
-dmo::SmoothOptions options_of(std::uint64_t iterations, bool until_converged, unsigned threads, std::vector<dmo::Index> fixed,
-                              std::map<std::string, std::string> words) {
+dmo::SmoothOptions options_of(std::optional<std::uint64_t> iterations, bool until_converged, unsigned threads,
+                              std::vector<dmo::Index> fixed, std::map<std::string, std::string> words) {
   dmo::SmoothOptions options;
   options.iterations = iterations;
   options.until_converged = until_converged;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/thread_count.h"
 #include "core/run/run.h"
 
 namespace CLI {
@@ -13,8 +14,6 @@ class App;
 }
 
 namespace dmoscope::app {
-
-inline constexpr unsigned kMostThreads = 1024;
 
 /// The defaults.
 [[nodiscard]] std::map<std::string, std::string, std::less<>> usual_parameters();

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/byte_size.h"
+#include "core/base/thread_count.h"
 #include "core/base/unknown_value.h"
 #include "core/commands/command_rows.h"
 
@@ -37,7 +38,7 @@ void rename_run(CommandContext& context, Arguments arguments) {
 void set_threads(CommandContext& context, Arguments arguments) {
   require(arguments, 1, 1);
   const std::uint64_t threads = to_count(arguments[0]);
-  if (threads > 1024) throw UsageError(fmt::format("threads must be 0 (all) to 1024, not {}", threads));
+  require_thread_count(threads);
   context.session.set_threads(static_cast<unsigned>(threads));
 }
 void set_most_memory(CommandContext& context, Arguments arguments) {

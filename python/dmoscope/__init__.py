@@ -10,6 +10,7 @@ Meshes of meshio and PyVista are taken wherever a mesh is, and smooth() gives th
 """
 
 import copy
+import operator
 import os
 import warnings
 from dataclasses import dataclass, field
@@ -25,6 +26,7 @@ __all__ = ["Error", "InputError", "Iteration", "Mesh", "Metric", "OutputError", 
 
 # In the order of the library's CellKind: meshio's name, VTK's number, corners.
 _KINDS = (("triangle", 5, 3), ("quad", 9, 4), ("tetra", 10, 4), ("hexahedron", 12, 8), ("wedge", 13, 6), ("pyramid", 14, 5))
+_MOST = 0xFFFFFFFF  # of the library's numbers
 _KIND_BY_NAME = {name: kind for kind, (name, _, _) in enumerate(_KINDS)}
 _KIND_BY_VTK = {number: kind for kind, (_, number, _) in enumerate(_KINDS)}
 
@@ -44,6 +46,17 @@ def _indices(array, what="cells"):
     if array.size and (array.dtype.kind not in "iu" or array.min() < 0 or array.max() > 0xFFFFFFFF):
         raise ValueError(f"{what} must be whole numbers from 0 on")
     return array.astype(np.uint32)
+
+
+def _whole(name, value, most):
+    """The whole number that an argument is."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise TypeError(f"{name} must be a whole number, not {value!r}") from None
+    if number < 0:
+        raise UsageError(f"{name} must be a whole number from 0 on, not {number}")
+    return min(number, most)
 
 
 def _numbers(data, things):
@@ -152,11 +165,11 @@ class Mesh:
 
     def quality(self, metric: str = "mean-ratio", threads: int = 0) -> np.ndarray:
         """Of each cell: 1 is ideal, 0 or less inverted; NaN where the metric is not defined for the kind. See metrics()."""
-        return _dmoscope.quality(self._mesh, metric, threads)
+        return _dmoscope.quality(self._mesh, metric, _whole("threads", threads, _MOST))
 
     def statistics(self, metric: str = "mean-ratio", threads: int = 0) -> Dict[str, Any]:
         """minimum, mean, movable_minimum (of cells with a corner off the boundary), inverted (how many), worst_cell."""
-        return _dmoscope.statistics(self._mesh, metric, threads)
+        return _dmoscope.statistics(self._mesh, metric, _whole("threads", threads, _MOST))
 
     def with_points(self, points) -> "Mesh":
         """The same cells with the vertices elsewhere: n x 3, copied."""
@@ -362,7 +375,8 @@ def _options(iterations, until_converged, threads, fixed, points, words):
         fixed = _indices(fixed, "fixed").tolist()
     as_text = {True: "on", False: "off"}
     words = {name.replace("_", "-"): as_text[value] if isinstance(value, bool) else str(value) for name, value in words.items() if value is not None}
-    return _dmoscope.Options(iterations, until_converged, threads, fixed, words)
+    iterations = None if iterations is None else _whole("iterations", iterations, 2**64 - 1)
+    return _dmoscope.Options(iterations, until_converged, _whole("threads", threads, _MOST), fixed, words)
 
 
 def smooth(mesh, iterations: Optional[int] = None, *, until_converged: bool = False, metric: Optional[str] = None, fixed=None,
@@ -379,9 +393,8 @@ def smooth(mesh, iterations: Optional[int] = None, *, until_converged: bool = Fa
     """
     if iterations is not None and until_converged:
         raise UsageError("iterations and until_converged: only one of them")
-    until_converged = until_converged or (iterations is None and "recipe" in options)
     prepared = _mesh_of(mesh)
-    asked = _options(20 if iterations is None else iterations, until_converged, threads, fixed, len(prepared.points), {"metric": metric, **options})
+    asked = _options(iterations, until_converged, threads, fixed, len(prepared.points), {"metric": metric, **options})
     inner, history, iteration, converged, cancelled, interrupted, sentence, told = _dmoscope.smooth(prepared._mesh, asked, callback)
     if interrupted and raise_on_interrupt:
         raise KeyboardInterrupt
@@ -417,7 +430,7 @@ def trace(mesh, vertex: int, *, metric: Optional[str] = None, fixed=None, **opti
     """What the first visit of dmo would do to a vertex: all candidates that the search looks at. Options as in smooth()."""
     prepared = _mesh_of(mesh)
     asked = _options(0, False, 1, fixed, len(prepared.points), {"metric": metric, **options})
-    found = _dmoscope.trace(prepared._mesh, vertex, asked)
+    found = _dmoscope.trace(prepared._mesh, _whole("vertex", vertex, _MOST), asked)
     found["levels"] = [TraceLevel(**level) for level in found["levels"]]
     return Trace(**found)
 

@@ -179,6 +179,11 @@ TEST(Library, QualityIsWhatTheFormulaSays) {
   EXPECT_DOUBLE_EQ(dmo::statistics(arrays.mesh()).minimum, q[1]);
   EXPECT_EQ(dmo::statistics(arrays.mesh()).worst_cell, 1U);
   EXPECT_EQ(dmo::metrics().front().name, "mean-ratio");
+  for (const dmo::Metric& metric : dmo::metrics()) {
+    EXPECT_EQ(dmo::quality(arrays.mesh(), metric.name).size(), 2U) << metric.name;
+    EXPECT_FALSE(metric.title.empty() || metric.formula.empty() || metric.doc.empty()) << metric.name;
+  }
+  EXPECT_EQ(dmo::metrics().size(), 12U);
   EXPECT_THROW((void)dmo::quality(arrays.mesh(), "no-metric"), dmo::UsageError);
 }
 
@@ -220,7 +225,8 @@ TEST(Library, FixedVerticesAndOptionsAreHeard) {
                                                                                  {"grid", "1", "grid"},
                                                                                  {"grid", "many", "many"},
                                                                                  {"then", "peace", "mean"},
-                                                                                 {"size-function", "h1:0,0", "combine"}}) {
+                                                                                 {"size-function", "h1:0,0", "combine"},
+                                                                                 {"target", "round", "target"}}) {
     options.options = {{name, value}};
     try {
       (void)dmo::smooth(mesh, options);
@@ -229,6 +235,46 @@ TEST(Library, FixedVerticesAndOptionsAreHeard) {
       EXPECT_THAT(error.what(), HasSubstr(told));
     }
   }
+}
+
+TEST(Library, MoreThreadsThanTheProgramAllowsAreRefused) {
+  const dmo::Mesh mesh = sheet(2).mesh();
+  const auto told = [](const auto& work) -> std::string {
+    try {
+      work();
+    } catch (const dmo::UsageError& error) {
+      return error.what();
+    }
+    return "taken";
+  };
+  dmo::SmoothOptions options;
+  options.threads = 1025;
+  EXPECT_THAT(told([&] { (void)dmo::smooth(mesh, options); }), HasSubstr("threads: expected a whole number from 0 to 1024, not '1025'"));
+  EXPECT_THAT(told([&] { (void)dmo::quality(mesh, "mean-ratio", 1025); }), HasSubstr("1024"));
+  EXPECT_THAT(told([&] { (void)dmo::statistics(mesh, "mean-ratio", 1025); }), HasSubstr("1024"));
+}
+
+TEST(Library, ATargetIsOneOfTheMetric) {
+  const dmo::Mesh mesh = sheet(6).mesh();
+  dmo::SmoothOptions option, metric;
+  option.options["target"] = "input";
+  metric.options["metric"] = "mean-ratio@input";
+  const dmo::Smoothed one = dmo::smooth(mesh, option), other = dmo::smooth(mesh, metric);
+  EXPECT_EQ(std::memcmp(one.mesh.positions(), other.mesh.positions(), 3 * mesh.vertex_count() * sizeof(double)), 0);
+  EXPECT_NEAR(one.history.front().statistics.minimum, 1.0, 1e-12) << "as it was, each cell is its own target";
+}
+
+TEST(Library, ARecipeGoesOnUntilItHasConverged) {
+  const dmo::Mesh mesh = sheet(6).mesh();
+  dmo::SmoothOptions options, spelled;
+  options.options["recipe"] = "mean";
+  spelled.options["then"] = "mean";
+  spelled.until_converged = true;
+  const dmo::Smoothed one = dmo::smooth(mesh, options), other = dmo::smooth(mesh, spelled);
+  EXPECT_TRUE(one.converged);
+  EXPECT_EQ(std::memcmp(one.mesh.positions(), other.mesh.positions(), 3 * mesh.vertex_count() * sizeof(double)), 0);
+  options.iterations = 3;
+  EXPECT_EQ(dmo::smooth(mesh, options).iteration, 3U);
 }
 
 TEST(Library, ACallbackEndsARunAndTheMeshIsKept) {

@@ -161,6 +161,13 @@ def test_trace_ends_where_the_visit_does():
     assert trace.after >= trace.before
 
 
+def test_the_manual_s_trace_has_levels(coast):
+    """docs/user/python.md"""
+    trace = dmoscope.trace(dmoscope.read(coast), 2000)
+    assert trace.levels[0].candidates.shape == (8, 8, 3) and trace.levels[0].quality.shape == (8, 8)
+    assert trace.sentence.startswith("moved: ")
+
+
 def test_interrupt_keeps_the_mesh(tmp_path):
     run("generate", "grid", "-o", tmp_path / "grid.off", "--size", 250000)
     mesh = dmoscope.read(tmp_path / "grid.off")
@@ -308,6 +315,10 @@ def test_options_are_heard_or_refused():
             dmoscope.smooth(mesh, **options)
     assert any("until-converged" in told for told in dmoscope.smooth(mesh, iterations=2, then="mean").warnings)
     assert dmoscope.smooth(mesh, recipe="best").converged
+    assert dmoscope.smooth(mesh, recipe=None).iteration == 20
+    by_option, by_metric = dmoscope.smooth(mesh, target="input"), dmoscope.smooth(mesh, metric="mean-ratio@input")
+    assert (by_option.mesh.points == by_metric.mesh.points).all()
+    assert set(dmoscope.metrics()) >= {"aspect", "relative-size", "shape-size"}
 
 
 def test_an_interrupt_at_once_keeps_the_mesh_or_is_raised(tmp_path):
@@ -365,6 +376,17 @@ def test_new_places_are_written_in_the_file_s_own_format(coast, tmp_path):
 
 def test_numbers_that_are_not_whole_are_refused():
     points, triangles, _ = sheet(2)
+    mesh = dmoscope.Mesh(points, {"triangle": triangles})
+    for error, match, work in [(TypeError, "iterations must be a whole number, not 5.5", lambda: dmoscope.smooth(mesh, 5.5)),
+                               (ValueError, "iterations must be a whole number from 0 on, not -1", lambda: dmoscope.smooth(mesh, -1)),
+                               (ValueError, "threads must be a whole number from 0 on, not -1", lambda: dmoscope.smooth(mesh, threads=-1)),
+                               (ValueError, "threads: expected a whole number from 0 to 1024", lambda: mesh.quality(threads=1025)),
+                               (ValueError, "threads: expected a whole number from 0 to 1024", lambda: mesh.statistics(threads=2**40)),
+                               (ValueError, "threads: expected a whole number from 0 to 1024", lambda: dmoscope.smooth(mesh, threads=1025)),
+                               (ValueError, "vertex must be a whole number from 0 on, not -1", lambda: dmoscope.trace(mesh, -1))]:
+        with pytest.raises(error, match=match):
+            work()
+    assert dmoscope.smooth(mesh, np.int64(3), threads=np.int32(1)).iteration == 3
     with pytest.raises(ValueError, match="whole"):
         dmoscope.Mesh(points, {"triangle": triangles + 0.5})
     with pytest.raises(ValueError, match="fixed must be whole"):

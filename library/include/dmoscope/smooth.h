@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,10 +24,10 @@ struct Iteration {
 };
 
 struct SmoothOptions {
-  std::uint64_t iterations = 20;  // of no account where it is until_converged
-  bool until_converged = false;   // until no vertex moves or the minimum no longer rises; gives back the best iteration
-  unsigned threads = 0;           // 0: all processors; the result does not depend on it
-  std::vector<Index> fixed;       // vertices that stay, besides the boundary
+  std::optional<std::uint64_t> iterations;  // 20 unless given, but a recipe goes on until_converged; of no account where it is that
+  bool until_converged = false;             // until no vertex moves or the minimum no longer rises; gives back the best iteration
+  unsigned threads = 0;                     // 0: all processors, up to 1024; the result does not depend on it
+  std::vector<Index> fixed;                 // vertices that stay, besides the boundary
   /// The long options of `dmoscope smooth` without their dashes, and their values: {"metric", "min-angle"}, {"boundary", "slide"},
   /// {"then", "mean"}, {"combine", "mean-ratio:0.7:min-angle"}, {"fix", "group:wall"} ... But for corner, feature, their opposites,
   /// surface, and what is about files.

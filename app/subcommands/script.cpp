@@ -1,6 +1,7 @@
 // dmoscope script: runs a file of commands, with or without the window.
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstdio>
 #include <filesystem>
@@ -8,6 +9,7 @@
 #include <iostream>
 #include <istream>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -22,6 +24,7 @@
 #include "core/base/error.h"
 #include "core/commands/session_commands.h"
 #include "core/engine/engine.h"
+#include "core/io/reading/source_file.h"
 #include "core/session/read_files.h"
 
 #ifdef DMOSCOPE_HAVE_GUI
@@ -38,22 +41,32 @@ struct ScriptSubcommandOptions {
   MemoryLimit memory;
 };
 
-std::vector<std::string> lines_of(std::istream& stream) {
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(stream, line);) lines.push_back(std::move(line));
-  return lines;
+constexpr std::size_t kMostScript = std::size_t{1} << 26U;
+
+/// Of a stream that may never end.
+std::string text_of(std::istream& stream, const std::string& name) {
+  std::string text;
+  for (std::array<char, 65536> part{}; stream.read(part.data(), part.size()), stream.gcount() > 0;) {
+    text.append(part.data(), static_cast<std::size_t>(stream.gcount()));
+    if (text.size() > kMostScript) throw InputError(name, 0, fmt::format("too large: at most {} bytes are read of a script", kMostScript));
+  }
+  return text;
 }
 
 std::vector<std::string> read_lines(const std::string& file) {
-  if (file == "-") return lines_of(std::cin);
   std::error_code unknown;
-  const auto type = std::filesystem::status(file, unknown).type();
-  if (type == std::filesystem::file_type::character || type == std::filesystem::file_type::block)  // which may never end
-    throw InputError(file, 0, "a device is no file that can be read");
-  std::ifstream stream(file);
-  std::vector<std::string> lines = lines_of(stream);
-  // A folder opens but cannot be read.
-  if (!stream.is_open() || stream.bad()) throw InputError(file, 0, "cannot be read");
+  std::string text;
+  if (file == "-") {
+    text = text_of(std::cin, "standard input");
+  } else if (std::filesystem::is_fifo(file, unknown)) {  // a shell's <(...)
+    std::ifstream stream(file);
+    text = text_of(stream, file);
+  } else {
+    text = read_small_text(file, kMostScript);
+  }
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(std::move(line));
   return lines;
 }
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
-#include <fstream>
-#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -16,6 +14,7 @@
 #include <unistd.h>
 
 #include "core/base/error.h"
+#include "core/io/reading/source_file.h"
 
 namespace dmoscope {
 
@@ -32,10 +31,12 @@ std::int64_t written_at(const fs::path& file) {
 
 /// Of a text that makes no sense: as it was.
 void take_about(const fs::path& file, Recoverable& what) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  const nlohmann::json json = nlohmann::json::parse(text.str(), nullptr, false);
+  constexpr std::size_t kMost = std::size_t{1} << 20U;
+  nlohmann::json json;
+  try {
+    json = nlohmann::json::parse(read_small_text(file, kMost), nullptr, false);
+  } catch (const InputError&) {
+  }
   if (!json.is_object()) return;
   if (const auto at = json.find("mesh"); at != json.end() && at->is_string()) what.mesh = at->get<std::string>();
   if (const auto at = json.find("when"); at != json.end() && at->is_number_integer()) what.when = at->get<std::int64_t>();

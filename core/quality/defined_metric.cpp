@@ -4,15 +4,14 @@
 #include <array>
 #include <deque>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <mutex>
-#include <sstream>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/io/reading/source_file.h"
 
 namespace dmoscope {
 
@@ -81,19 +80,9 @@ NameParts split(std::string_view name) {
   return {name, {}, false};
 }
 
-std::string text_of_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  std::error_code ignored;
-  if (!file || std::filesystem::is_directory(path, ignored)) throw InputError(path, 0, "cannot be opened");
-  text << file.rdbuf();
-  if (text.str().size() > kMostFormulaText) throw InputError(path, 0, "is too large for a formula");
-  return text.str();
-}
-
 /// What is wrong in a file names it and the line.
 std::shared_ptr<const Formula> formula_in_file(const std::string& path) {
-  const std::string text = text_of_file(path);
+  const std::string text = read_small_text(path, kMostFormulaText);
   try {
     return std::make_shared<const Formula>(text);
   } catch (const FormulaError& error) {

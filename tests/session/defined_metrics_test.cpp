@@ -94,7 +94,7 @@ TEST_F(DefinedMetricsInASession, AFormulaMayLieInAFile) {
   EXPECT_EQ(metric(), "formula:q=lmin/lmax; if(measure>0, q, -q)");
   std::ofstream(file) << "q = lmin/lmax\nif(measure > 0, q, -p)\n";
   EXPECT_THAT(why("metric \"formula:@" + file + "\""), HasSubstr(file + ":2: column 21: unknown name 'p'"));
-  EXPECT_THAT(why("metric \"formula:@" + file + ".not\""), HasSubstr("cannot be opened"));
+  EXPECT_THAT(why("metric \"formula:@" + file + ".not\""), HasSubstr(".not: No such file"));
 }
 
 TEST_F(DefinedMetricsInASession, CombinationsHaveColonsOfTheirOwn) {

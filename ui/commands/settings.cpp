@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <fstream>
 #include <optional>
-#include <sstream>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/io/reading/source_file.h"
 #include "core/io/writing/atomic_file.h"
 
 namespace dmoscope::ui {
@@ -109,12 +108,12 @@ void take_place(const json& in, WindowPlace& place) {
 
 /// The file's text; none where there is no such file.
 std::optional<std::string> read_text(const std::filesystem::path& path) {
-  if (path.empty()) return std::nullopt;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return std::nullopt;
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
+  constexpr std::size_t kMost = std::size_t{1} << 24U;
+  try {
+    return read_small_text(path, kMost);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
 }
 
 std::string save_text(const std::filesystem::path& path, const std::string& text, const char* what) {

@@ -68,7 +68,7 @@ void SourceFile::add_only_in_file(std::string_view thing) {
   if (met_only_in_file_.emplace(thing).second) only_in_file_.emplace_back(thing);
 }
 
-FileBytes read_whole_file(const std::filesystem::path& path, Progress& progress) {
+FileBytes read_whole_file(const std::filesystem::path& path, Progress& progress, std::size_t most) {
   const Descriptor file(path);
   if (file.get() < 0) fail(path, errno);
   struct stat status {};
@@ -76,6 +76,10 @@ FileBytes read_whole_file(const std::filesystem::path& path, Progress& progress)
   if (S_ISDIR(status.st_mode)) fail(path, EISDIR);
   // Others may never end (/dev/zero), or keep us waiting for ever.
   if (!S_ISREG(status.st_mode)) throw InputError(path.string(), 0, fmt::format("{} is no file that can be read", kind_of(status.st_mode)));
+  const auto require_small = [&](std::size_t size) {
+    if (size > most) throw InputError(path.string(), 0, fmt::format("too large: at most {} bytes are read of such a file", most));
+  };
+  require_small(static_cast<std::size_t>(std::max<off_t>(status.st_size, 0)));
   FileBytes bytes;
   // A file tells its size; it may still grow: go on until nothing comes.
   (void)bytes.room(static_cast<std::size_t>(std::max<off_t>(status.st_size, 0)) + 1);
@@ -88,7 +92,13 @@ FileBytes read_whole_file(const std::filesystem::path& path, Progress& progress)
     if (got < 0) fail(path, errno);
     if (got == 0) return bytes;
     bytes.took(static_cast<std::size_t>(got));
+    require_small(bytes.view().size());  // those of /proc tell no size
   }
+}
+
+std::string read_small_text(const std::filesystem::path& path, std::size_t most) {
+  Progress unwatched;
+  return std::string(read_whole_file(path, unwatched, most).view());
 }
 
 }  // namespace dmoscope

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -138,8 +139,11 @@ class SourceFile {
   std::vector<std::string> notes_;
 };
 
-/// Reads a whole file. Throws InputError with the system's reason (missing, a directory, no permission), and for what is no file: a pipe,
-/// a device. Throws Cancelled.
-[[nodiscard]] FileBytes read_whole_file(const std::filesystem::path& path, Progress& progress);
+/// Reads a whole file. Throws InputError with the system's reason (missing, a directory, no permission), for what is no file (a pipe, a
+/// device), and for one of more than `most` bytes. Throws Cancelled.
+[[nodiscard]] FileBytes read_whole_file(const std::filesystem::path& path, Progress& progress,
+                                        std::size_t most = std::numeric_limits<std::size_t>::max());
+/// The same of a text that a person wrote, or the program for itself.
+[[nodiscard]] std::string read_small_text(const std::filesystem::path& path, std::size_t most);
 
 }  // namespace dmoscope

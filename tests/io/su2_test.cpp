@@ -55,6 +55,19 @@ TEST(Su2, KeysWithAndWithoutBlanks) {
   expect_patched("a.su2", text, false);
 }
 
+TEST(Su2, PlanarPointsMayHaveAThirdCoordinateOfZero) {
+  const std::string head = "NDIME=2\nNELEM=1\n5 0 1 2\nNPOIN=3\n";
+  for (const std::string points : {"0 0 0 0\n1 0 0 1\n0.5 1 0 2\n", "0 0 0.0\n1 0 0.0\n0.5 1 0e0\n", "0 0 0.000\n1 0 0\n0.5 1 0\n"}) {
+    const Mesh mesh = read_bytes("a.su2", head + points);
+    EXPECT_EQ(mesh.positions[2], (Vec3{0.5, 1, 0}));
+    expect_patched("a.su2", head + points, false);
+  }
+  expect_refused("a.su2", head + "0 0 0 0\n1 0 0.5 1\n0 1 0 2\n", 6, "z coordinate 0.5 where 0");
+  expect_refused("a.su2", head + "0 0 0 0\n1 0 1\n0 1 0 2\n", 6, "z coordinate 1");  // a number of its own, and no z
+  expect_refused("a.su2", head + "0 0 0\n1 0 0 1\n0 1 2\n", 6, "");
+  expect_refused("a.su2", head + "0 0 0 0 0\n1 0 0 0 1\n0 1 0 0 2\n", 5, "");
+}
+
 TEST(Su2, IndicesAtTheEndMayBeLeftOut) {
   const Mesh mesh = read_bytes("a.su2", "NDIME=2\nNELEM=1\n5 0 1 2\nNPOIN=3\n0 0\n1 0\n0 1\n");
   EXPECT_EQ(mesh.positions[1], (Vec3{1, 0, 0}));

@@ -201,17 +201,28 @@ class Su2Reader {
     reserve_large(mesh_.positions, count);
     source_.reserve_places(count);
     std::optional<bool> numbered;
+    bool flat_z = false;
     for (std::size_t v = 0; v < count; ++v) {
       begin_line("x coordinate");
       source_.add_place(tokens_.offset());
       Vec3 p;
       p.x = tokens_.read_double("x coordinate");
       p.y = tokens_.read_double("y coordinate");
-      if (dimension_ == 3) p.z = tokens_.read_double("z coordinate");
+      if (v == 0 && dimension_ == 2) flat_z = has_flat_z();
+      if (dimension_ == 3 || flat_z) p.z = tokens_.read_double("z coordinate");
+      if (flat_z && p.z != 0.0) tokens_.fail(fmt::format("z coordinate {} where 0 or the number of a point is expected", p.z));
       mesh_.positions.push_back(p);
       end_numbered(numbered, "a point");
     }
     foreign_ = false;
+  }
+
+  /// Behind x and y: does another coordinate come before the point's number, as some programs write it in 2 dimensions, too?
+  bool has_flat_z() {
+    const std::size_t offset = tokens_.offset(), line = tokens_.line();
+    const std::string_view first = tokens_.token_on_line(), second = tokens_.token_on_line();
+    tokens_.seek(offset, line);
+    return !second.empty() || first.find_first_of(".eE") != std::string_view::npos;
   }
 
   void marker() {

@@ -57,7 +57,8 @@ struct InputMesh {
   [[nodiscard]] PlanarView planar_view() const { return view<Plane>(); }
 };
 
-/// Throws UsageError where the metric is not defined for the mesh, or its target or fields are missing there.
+/// Throws UsageError where the metric is not defined for the mesh, or its target or fields are missing there; InputError where a metric
+/// field has what is no metric.
 void require_defined(Metric metric, const InputMesh& input);
 
 enum class Need { Smoothing, QualityOnly };

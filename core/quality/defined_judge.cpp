@@ -103,18 +103,20 @@ void DefinedJudge::qualities(const FormulaProgram& program, std::span<const Plac
 const DefinedJudges::Made& DefinedJudges::made(Metric metric, const Mesh& mesh, const ElementFrames& frames) const {
   const std::lock_guard lock(mutex_);
   Made& made = judges_[metric];
-  if (made.judge || !made.why_not.empty()) return made;
+  if (made.judge || made.why_not) return made;
   try {
     made.judge = std::make_shared<const DefinedJudge>(defined(metric), mesh, frames);
-  } catch (const UsageError& error) {
-    made.why_not = error.what();
+  } catch (const UsageError&) {
+    made.why_not = std::current_exception();
+  } catch (const InputError&) {  // of a metric field
+    made.why_not = std::current_exception();
   }
   return made;
 }
 
 std::shared_ptr<const DefinedJudge> DefinedJudges::of(Metric metric, const Mesh& mesh, const ElementFrames& frames) const {
   const Made& found = made(metric, mesh, frames);
-  if (!found.judge) throw UsageError(found.why_not);
+  if (!found.judge) std::rethrow_exception(found.why_not);
   return found.judge;
 }
 

@@ -2,6 +2,7 @@
 // Judges the elements of a mesh by a metric that is defined by a formula, a target, or both.
 
 #include <array>
+#include <exception>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -21,7 +22,8 @@ class DefinedJudge {
  public:
   using Corners = std::array<Vec3, 8>;  // see ElementFrames::gather
 
-  /// `mesh`: with the positions of the input. Throws UsageError: the metric is not defined for it, or its target or fields are missing.
+  /// `mesh`: with the positions of the input. Throws UsageError: the metric is not defined for it, or its target or fields are
+  /// missing; InputError: a metric field has what is no metric.
   DefinedJudge(const DefinedMetric& metric, const Mesh& mesh, const ElementFrames& frames);
 
   [[nodiscard]] const DefinedMetric& metric() const noexcept { return metric_; }
@@ -75,7 +77,7 @@ class DefinedJudges {
  private:
   struct Made {
     std::shared_ptr<const DefinedJudge> judge;
-    std::string why_not;
+    std::exception_ptr why_not;
   };
   [[nodiscard]] const Made& made(Metric metric, const Mesh& mesh, const ElementFrames& frames) const;
   mutable std::mutex mutex_;

@@ -27,7 +27,7 @@ struct QualityContext {
                                           // geometry.plane.normal if that is mostly_flat, else against their own mean normal.
   std::span<const Vec3> normals{};        // of a Surface, by element, which then are signed by them: see InputMesh::surface_normals
   const DefinedJudges* judges = nullptr;  // of metrics that are defined by formulas and targets; null: built-in ones alone
-  /// Of a metric that is not built in. Throws UsageError where it is not defined for the mesh.
+  /// Of a metric that is not built in. Throws as require_defined() where it is not defined for the mesh.
   [[nodiscard]] std::shared_ptr<const DefinedJudge> judge(Metric metric) const;
   /// The same; null where that throws: the metric is not defined for any element then.
   [[nodiscard]] std::shared_ptr<const DefinedJudge> find_judge(Metric metric) const;

@@ -68,7 +68,7 @@ std::string Session::exchange(const std::shared_ptr<const InputMesh>& stale, con
         run = make_run(fresh, std::move(parameters));
         run->set_id(runs_[i]->id());
         run->set_given_name(runs_[i]->given_name());
-      } catch (const UsageError& error) {  // such as a metric that is not defined for the elements of now
+      } catch (const Error& error) {  // such as a metric that is not defined for the elements of now
         add_note(error.what());
         continue;
       }

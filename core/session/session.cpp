@@ -17,7 +17,7 @@ bool defined_for_all(Metric metric, const InputMesh& input) {
   try {
     require_defined(metric, input);
     return true;
-  } catch (const UsageError&) {
+  } catch (const Error&) {
     return false;
   }
 }

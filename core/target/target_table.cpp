@@ -9,6 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/base/unknown_value.h"
+#include "core/io/reading/source_file.h"
 #include "core/mesh/corner_tables.h"
 #include "core/mesh/edges.h"
 #include "core/mesh/faces.h"
@@ -377,14 +378,19 @@ class TargetTable::Maker {
     }
   }
 
+  [[noreturn]] void fail(const Field& field, const std::string& what) const {
+    const auto number = static_cast<std::size_t>(&field - mesh_.fields.data());
+    throw InputError(mesh_.source ? mesh_.source->file_of_field(number).string() : mesh_.name.empty() ? "mesh" : mesh_.name, 0, what);
+  }
+
   [[nodiscard]] SmallMatrix log_of(const Field& field, Index v) const {
     if (field.components == 1 && !(field.values[v] > 0.0))
-      throw UsageError(fmt::format("the size '{}' is not above 0 at vertex {}", field.name, v));
+      fail(field, fmt::format("the size '{}' is not above 0 at vertex {}", field.name, v));
     const SmallMatrix m = metric_tensor(field, v, n_);
     const Eigen e = eigen(m);
     for (std::size_t i = 0; static_cast<int>(i) < n_; ++i)
       if (!(e.values[i] > 0.0 && std::isfinite(e.values[i])))
-        throw UsageError(fmt::format("the metric '{}' is not positive definite at vertex {}", field.name, v));
+        fail(field, fmt::format("the metric '{}' is not positive definite at vertex {}", field.name, v));
     return apply(m, [](double value) { return std::log(value); });
   }
 

@@ -35,7 +35,8 @@ class TargetTable {
  public:
   /// What the metric is for an ideal element of a kind that was stretched so many times.
   using OfStretched = std::function<double(ElementKind kind, double ratio)>;
-  /// `mesh`: with the positions of the input. Throws UsageError: a group or field that is not there or cannot be used.
+  /// `mesh`: with the positions of the input. Throws UsageError: a group or field that is not there or cannot be used; InputError:
+  /// a metric field has what is no metric.
   TargetTable(const Target& target, const Mesh& mesh, const ElementFrames& frames, const OfStretched& of_stretched);
 
   [[nodiscard]] ElementTarget of(Index element) const {

@@ -37,6 +37,21 @@ TEST(EndlessInput, IsRefused) {
   EXPECT_THAT(run(endless).err, HasSubstr("standard input: too large"));
 }
 
+TEST(MetricField, ThatIsNoneNamesItsFileAndVertex) {
+  const Folder folder;
+  const std::string mesh = folder.file(
+      "a.mesh", "MeshVersionFormatted 2\nDimension 2\nVertices 4\n0 0 0\n1 0 0\n1 1 0\n0 1 0\nTriangles 2\n1 2 3 0\n1 3 4 0\nEnd\n");
+  const std::string sol =
+      folder.file("a.sol", "MeshVersionFormatted 2\nDimension 2\nSolAtVertices 4\n1 3\n1 0 1\n1 0 1\n1 2 1\n1 0 1\nEnd\n");
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"quality", mesh, "--metric", "mean-ratio@field"},
+        {"smooth", mesh, "-o", folder / "o.mesh", "--metric", "mean-ratio@field", "--iterations", "1"}}) {
+    const Output output = run(arguments);
+    EXPECT_EQ(output.code, 3) << output.err;
+    EXPECT_THAT(output.err, HasSubstr(sol + ": the metric 'metric' is not positive definite at vertex 2"));
+  }
+}
+
 }  // namespace overwriting
 }  // namespace
 }  // namespace dmoscope::test

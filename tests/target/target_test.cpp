@@ -184,7 +184,7 @@ TEST(Targets, WhatIsMissingIsNamed) {
   try {
     require_defined(parse_metric("mean-ratio@field:m"), *input(flat));
     ADD_FAILURE();
-  } catch (const UsageError& error) {
+  } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("not positive definite at vertex 4"));
   }
 }

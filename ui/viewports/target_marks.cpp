@@ -79,7 +79,7 @@ class Ellipsoid {
 std::optional<TargetShapeOfElement> shape_of(const Frame& frame, Metric metric, Index element) {
   try {
     return target_shape(*frame.input, frame.positions, metric, element);
-  } catch (const UsageError&) {
+  } catch (const Error&) {
     return std::nullopt;
   }
 }

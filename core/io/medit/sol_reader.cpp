@@ -129,7 +129,7 @@ void read_solutions_beside(SourceFile& source, Mesh& mesh, Progress& progress) {
       return;
     }
     source.add_note(fmt::format("fields read from {} beside it{}", file.filename().string(), passed_over));
-    source.set_beside(file.filename().string());
+    source.set_beside(file.filename().string(), fields);
   } catch (const InputError& error) {  // the mesh is sound without it
     mesh.fields.resize(fields);
     source.add_note(fmt::format("the fields beside it were not read: {}", error.what()));

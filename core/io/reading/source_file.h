@@ -97,6 +97,10 @@ class SourceFile {
 
   /// A file whose fields were read with it, and which is never written; empty: none.
   [[nodiscard]] const std::string& beside() const noexcept { return beside_; }
+  /// The file that a field of the mesh was read from.
+  [[nodiscard]] std::filesystem::path file_of_field(std::size_t field) const {
+    return beside_.empty() || field < first_beside_ ? path_ : path_.parent_path() / beside_;
+  }
 
   // For readers of formats.
   void set_size_on_disk(std::size_t size) { size_on_disk_ = size; }
@@ -118,11 +122,16 @@ class SourceFile {
   /// Adds a thing once, however often it is met.
   void add_only_in_file(std::string_view thing);
   void add_note(std::string sentence) { notes_.push_back(std::move(sentence)); }
-  void set_beside(std::string file) { beside_ = std::move(file); }
+  /// `first`: of the mesh's fields, from which on they are that file's.
+  void set_beside(std::string file, std::size_t first) {
+    beside_ = std::move(file);
+    first_beside_ = first;
+  }
 
  private:
   std::filesystem::path path_;
   std::string beside_;
+  std::size_t first_beside_ = 0;
   FileBytes bytes_;
   std::size_t size_on_disk_;
   std::string format_;

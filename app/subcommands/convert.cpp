@@ -14,6 +14,7 @@
 #include "app/common/text.h"
 #include "app/subcommands/subcommands.h"
 #include "core/base/error.h"
+#include "core/input/input_mesh.h"
 #include "core/io/mesh_io.h"
 #include "core/io/reading/source_file.h"
 #include "core/mesh/faces.h"
@@ -48,6 +49,7 @@ int convert(const Options& options) {
     throw UsageError(fmt::format("--pieces: only .pvtu has pieces, not {}", options.output.extension().string()));
   Watch watch;
   Mesh mesh = read_mesh(options.input, {watch.progress(), nullptr, options.memory.bytes()});
+  require_computable(classify(mesh), options.input.string(), Need::QualityOnly);
   if (becomes_another_format(options.output, mesh)) turn_volumes(mesh, watch.progress());
   IoContext writing(watch.progress());
   writing.pieces = options.pieces;

@@ -37,6 +37,16 @@ TEST(EndlessInput, IsRefused) {
   EXPECT_THAT(run(endless).err, HasSubstr("standard input: too large"));
 }
 
+TEST(Convert, RefusesWhatCannotBeComputedWithInTheWordsOfQuality) {
+  const Folder folder;
+  const std::string mesh = folder.file("a.off", "OFF\n3 1 0\n0 0 0\n1e308 0 0\n0 1e308 0\n3 0 1 2\n"), out = folder / "out.vtk";
+  const Output converted = run({"convert", mesh, out}), judged = run({"quality", mesh});
+  EXPECT_EQ(converted.code, 3);
+  EXPECT_EQ(converted.err, judged.err);
+  EXPECT_THAT(converted.err, HasSubstr("units large"));
+  EXPECT_FALSE(exists(out));
+}
+
 TEST(MetricField, ThatIsNoneNamesItsFileAndVertex) {
   const Folder folder;
   const std::string mesh = folder.file(

@@ -29,7 +29,10 @@ void require_writable(const std::filesystem::path& path) {
 
 void require_mesh_target(const std::filesystem::path& path, const std::filesystem::path& input) {
   const std::string extension = mesh_extension(path);
-  if (format_by_extension(extension) != nullptr) return require_writable(path);
+  if (format_by_extension(extension) != nullptr) {
+    if (!same_mesh(path, input)) require_another_file(path, "output", input);
+    return require_writable(path);
+  }
   if (!input.empty()) {
     Progress unwatched;
     require_known_format(input, unwatched);
@@ -43,6 +46,16 @@ void require_another_file(const std::filesystem::path& path, std::string_view op
   if (same_file(path, other)) {
     throw UsageError(fmt::format("{} {}: this is the same file as {}, which it would overwrite", option, path.string(), other.string()));
   }
+  const std::filesystem::path replaced = replaced_file(path, other);
+  if (!replaced.empty())
+    throw UsageError(
+        fmt::format("{} {}: {} is read with {}, which would be overwritten", option, path.string(), replaced.string(), other.string()));
+}
+
+void require_another_output(const std::filesystem::path& path, std::string_view option, const std::filesystem::path& mesh) {
+  require_another_file(path, option, mesh);
+  if (!mesh.empty() && may_write(mesh, path))
+    throw UsageError(fmt::format("{} {}: this is a file beside {}, which is written with it", option, path.string(), mesh.string()));
 }
 
 }  // namespace dmoscope::app

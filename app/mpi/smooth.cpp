@@ -21,6 +21,7 @@
 #include "core/base/error.h"
 #include "core/base/thread_pool.h"
 #include "core/base/unknown_value.h"
+#include "core/io/mesh_io.h"
 #include "core/io/writing/atomic_file.h"
 #include "core/run/missing_phase.h"
 #include "core/run/recipe.h"
@@ -124,7 +125,8 @@ void refuse_early(const SharedSmoothOptions& options) {
     throw UsageError("--write: " + unknown_value("moment", options.write, std::array<std::string_view, 2>{"best", "last"}));
   require_same_kind(options.input, options.output);
   require_another_file(options.stats, "--stats", options.input);
-  require_another_file(options.stats, "--stats", options.output);
+  require_another_output(options.stats, "--stats", options.output);
+  if (!same_mesh(options.output, options.input)) require_another_file(options.output, "--output", options.input);
 }
 
 int smooth(const World& world, const SharedSmoothOptions& options) {

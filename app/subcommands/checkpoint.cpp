@@ -27,7 +27,7 @@ void add_checkpoint_options(CLI::App& subcommand, CheckpointOptions& options) {
 
 void refuse_early(const CheckpointOptions& options, std::initializer_list<std::filesystem::path> others) {
   if (options.file.empty()) return;
-  for (const std::filesystem::path& other : others) require_another_file(options.file, "--checkpoint", other);
+  for (const std::filesystem::path& other : others) require_another_output(options.file, "--checkpoint", other);
   require_writable(options.file);
 }
 

@@ -67,7 +67,7 @@ void refuse_early(const SmoothOptions& options) {
     require_another_file(options.output, "--output", options.surface);
     require_another_file(options.stats, "--stats", options.surface);
   }
-  require_another_file(options.stats, "--stats", options.output);
+  require_another_output(options.stats, "--stats", options.output);
   if (!options.stats.empty()) require_writable(options.stats);
   refuse_early(options.checkpoints, {options.input, options.output, options.stats});
 }

@@ -83,21 +83,17 @@ void export_mesh(CommandContext& context, Arguments arguments) {
   write_active(context, arguments[0], fmt::format("wrote {}", arguments[0]));
 }
 
-/// What an export to this file would take the place of, among the mesh's own files.
-std::vector<std::filesystem::path> files_of(const InputMesh& input) {
-  std::vector<std::filesystem::path> files;
-  if (!input.path.empty()) files.push_back(input.path);
-  if (input.mesh.source && input.mesh.source->companion() != nullptr) files.push_back(input.mesh.source->companion()->path());
-  return files;
-}
-
 void export_over(CommandContext& context, Arguments arguments) {
   require(arguments, 1, 1);
   const InputMesh& input = context.session.active().input();
-  const std::vector<std::filesystem::path> files = files_of(input);
-  const auto is_target = [&](const std::filesystem::path& file) { return same_file(file, arguments[0]); };
-  if (std::ranges::none_of(files, is_target))
+  if (input.path.empty() || !same_mesh(arguments[0], input.path))
     throw UsageError(fmt::format("{} is not the file that the mesh was read from: 'export' writes to another one", arguments[0]));
+  std::vector<std::filesystem::path> files = mesh_files(input.path);
+  if (input.mesh.source)  // what is never written
+    std::erase_if(files, [&](const auto& file) { return file.filename() == input.mesh.source->beside(); });
+  if (std::ranges::any_of(files, [&](const auto& file) { return !same_mesh(file, input.path); }))
+    throw UsageError(fmt::format("{} is read together with {}, of which no copy is kept: 'export' writes to another file", arguments[0],
+                                 files.back().filename().string()));
   const std::vector<std::filesystem::path> copies = keep_originals(files);
   const auto name = [](const std::filesystem::path& path) { return path.filename().string(); };
   std::string kept = name(copies.front());

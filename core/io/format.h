@@ -5,6 +5,8 @@
 // below and listed in formats.cpp.
 
 #include <array>
+#include <filesystem>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -43,6 +45,10 @@ struct FormatHandler {
   Notes (*patch)(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) = nullptr;
   /// Null: the format is one file. Otherwise read() finds it as SourceFile::companion(), and patching writes its bytes as they were.
   const CompanionFile* companion = nullptr;
+  /// Further files that a mesh of this format is read from, besides a companion. Null: none. Throws InputError.
+  std::vector<std::filesystem::path> (*further)(const SourceFile& source, const IoContext& context) = nullptr;
+  /// Whether `file`, which lies in the folder of `main`, has a name that is given to what is written beside it. Null: never.
+  bool (*writes_beside)(const std::filesystem::path& main, const std::filesystem::path& file) = nullptr;
 };
 
 [[nodiscard]] const FormatHandler& off_format();
@@ -64,6 +70,21 @@ struct FormatHandler {
 [[nodiscard]] const FormatHandler& xdmf_format();  // needs pugixml: not in every build
 [[nodiscard]] const FormatHandler& exodus_format();
 [[nodiscard]] const FormatHandler& cgns_format();  // needs HDF5: not in every build
+
+/// What a mesh that is written takes the place of.
+class FormerMesh {
+ public:
+  /// `path`: as the person named it.
+  explicit FormerMesh(std::filesystem::path path);
+  /// Throws OutputError where `beside`, which is written with the mesh, is there and belonged to no mesh of that path.
+  void require_own(const std::filesystem::path& beside) const;
+  /// Once the new mesh is there: removes the pieces that it no longer has, and tells what else is left.
+  void settle(Notes& notes) const;
+
+ private:
+  std::filesystem::path path_;
+  std::set<std::filesystem::path> files_;  // all links followed
+};
 
 /// All of them, in the order of format_table().
 [[nodiscard]] std::span<const FormatHandler* const> format_handlers();

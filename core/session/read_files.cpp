@@ -7,17 +7,17 @@
 
 #include "core/base/error.h"
 #include "core/base/words.h"
-#include "core/io/reading/source_file.h"
+#include "core/io/mesh_io.h"
 #include "core/io/writing/atomic_file.h"
 
 namespace dmoscope {
 namespace {
 
-/// Commands whose first word that is no option names a file; the window's are among them.
-constexpr std::array<std::string_view, 2> kReading{"open", "open-state"};
-constexpr std::array<std::string_view, 8> kWriting{"export",     "stats",     "elements",    "save-state",
-                                                   "screenshot", "plot-save", "save-script", "export-trace"};
-constexpr std::string_view kSaveSession = "save-session", kOpenSession = "open-session";
+/// Commands whose words that are no options name files; the window's are among them. A session may be saved over what it was opened from; a
+/// mesh may not.
+constexpr std::array<std::string_view, 3> kReading{"open", "open-beside", "surface"};
+constexpr std::array<std::string_view, 2> kReadingSessions{"open-state", "open-session"}, kSavingSessions{"save-state", "save-session"};
+constexpr std::array<std::string_view, 7> kWriting{"export", "stats", "elements", "screenshot", "plot-save", "save-script", "export-trace"};
 
 template <class Names>
 bool among(const Names& names, std::string_view command) {
@@ -25,39 +25,43 @@ bool among(const Names& names, std::string_view command) {
 }
 
 struct FileLine {
-  std::string command, file;
+  std::string command;
+  std::vector<std::string> files;
 };
 
-/// Empty for a line that names no file, and for one that the script will end at.
+/// No files for a line that names none, and for one that the script will end at.
 FileLine file_line(std::string_view line) {
   try {
-    const std::vector<std::string> words = split_words(line);
+    std::vector<std::string> words = split_words(line);
+    if (words.empty()) return {};
+    FileLine found{std::move(words[0]), {}};
     for (std::size_t i = 1; i < words.size(); ++i)
-      if (!words[i].starts_with("--")) return {words[0], words[i]};
+      if (!words[i].starts_with("--")) found.files.push_back(std::move(words[i]));
+    if (!among(kWriting, found.command)) found.files.resize(std::min<std::size_t>(found.files.size(), 1));  // a view may follow
+    return found;
   } catch (const UsageError&) {
+    return {};
   }
-  return {};
 }
 
 }  // namespace
 
 void ReadFiles::add(const std::filesystem::path& path) {
-  const auto same = [&path](const std::filesystem::path& known) { return same_file(known, path); };
-  if (std::ranges::none_of(files_, same)) files_.push_back(std::filesystem::absolute(path));
-}
-
-void ReadFiles::add(const Mesh& mesh, const std::filesystem::path& path) {
-  add(path);
-  if (!mesh.source) return;
-  add(mesh.source->path());
-  if (mesh.source->companion() != nullptr) add(mesh.source->companion()->path());
+  if (path.empty()) return;
+  for (const std::filesystem::path& file : mesh_files(path)) files_.insert(std::filesystem::absolute(file));
 }
 
 void ReadFiles::require_another(const std::filesystem::path& target, std::string_view command) const {
   for (const std::filesystem::path& file : files_)
-    if (same_file(target, file))
-      throw UsageError(fmt::format("{} {}: this is a mesh that was opened here, which it would overwrite: write to another file", command,
-                                   target.string()));
+    if (may_write(target, file))
+      throw UsageError(fmt::format("{} {}: {} that was opened here, which it would overwrite: write to another file", command,
+                                   target.string(), same_file(target, file) ? "this is a mesh" : file.string() + " is of a mesh"));
+}
+
+void ReadFiles::require_another(std::string_view line) const {
+  const FileLine written = file_line(line);
+  if (!among(kWriting, written.command)) return;
+  for (const std::string& file : written.files) require_another(file, written.command);
 }
 
 Overwriting first_overwriting(const std::filesystem::path& script, std::span<const std::string> lines) {
@@ -65,21 +69,18 @@ Overwriting first_overwriting(const std::filesystem::path& script, std::span<con
   std::vector<std::filesystem::path> sessions;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const FileLine line = file_line(lines[i]);
-    const bool saves_session = line.command == "save-state" || line.command == kSaveSession;
-    if (among(kReading, line.command) || line.command == kOpenSession) {
-      // A session may be saved over what it was opened from; a mesh may not.
-      if (line.command == "open")
-        read.emplace_back(line.file, i + 1);
-      else
-        sessions.emplace_back(line.file);
+    const bool saves_session = among(kSavingSessions, line.command);
+    for (const std::string& file : line.files) {
+      if (among(kReading, line.command)) read.emplace_back(file, i + 1);
+      if (among(kReadingSessions, line.command)) sessions.emplace_back(file);
+      if (!among(kWriting, line.command) && !saves_session) continue;
+      for (const auto& [mesh, where] : read)
+        if (!replaced_file(file, mesh).empty())
+          return {i + 1, fmt::format("{} {} would overwrite {}", line.command, file,
+                                     where == 0 ? std::string("this script") : fmt::format("the mesh that line {} opens", where))};
+      if (!saves_session && std::ranges::any_of(sessions, [&](const auto& session) { return same_file(session, file); }))
+        return {i + 1, fmt::format("{} {} would overwrite a session that is opened", line.command, file)};
     }
-    if (!among(kWriting, line.command) && !saves_session) continue;
-    for (const auto& [file, where] : read)
-      if (same_file(file, line.file))
-        return {i + 1, fmt::format("{} {} would overwrite {}", line.command, line.file,
-                                   where == 0 ? std::string("this script") : fmt::format("the mesh that line {} opens", where))};
-    if (!saves_session && std::ranges::any_of(sessions, [&](const auto& file) { return same_file(file, line.file); }))
-      return {i + 1, fmt::format("{} {} would overwrite a session that is opened", line.command, line.file)};
   }
   return {};
 }

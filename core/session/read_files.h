@@ -2,26 +2,25 @@
 // The files that a session was read from: nothing that it writes may take their place.
 
 #include <filesystem>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
-
-#include "core/mesh/mesh.h"
 
 namespace dmoscope {
 
 class ReadFiles {
  public:
-  /// A mesh's own file, and its companion where the format has two.
-  void add(const Mesh& mesh, const std::filesystem::path& path);
+  /// All files of a mesh, see mesh_files(). An empty path is none.
   void add(const std::filesystem::path& path);
-  /// Throws UsageError when `target`, which `command` ("stats") would write, is one of them, also through links. Sessions that are saved
-  /// and `reload` need these files as they were.
+  /// Throws UsageError when `target`, which `command` ("stats") would write, is one of them, also through links, or a mesh that is written
+  /// there would replace one. Sessions that are saved and `reload` need these files as they were.
   void require_another(const std::filesystem::path& target, std::string_view command) const;
+  /// The same of all files that a line of commands writes.
+  void require_another(std::string_view line) const;
 
  private:
-  std::vector<std::filesystem::path> files_;  // no two are the same
+  std::set<std::filesystem::path> files_;
 };
 
 /// A line of a script that would overwrite what an earlier one reads, or the script itself.

@@ -38,7 +38,7 @@ std::string Session::slide_on_surface(const std::filesystem::path& path, Progres
   const auto fresh = slide_on(*stale, surface);
   const std::filesystem::path source = source_path(stale);
   std::string note = exchange(stale, fresh);
-  if (surface) read_files_.add(surface->mesh, surface->path);
+  if (surface) note_read(surface->path);
   if (source != source_path(fresh)) originals_.emplace_back(fresh, source);
   return note;
 }
@@ -82,7 +82,7 @@ std::string Session::exchange(const std::shared_ptr<const InputMesh>& stale, con
     runs.back()->set_id(++last_id_);
     active = runs.size() - 1;
   }
-  if (!fresh->path.empty()) read_files_.add(fresh->mesh, fresh->path);
+  note_read(fresh->path);
   runs_ = std::move(runs);
   activate(active);
   share_history();

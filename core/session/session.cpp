@@ -54,7 +54,7 @@ void Session::replace(std::vector<std::shared_ptr<Run>> runs, std::size_t active
   runs_ = std::move(runs);
   for (const auto& input : inputs())
     for (const InputMesh* mesh : {input.get(), input->surface.get()})
-      if (mesh != nullptr && !mesh->path.empty()) read_files_.add(mesh->mesh, mesh->path);
+      if (mesh != nullptr) note_read(mesh->path);
   for (const auto& run : runs_) run->set_id(++last_id_);
   activate(active);
   shown_ = shown;
@@ -86,7 +86,7 @@ std::shared_ptr<Run> Session::first_run(const std::shared_ptr<const InputMesh>& 
 
 void Session::replace_input(std::shared_ptr<const InputMesh> input) {
   auto run = first_run(input);  // may throw: nothing has been replaced yet
-  if (!input->path.empty()) read_files_.add(input->mesh, input->path);
+  note_read(input->path);
   run->set_id(++last_id_);
   runs_.clear();
   runs_.push_back(std::move(run));
@@ -101,7 +101,7 @@ void Session::open_beside(const std::filesystem::path& path, Progress& progress)
     throw UsageError(fmt::format("{} is a {} mesh, and cannot be shown beside a {} one: open it by itself", input->mesh.name, kind(*input),
                                  kind(*input_)));
   auto run = first_run(input);
-  if (!input->path.empty()) read_files_.add(input->mesh, input->path);
+  note_read(input->path);
   run->set_id(++last_id_);
   runs_.push_back(std::move(run));
   activate(runs_.size() - 1);
@@ -122,6 +122,12 @@ std::vector<std::shared_ptr<const InputMesh>> Session::inputs() const {
   return inputs;
 }
 
+void Session::note_read(const std::filesystem::path& mesh) {
+  auto files = std::make_shared<ReadFiles>(*read_files_);
+  files->add(mesh);
+  read_files_ = std::move(files);
+}
+
 void Session::note_exported(const std::filesystem::path& file) {
   saved_.written(file);
   saved_.add(file, SavedMarks::Kind::Mesh, runs_.at(active_));
@@ -140,7 +146,7 @@ std::filesystem::path Session::source_path(const std::shared_ptr<const InputMesh
 
 void Session::note_original(std::filesystem::path copy) {
   std::erase_if(originals_, [&](const auto& one) { return one.first.expired() || one.first.lock() == input_; });
-  read_files_.add(copy);
+  note_read(copy);
   originals_.emplace_back(input_, std::move(copy));
 }
 

@@ -50,8 +50,9 @@ class Session {
   [[nodiscard]] std::string slide_on_surface(const std::filesystem::path& path, Progress& progress);
   /// Throws UsageError when `command` would write over a mesh that was opened in this session.
   void require_not_read(const std::filesystem::path& target, std::string_view command) const {
-    read_files_.require_another(target, command);
+    read_files_->require_another(target, command);
   }
+  [[nodiscard]] const std::shared_ptr<const ReadFiles>& read_files() const noexcept { return read_files_; }
   /// A file was written: with the active run's mesh, or with all runs as they stand (save_state).
   void note_exported(const std::filesystem::path& file);
   void note_saved(const std::filesystem::path& file);
@@ -124,6 +125,7 @@ class Session {
   [[nodiscard]] std::string exchange(const std::shared_ptr<const InputMesh>& stale, const std::shared_ptr<const InputMesh>& fresh);
   void activate(std::size_t index);
   void share_history();
+  void note_read(const std::filesystem::path& mesh);
   void go_to(const SessionPoint& point, bool with_shown, Progress& progress);
   void rest_retired_runs();
 
@@ -139,7 +141,7 @@ class Session {
   bool percentiles_ = false;
   std::string restored_view_;
   std::uint64_t restored_views_ = 0;
-  ReadFiles read_files_;
+  std::shared_ptr<const ReadFiles> read_files_ = std::make_shared<const ReadFiles>();
   SavedMarks saved_;
   std::vector<std::pair<std::weak_ptr<const InputMesh>, std::filesystem::path>> originals_;  // see source_path()
   std::uint64_t most_memory_ = 0;

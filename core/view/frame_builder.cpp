@@ -263,6 +263,7 @@ void FrameBuilder::add_meshes(Session& session, SessionView& view) {
 std::shared_ptr<const SessionView> FrameBuilder::build(Session& session, FrameDetail detail, std::span<const Watch> watched) {
   auto view = std::make_shared<SessionView>();
   view->shown = session.shown();
+  view->read_files = session.read_files();
   view->threads = session.pool()->size();
   if (!session.has_input()) return view;
   if (const UndoEntry* entry = session.undo_stack().to_undo()) view->undo_label = entry->label;

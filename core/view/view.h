@@ -131,6 +131,7 @@ struct SessionView {
   unsigned threads = 1;
   std::string restored_view;           // the JSON that was saved with the session that was opened last; see save-state
   std::uint64_t restored_serial = 0;   // grows with every session opened: "must the view be restored?"
+  std::shared_ptr<const ReadFiles> read_files{};  // which nothing that is written may replace
   std::string undo_label, redo_label;  // the commands that undo and redo are about ("run 10"); empty: there is none
   std::shared_ptr<const Frame> frame;  // of the active run; null when nothing is open
   std::vector<WatchedFrame> watched;   // what Engine::watch asked for, in its order

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/base/same_bits.h"
+#include "core/io/format.h"
 #include "core/io/mesh_io.h"
 #include "core/io/pvtu/pvtu.h"
 #include "core/io/vtu/vtu.h"
@@ -77,11 +78,14 @@ class PvtuFile final : public SharedMeshFile {
     const bool same = same_file(path_, target);
     std::vector<std::unique_ptr<AtomicFile>> files;
     std::vector<std::string> notes;
+    const FormerMesh former(target);
     world_.together([&] {
-      if (!same) require_other_files(target);
+      if (!same && !replaced_file(target, path_).empty())
+        throw OutputError(target.string(), fmt::format("pieces of {}, which would be replaced: name the output otherwise", path_.string()));
       std::size_t at = 0;
       for (std::uint64_t p = pieces_.begin(world_.rank()); p < pieces_.end(world_.rank()); ++p) {
         files.push_back(std::make_unique<AtomicFile>(same ? names_[p] : target.parent_path() / pvtu_piece_name(target, p)));
+        former.require_own(files.back()->path());
         at += write_piece(p, *files.back(), std::span(mine).subspan(at), notes);
       }
     });
@@ -98,7 +102,9 @@ class PvtuFile final : public SharedMeshFile {
       for (const auto& file : files) file->commit();
     });
     world_.together([&] {
-      if (whole) whole->commit();
+      if (!whole) return;
+      whole->commit();
+      former.settle(notes);
     });
     return notes;
   }
@@ -225,18 +231,6 @@ class PvtuFile final : public SharedMeshFile {
     for (const BlockField& field : mine.fields)
       if (field.on == Field::On::Elements)
         block.fields.push_back({field.name, field.on, to_holders<double>(elements, [&](std::size_t i) { return field.values[i]; })});
-  }
-
-  /// No piece may take the place of one that was read.
-  void require_other_files(const std::filesystem::path& target) const {
-    std::set<std::filesystem::path> read;
-    for (const std::filesystem::path& name : names_) read.insert(std::filesystem::weakly_canonical(name));
-    for (std::uint64_t p = pieces_.begin(world_.rank()); p < pieces_.end(world_.rank()); ++p) {
-      const std::filesystem::path piece = target.parent_path() / pvtu_piece_name(target, p);
-      if (read.contains(std::filesystem::weakly_canonical(piece)))
-        throw OutputError(piece.string(),
-                          fmt::format("it is a piece of {}, which would be replaced: name the output otherwise", path_.string()));
-    }
   }
 
   /// Returns how many vertices it has.

@@ -19,6 +19,59 @@ using ::testing::HasSubstr;
 
 constexpr const char* kSquare = "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n";
 
+/// That no output of any subcommand, and no command of a script, can be `file`, from which `mesh` is read.
+void expect_kept(const Folder& folder, const std::string& mesh, const std::string& file) {
+  std::vector<std::vector<std::string>> calls{{"smooth", mesh, "-o", folder / "o.off", "--iterations", "1", "--stats", file},
+                                              {"smooth", mesh, "-o", folder / "o.off", "--iterations", "1", "--checkpoint", file},
+                                              {"quality", mesh, "--elements", file},
+                                              {"compare", mesh, "--run", "dmo", "--iterations", "1", "--stats", file},
+                                              {"compare", mesh, "--run", "dmo", "--iterations", "1", "--table", file}};
+  for (const std::string command : {"stats", "elements", "save-state", "export"})
+    calls.push_back({"script", folder.file(command + ".txt", "open \"" + mesh + "\"\n" + command + " \"" + file + "\"\n")});
+  // Not seen before the script runs: the mesh is there only then.
+  const std::string copy = folder / "late.off";
+  calls.push_back({"script", folder.file("late.txt", "open-beside \"" + mesh + "\"\nexport \"" + copy + "\"\nstats \"" + file + "\"\n")});
+  const std::string before = read_file(file);
+  for (const std::vector<std::string>& arguments : calls) {
+    const Output output = run(arguments);
+    EXPECT_EQ(output.code, 2) << ::testing::PrintToString(arguments) << output.err;
+    EXPECT_THAT(output.err, HasSubstr("overwrit")) << ::testing::PrintToString(arguments);
+    EXPECT_EQ(read_file(file), before) << ::testing::PrintToString(arguments);
+  }
+}
+
+TEST(Overwriting, TheOtherHalfOfAPairIsKept) {
+  const Folder folder;
+  ASSERT_EQ(run({"convert", folder.file("a.off", kSquare), folder / "t.ele"}).code, 0);
+  expect_kept(folder, folder / "t.ele", folder / "t.node");
+  const Output output = run({"smooth", folder / "a.off", "-o", folder / "u.ele", "--stats", folder / "u.node"});
+  EXPECT_EQ(output.code, 2);
+  EXPECT_THAT(output.err, AllOf(HasSubstr("u.node"), HasSubstr("overwritten")));
+}
+
+TEST(Overwriting, PiecesAndNumbersAreKept) {
+  if (format_by_extension(".pvtu") == nullptr) GTEST_SKIP() << "this build reads no VTU";
+  const Folder folder;
+  ASSERT_EQ(run({"convert", folder.file("a.off", kSquare), folder / "q.pvtu", "--pieces", "2"}).code, 0);
+  expect_kept(folder, folder / "q.pvtu", folder / "q_1.vtu");
+  const Output beside = run({"smooth", folder / "a.off", "-o", folder / "new.pvtu", "--stats", folder / "new_0.vtu"});
+  EXPECT_EQ(beside.code, 2);
+  EXPECT_THAT(beside.err, HasSubstr("this is a file beside " + (folder / "new.pvtu") + ", which is written with it"));
+  const std::string before = read_file(folder / "q_1.vtu");
+  for (const char* subcommand : {"smooth", "convert"}) {
+    std::vector<std::string> arguments{subcommand, folder / "q.pvtu", folder / "q_1.vtu"};
+    if (arguments[0] == "smooth") arguments.insert(arguments.begin() + 2, "-o");
+    const Output output = run(arguments);
+    EXPECT_EQ(output.code, 2) << output.err;
+    EXPECT_THAT(output.err, AllOf(HasSubstr("q_1.vtu"), HasSubstr("overwritten")));
+  }
+  const Output over =
+      run({"script", folder.file("over.txt", "open \"" + (folder / "q.pvtu") + "\"\nexport-over \"" + (folder / "q.pvtu") + "\"\n")});
+  EXPECT_EQ(over.code, 2) << "no copy of the pieces would be kept";
+  EXPECT_THAT(over.err, HasSubstr("is read together with q_1.vtu"));
+  EXPECT_EQ(read_file(folder / "q_1.vtu"), before);
+}
+
 TEST(EndlessInput, IsRefused) {
   const Folder folder;
   const std::string mesh = folder.file("a.off", kSquare), fifo = folder / "fifo";

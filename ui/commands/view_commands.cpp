@@ -316,6 +316,7 @@ void dispatch(const CommandTable& view, const CommandHost& host, std::string_vie
   if (is_session_command(line)) {
     host.post(std::string(line));
   } else {
+    if (const auto session = host.session(); session && session->read_files) session->read_files->require_another(line);
     view.execute(line);
   }
 }

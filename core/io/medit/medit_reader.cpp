@@ -209,7 +209,10 @@ const FormatHandler& medit_format() {
       {"medit", "MEDIT", ".mesh", "2D and 3D elements, references, corners, ridges, required vertices, edges and faces; ASCII"},
       recognises_medit,
       read_medit,
-      write_medit};
+      write_medit,
+      nullptr,
+      nullptr,
+      solutions_beside};
   return handler;
 }
 

@@ -207,7 +207,10 @@ const FormatHandler& meshb_format() {
       {"meshb", "MEDIT binary", ".meshb", "as MEDIT, versions 1 to 4, either byte order; only written where it was read"},
       recognises_meshb,
       read_meshb,
-      write_meshb};
+      write_meshb,
+      nullptr,
+      nullptr,
+      solutions_beside};
   return handler;
 }
 

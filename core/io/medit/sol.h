@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "core/base/progress.h"
+#include "core/io/reading/io_context.h"
+#include "core/io/reading/source_file.h"
 #include "core/mesh/mesh.h"
 
 namespace dmoscope {
@@ -18,5 +20,7 @@ std::vector<std::string> read_solutions(const std::filesystem::path& file, Mesh&
 /// Those in "part.sol", where the mesh is "part.mesh" or "part.mesh.gz" and such a file lies beside it; a note says so, or why it was not
 /// read.
 void read_solutions_beside(SourceFile& source, Mesh& mesh, Progress& progress);
+/// That file, if it is there.
+[[nodiscard]] std::vector<std::filesystem::path> solutions_beside(const SourceFile& source, const IoContext& context);
 
 }  // namespace dmoscope

@@ -109,12 +109,19 @@ std::vector<std::string> read_solutions(const std::filesystem::path& file, Mesh&
   return SolReader(bytes.view(), file, mesh, progress).read();
 }
 
-void read_solutions_beside(SourceFile& source, Mesh& mesh, Progress& progress) {
+std::vector<std::filesystem::path> solutions_beside(const SourceFile& source, const IoContext& /*context*/) {
   std::filesystem::path file = source.path();
   if (equal_ignoring_case(file.extension().string(), ".gz")) file.replace_extension();
   file.replace_extension(".sol");
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(file, ignored)) return;
+  if (!std::filesystem::is_regular_file(file, ignored)) return {};
+  return {std::move(file)};
+}
+
+void read_solutions_beside(SourceFile& source, Mesh& mesh, Progress& progress) {
+  const std::vector<std::filesystem::path> found = solutions_beside(source, progress);
+  if (found.empty()) return;
+  const std::filesystem::path& file = found.front();
   const std::size_t fields = mesh.fields.size();
   try {
     constexpr std::size_t kMostNamed = 8;

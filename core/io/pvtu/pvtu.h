@@ -21,6 +21,8 @@ namespace dmoscope {
                                            const std::vector<std::string>& names);
 /// "coast_3.vtu": what the piece of a PVTU file is called that is written anew.
 [[nodiscard]] std::string pvtu_piece_name(const std::filesystem::path& path, std::size_t piece);
+/// Is a file called so?
+[[nodiscard]] bool is_pvtu_piece_name(const std::filesystem::path& path, const std::filesystem::path& file);
 
 /// Which numbers of a piece say what its vertices and elements are in the whole mesh. Null: it has no such field. Ids are whole numbers,
 /// each as often as the pieces share what it stands for.

@@ -72,6 +72,12 @@ std::string pvtu_piece_name(const std::filesystem::path& path, std::size_t piece
   return fmt::format("{}_{}.vtu", path.stem().string(), piece);
 }
 
+bool is_pvtu_piece_name(const std::filesystem::path& path, const std::filesystem::path& file) {
+  const std::string stem = path.stem().string() + '_', name = file.stem().string();
+  return file.extension() == ".vtu" && name.size() > stem.size() && name.starts_with(stem) &&
+         name.find_first_not_of("0123456789", stem.size()) == std::string::npos;
+}
+
 bool is_id_field(const Field& field) {
   if (field.components != 1) return false;
   const auto names =

@@ -190,7 +190,9 @@ const FormatHandler& pvtu_format() {
       .info = {"pvtu", "PVTU", ".pvtu", "a mesh in pieces, each a VTU file: 2D and 3D elements, point and cell data"},
       .recognises = recognises_pvtu,
       .read = read_pvtu,
-      .write = write_pvtu};
+      .write = write_pvtu,
+      .further = [](const SourceFile& source, const IoContext&) { return pvtu_pieces(source.bytes(), source.path()); },
+      .writes_beside = is_pvtu_piece_name};
   return handler;
 }
 

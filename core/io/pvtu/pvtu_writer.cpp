@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <memory>
 #include <numeric>
-#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -61,7 +60,8 @@ class PvtuWriter {
 
   Notes write() {
     choose_fields();
-    require_other_files();
+    const FormerMesh former(file_.path());
+    for (std::size_t p = 0; p < pieces_; ++p) former.require_own(file_.path().parent_path() / pvtu_piece_name(file_.path(), p));
     const std::vector<std::size_t> piece = pieces_of_elements(mesh_, positions_, pieces_);
     std::vector<std::vector<Index>> elements(pieces_);
     for (Index e = 0; e < piece.size(); ++e) elements[piece[e]].push_back(e);
@@ -83,20 +83,6 @@ class PvtuWriter {
   }
 
  private:
-  /// No piece may take the place of what was read, but for the pieces of a PVTU that is itself replaced.
-  void require_other_files() const {
-    if (!mesh_.source || same_file(mesh_.source->path(), file_.path())) return;
-    std::set<std::filesystem::path> read{std::filesystem::weakly_canonical(mesh_.source->path())};
-    if (mesh_.source->format() == pvtu_format().info.name)
-      for (const std::filesystem::path& piece : pvtu_pieces(mesh_.source->bytes(), mesh_.source->path()))
-        read.insert(std::filesystem::weakly_canonical(piece));
-    for (std::size_t p = 0; p < pieces_; ++p) {
-      const std::filesystem::path piece = file_.path().parent_path() / pvtu_piece_name(file_.path(), p);
-      if (read.contains(std::filesystem::weakly_canonical(piece)))
-        throw OutputError(piece.string(), "the mesh was read from it, and a piece would replace it: name the output otherwise");
-    }
-  }
-
   /// Each piece would choose the narrowest type for its values: they have to agree.
   void choose_fields() {
     for (std::size_t i = 0; i < mesh_.fields.size(); ++i) {

@@ -28,6 +28,9 @@ Notes write_xdmf(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> posit
 /// another name than the one that was read, under that one with .h5. Throws OutputError, Cancelled.
 Notes patch_xdmf(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context);
 
+/// The name of the file with the numbers for an XML of this name, where they are not in it.
+[[nodiscard]] std::string numbers_beside(const std::filesystem::path& xml);
+
 /// The points of a DataItem whose numbers are in an HDF5 file, into `positions`. Throws InputError.
 [[nodiscard]] CoordinateArrays read_xdmf_points(const XdmfDocument& document, pugi::xml_node item, bool plane,
                                                 std::vector<Vec3>& positions);

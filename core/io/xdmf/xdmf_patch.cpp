@@ -14,16 +14,11 @@
 #include "core/io/xdmf/xdmf.h"
 
 namespace dmoscope {
-namespace {
-
-/// The name of the file with the numbers for an XML of this name.
 std::string numbers_beside(const std::filesystem::path& xml) {
   std::filesystem::path name = xml.filename();
   if (equal_ignoring_case(name.extension().string(), ".gz")) name = name.stem();
   return name.replace_extension(".h5").string();
 }
-
-}  // namespace
 
 CoordinateArrays read_xdmf_points(const XdmfDocument& document, pugi::xml_node item, bool plane, std::vector<Vec3>& positions) {
   const auto place = document.elsewhere(item);
@@ -62,6 +57,7 @@ Notes patch_xdmf(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> posit
   const std::string name = same ? all.front().file : numbers_beside(file.path());
   const std::filesystem::path target = file.path().parent_path() / std::filesystem::path(name);
 
+  FormerMesh(file.path()).require_own(target);
   Notes notes;
   std::string bytes(numbers->bytes());
   if (!same_positions(mesh.positions, positions)) {

@@ -268,21 +268,35 @@ bool recognises_xdmf(std::string_view bytes) {
   return trimmed(head).starts_with('<') && head.find("<Xdmf") != std::string_view::npos;
 }
 
+std::vector<std::filesystem::path> files_elsewhere(const SourceFile& source, const IoContext& context) {
+  std::vector<std::filesystem::path> files;
+  if (source.bytes().find("HDF") == std::string_view::npos) return files;
+  for (const auto& place : XdmfDocument(source, context).all_elsewhere()) {
+    std::filesystem::path file = source.path().parent_path() / std::filesystem::path(place.file);
+    if (std::ranges::find(files, file) == files.end()) files.push_back(std::move(file));
+  }
+  return files;
+}
+
 }  // namespace
 
 Mesh read_xdmf(SourceFile& source, const IoContext& context) { return XdmfReader(source, context).read(); }
 
 const FormatHandler& xdmf_format() {
-  static const FormatHandler handler{{"xdmf", "XDMF", ".xdmf .xmf",
-                                      "2D and 3D elements, attributes of nodes and cells, sets; numbers in the XML"
+  static const FormatHandler handler{
+      {"xdmf", "XDMF", ".xdmf .xmf",
+       "2D and 3D elements, attributes of nodes and cells, sets; numbers in the XML"
 #ifdef DMOSCOPE_HDF5
-                                      " or in an HDF5 file"
+       " or in an HDF5 file"
 #endif
-                                     },
-                                     recognises_xdmf,
-                                     read_xdmf,
-                                     write_xdmf,
-                                     patch_xdmf};
+      },
+      recognises_xdmf,
+      read_xdmf,
+      write_xdmf,
+      patch_xdmf,
+      nullptr,
+      files_elsewhere,
+      [](const std::filesystem::path& main, const std::filesystem::path& file) { return file.filename() == numbers_beside(main); }};
   return handler;
 }
 

@@ -30,7 +30,7 @@ struct Options {
 };
 
 bool becomes_another_format(const std::filesystem::path& output, const Mesh& mesh) {
-  const FormatInfo* format = format_by_extension(mesh_extension(output));
+  const FormatInfo* format = written_format(output, mesh);
   return mesh.source == nullptr || format == nullptr || format->name != mesh.source->format();
 }
 

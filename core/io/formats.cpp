@@ -185,6 +185,14 @@ void require_both(const std::filesystem::path& path, const FormatHandler* handle
   }
 }
 
+/// See written_format().
+const FormatHandler* written_by(const std::filesystem::path& path, const Mesh& mesh) {
+  const FormatHandler* named = by_extension(mesh_extension(path));
+  if (named == nullptr || !mesh.source || !equal_ignoring_case(mesh_extension(mesh.source->path()), mesh_extension(path))) return named;
+  const auto found = std::ranges::find(handlers(), mesh.source->format(), [](const FormatHandler* one) { return one->info.name; });
+  return found == handlers().end() ? named : *found;
+}
+
 /// Nothing that the mesh was read from may be replaced, unless the mesh is written to where it was.
 void require_not_read(const std::filesystem::path& path, const Mesh& mesh) {
   if (!mesh.source || same_mesh(path, mesh.source->path())) return;
@@ -366,6 +374,11 @@ void FormerMesh::settle(Notes& notes) const {
   tell(left, "Left");
 }
 
+const FormatInfo* written_format(const std::filesystem::path& path, const Mesh& mesh) {
+  const FormatHandler* handler = written_by(path, mesh);
+  return handler == nullptr ? nullptr : &handler->info;
+}
+
 Mesh read_mesh(const std::filesystem::path& path, const IoContext& context) {
   try {
     return read_whole_mesh(path, context);
@@ -389,7 +402,7 @@ std::vector<std::string> write_commented_mesh(const std::filesystem::path& path,
   Progress& progress = context.progress;
   progress.begin("writing " + path.filename().string());
   const std::string extension = mesh_extension(path);
-  const FormatHandler* handler = by_extension(extension);
+  const FormatHandler* handler = written_by(path, mesh);
   if (handler == nullptr) {
     throw UsageError(fmt::format("{}: unknown extension {}; known are {}", path.string(), quote_token(extension), known_formats()));
   }
@@ -420,6 +433,8 @@ std::vector<std::string> write_commented_mesh(const std::filesystem::path& path,
     notes = write_anew(file, *handler, mesh, positions, context);
     if (second) handler->companion->write(*second, mesh, context);
   }
+  if (handler != by_extension(extension))
+    notes.push_back(fmt::format("Written as {}, which {} is.", handler->info.title, mesh.source->path().filename().string()));
   if (!comment.empty()) add_comment(file, *handler, mesh, comment, notes);
   progress.check();
   // Nothing can make two renames one; what can fail has been done by now.

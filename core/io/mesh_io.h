@@ -40,10 +40,14 @@ struct FormatInfo {
 /// The file of the mesh `read` that writing to `target` may take the place of; empty: none.
 [[nodiscard]] std::filesystem::path replaced_file(const std::filesystem::path& target, const std::filesystem::path& read);
 
+/// The format that a mesh is written in: that of the extension, but that of the mesh's file where this has the same extension and was read
+/// as another format for what it holds. Null: none has this extension.
+[[nodiscard]] const FormatInfo* written_format(const std::filesystem::path& path, const Mesh& mesh);
+
 /// Throws InputError where read_mesh() would not know what format the file is, with the same words; Cancelled.
 void require_known_format(const std::filesystem::path& path, const IoContext& context);
 
-/// Writes `mesh` with `positions` in place of its own (mesh.positions.size() of them) to `path`, format by extension,
+/// Writes `mesh` with `positions` in place of its own (mesh.positions.size() of them) to `path`, in the written_format(),
 /// packed by gzip where its name ends with .gz.
 /// When mesh.source is of that format, its bytes are written again and only the coordinates whose bits changed are replaced;
 /// otherwise the file is made anew: elements of the plane in the winding that they came in (mesh.flipped undone), volume elements as the

@@ -89,6 +89,22 @@ TEST(WriteMesh, LeavesTheOtherHalfOfAPairThatIsNotThere) {
   EXPECT_EQ(why_not(folder / "t.ele", mesh), "written") << "and the pair then, by either name";
 }
 
+TEST(WriteMesh, AFileOfAnUnusualNameStaysOfItsFormat) {
+  const TemporaryFolder folder;
+  constexpr std::string_view kCalculix =
+      "*NODE, NSET=Nall\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n*ELEMENT, TYPE=CPS4, ELSET=Eall\n1,1,2,3,4\n";
+  put(folder / "c.msh", kCalculix);
+  const Mesh mesh = read(folder / "c.msh");
+  EXPECT_EQ(written_format("other.msh", mesh)->name, "abaqus");
+  EXPECT_EQ(written_format("other.inp", mesh)->name, "abaqus");
+  EXPECT_EQ(written_format("other.off", mesh)->name, "off");
+  EXPECT_EQ(written_format("other.zzz", mesh), nullptr);
+  for (const char* name : {"c.msh", "copy.MSH"}) {
+    EXPECT_THAT(write(folder / name, mesh), Contains("Written as Abaqus, which c.msh is."));
+    EXPECT_EQ(get(folder / name), kCalculix);
+  }
+}
+
 #ifdef DMOSCOPE_VTU
 TEST(WriteMesh, ReplacesNoPieceThatTheMeshWasReadFrom) {
   const TemporaryFolder folder;

@@ -18,7 +18,6 @@
 #include "app/subcommands/input_report.h"
 #include "app/subcommands/subcommands.h"
 #include "core/base/error.h"
-#include "core/input/declared_floats.h"
 #include "core/io/mesh_io.h"
 #include "core/io/writing/atomic_file.h"
 
@@ -86,8 +85,6 @@ int compare(const CompareOptions& options, const std::string& command_line) {
     complain(sentence);
     warnings.push_back(std::move(sentence));
   };
-  if (const std::string seen = seen_as_floats(*input, input->mesh.positions, plan.judge, pool.get()); !seen.empty())
-    warn(fmt::format("{}: {}, {}", input->mesh.name, info(plan.judge).name, seen));
   const Comparison comparison = run_all(plan, input, options.goal, options.shuffles, {pool, plan.acceleration, progress, warn});
   const ComparisonFacts facts{options, pool->size(), command_line, std::move(warnings)};
   write_files(comparison, facts, progress);

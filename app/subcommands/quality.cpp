@@ -24,7 +24,6 @@
 #include "app/subcommands/input_report.h"
 #include "app/subcommands/subcommands.h"
 #include "core/base/thread_pool.h"
-#include "core/input/declared_floats.h"
 #include "core/input/input_mesh.h"
 #include "core/inspect/element_fit.h"
 #include "core/io/writing/atomic_file.h"
@@ -175,13 +174,6 @@ int quality(const QualityOptions& options) {
     throw UsageError(fmt::format("{} is defined for no element of {}", options.metric, mesh.name));
   }
   if (!options.elements.empty()) write_file_atomically(options.elements, elements_csv(input->quality_context(), mesh.positions, metrics));
-  for (const Column& column : columns) {
-    std::string seen = column.defined() ? seen_as_floats(*input, mesh.positions, column.metric, &pool) : std::string();
-    if (seen.empty()) continue;
-    complain(fmt::format("{}: {}, {}", mesh.name, info(column.metric).name, seen));
-    warnings.push_back(std::move(seen));
-    break;  // one metric says it
-  }
   std::vector<MetricSummary> summaries;
   for (const Column& column : columns) summaries.push_back(summary_of(*input, column, options.worst));
   const InvertedCount inverted = count_inverted(*input);

@@ -26,7 +26,6 @@
 #include "app/subcommands/input_report.h"
 #include "app/subcommands/subcommands.h"
 #include "core/base/unknown_value.h"
-#include "core/input/declared_floats.h"
 #include "core/io/commented_mesh.h"
 #include "core/io/mesh_io.h"
 #include "core/io/reading/source_file.h"
@@ -195,8 +194,6 @@ int smooth(const SmoothOptions& options) {
     complain(fmt::format("{}: {}", options.output.string(), sentence));
     warnings.push_back(std::move(sentence));
   }
-  const std::string seen = written_as_floats(options.output, *input, run.positions(), run.parameters().metric, pool.get());
-  if (!seen.empty()) warn(fmt::format("{}: {}", options.output.string(), seen));
   std::optional<LeftInverted> left = tell_left_inverted(run, input, pool, progress, warn);
   std::optional<HeldMinimum> held = find_hold(run, pool.get(), progress);
   const SmoothReport result{.input = options.input,

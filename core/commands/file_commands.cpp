@@ -6,7 +6,6 @@
 
 #include "core/base/number_text.h"
 #include "core/commands/command_rows.h"
-#include "core/input/declared_floats.h"
 #include "core/io/mesh_io.h"
 #include "core/io/reading/source_file.h"
 #include "core/io/writing/atomic_file.h"
@@ -69,8 +68,6 @@ void generate(CommandContext& context, Arguments arguments) {
 void write_active(CommandContext& context, const std::string& file, const std::string& said) {
   const Run& run = context.session.active();
   std::vector<std::string> notes = write_mesh(file, run.input().mesh, run.positions(), context.progress);
-  const std::string seen = written_as_floats(file, run.input(), run.positions(), run.parameters().metric, context.session.pool().get());
-  if (!seen.empty()) notes.push_back(fmt::format("{}: {}", file, seen));
   context.session.note_exported(file);
   tell(context, said);
   for (std::string& note : notes) tell(context, std::move(note), Message::Kind::Warning);  // last, where the status bar shows it

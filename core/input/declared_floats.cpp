@@ -2,46 +2,52 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
+#include <limits>
 
 #include <fmt/format.h>
 
+#include "core/base/error.h"
 #include "core/base/rounding.h"
 #include "core/io/reading/source_file.h"
-#include "core/io/source_again.h"
-#include "core/quality/quality.h"
 
 namespace dmoscope {
 namespace {
 
-bool declares_floats(const Mesh& mesh) {
-  if (!mesh.source) return false;
-  const CoordinateLayout& layout = mesh.source->layout();
-  return !layout.binary && std::ranges::find(layout.scalar, CoordinateScalar::Float32) != layout.scalar.end();
+double shortest_edge(const Mesh& mesh) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (Index e = 0; e < mesh.elements.size(); ++e) {
+    const auto corners = mesh.elements.corners(e);
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      shortest = std::min(shortest, length(mesh.positions[corners[i]] - mesh.positions[corners[(i + 1) % corners.size()]]));
+  }
+  return shortest;
 }
 
 }  // namespace
 
-std::string seen_as_floats(const InputMesh& input, std::span<const Vec3> positions, Metric metric, ThreadPool* pool) {
-  if (!declares_floats(input.mesh)) return {};
-  const std::string word = "its points are declared as float, but judged by their digits";
-  std::vector<Vec3> rounded(positions.begin(), positions.end());
-  for (Vec3& p : rounded) {
-    p = {nearest_float(p.x), nearest_float(p.y), nearest_float(p.z)};
-    if (!std::isfinite(p.x + p.y + p.z)) return word + "; a program that takes the word cannot hold them";
-  }
-  const std::span<const Index> none;
-  const Statistics digits = compute_statistics(input.quality_context(), positions, metric, none, pool);
-  const Statistics floats = compute_statistics(input.quality_context(), rounded, metric, none, pool);
-  constexpr double kShows = 5e-5;  // in the fourth decimal
-  if (!(std::abs(digits.minimum - floats.minimum) > kShows) && digits.inverted == floats.inverted) return {};
-  return fmt::format("{}; a program that takes the word sees a minimum of {:.4g} and {} inverted (here {:.4g} and {})", word,
-                     floats.minimum, floats.inverted, digits.minimum, digits.inverted);
+void round_to_floats(std::span<Vec3> positions) {
+  for (Vec3& p : positions) p = {nearest_float(p.x), nearest_float(p.y), nearest_float(p.z)};
 }
 
-std::string written_as_floats(const std::filesystem::path& path, const InputMesh& input, std::span<const Vec3> positions, Metric metric,
-                              ThreadPool* pool) {
-  return writes_source_again(path, input.mesh) ? seen_as_floats(input, positions, metric, pool) : std::string();
+std::string round_to_declared(Mesh& mesh, const std::string& file) {
+  constexpr double kShows = 1e-4;
+  if (!mesh.source || !mesh.single_precision) return {};
+  const CoordinateLayout& layout = mesh.source->layout();
+  const auto declared = [&](std::size_t axis, double value) {
+    return layout.scalar[axis] == CoordinateScalar::Float32 ? nearest_float(value) : value;
+  };
+  const double shortest = layout.binary ? 0.0 : shortest_edge(mesh);  // of the digits; binary coordinates are such numbers already
+  double furthest = 0.0;
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    Vec3& p = mesh.positions[v];
+    const Vec3 rounded{declared(0, p.x), declared(1, p.y), declared(2, p.z)};
+    if (!std::isfinite(rounded.x + rounded.y + rounded.z))
+      throw InputError(file, 0, fmt::format("its points are declared as float, which cannot hold the coordinates of vertex {}", v));
+    furthest = std::max(furthest, length(rounded - p));
+    p = rounded;
+  }
+  if (!(furthest > kShows * shortest)) return {};
+  return fmt::format("its points are declared as float: digits beyond that were left out, which moves vertices by up to {:.3g}", furthest);
 }
 
 }  // namespace dmoscope

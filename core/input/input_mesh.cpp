@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/input/declared_floats.h"
 #include "core/input/element_findings.h"
 #include "core/input/mesh_share.h"
 #include "core/input/reference_measures.h"
@@ -87,7 +88,7 @@ namespace {
 
 std::shared_ptr<const InputMesh> assemble(Mesh mesh, Geometry geometry, Topology topology, FaceNeighbours faces, MeshReport report,
                                           std::filesystem::path path, Progress& progress, std::string generator) {
-  if (mesh.source) report.file_notes = mesh.source->notes();
+  if (mesh.source) report.file_notes.insert(report.file_notes.end(), mesh.source->notes().begin(), mesh.source->notes().end());
   std::vector<double> reference = reference_measures(mesh, geometry, topology, nullptr, progress);
   progress.check();
   Interfaces interfaces(mesh, topology);
@@ -107,8 +108,8 @@ std::shared_ptr<const InputMesh> assemble(Mesh mesh, Geometry geometry, Topology
                                                      has_strays});
 }
 
-std::shared_ptr<const InputMesh> prepare_volume(Mesh mesh, const Geometry& geometry, std::filesystem::path path, Progress& progress,
-                                                std::string generator) {
+std::shared_ptr<const InputMesh> prepare_volume(Mesh mesh, const Geometry& geometry, std::vector<std::string> notes,
+                                                std::filesystem::path path, Progress& progress, std::string generator) {
   FaceNeighbours faces(mesh, &progress);
   progress.set(0.5);
   const OrientationReport orientation = normalise_orientation(mesh, faces);
@@ -116,6 +117,7 @@ std::shared_ptr<const InputMesh> prepare_volume(Mesh mesh, const Geometry& geome
   Topology topology(mesh, faces);
   progress.begin("checking");
   MeshReport report = examine_volume(mesh, geometry, topology, faces, orientation.components, progress);
+  report.file_notes = std::move(notes);
   return assemble(std::move(mesh), geometry, std::move(topology), std::move(faces), std::move(report), std::move(path), progress,
                   std::move(generator));
 }
@@ -124,12 +126,16 @@ std::shared_ptr<const InputMesh> prepare_volume(Mesh mesh, const Geometry& geome
 
 std::shared_ptr<const InputMesh> prepare_input(Mesh mesh, std::filesystem::path path, Need need, Progress& progress,
                                                std::string generator) {
+  const std::string file = path.empty() ? (mesh.name.empty() ? "mesh" : mesh.name) : path.string();
+  std::vector<std::string> notes;
+  if (std::string note = round_to_declared(mesh, file); !note.empty()) notes.push_back(std::move(note));
   Geometry geometry = classify(mesh);
-  refuse_what_cannot_be_done(mesh, geometry, path.empty() ? (mesh.name.empty() ? "mesh" : mesh.name) : path.string(), need);
+  refuse_what_cannot_be_done(mesh, geometry, file, need);
   progress.check();
 
   progress.begin("finding neighbours");
-  if (geometry.shape == Shape::Volume) return prepare_volume(std::move(mesh), geometry, std::move(path), progress, std::move(generator));
+  if (geometry.shape == Shape::Volume)
+    return prepare_volume(std::move(mesh), geometry, std::move(notes), std::move(path), progress, std::move(generator));
   EdgeSurvey edges;
   Topology topology(mesh, edges, progress);
   progress.check();
@@ -140,6 +146,7 @@ std::shared_ptr<const InputMesh> prepare_input(Mesh mesh, std::filesystem::path 
 
   progress.begin("checking");
   MeshReport report = examine(mesh, geometry, topology, edges, progress);
+  report.file_notes = std::move(notes);
   edges = {};
   FaceNeighbours faces;
   if (geometry.shape == Shape::Surface) faces = FaceNeighbours(mesh, &progress);

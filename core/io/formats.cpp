@@ -267,7 +267,7 @@ Mesh read_whole_mesh(const std::filesystem::path& path, const IoContext& context
   if (mesh.elements.size() == 0) throw InputError(path.string(), 0, "the file holds no elements");
   mesh.name = path.filename().string();
   const CoordinateLayout& layout = source->layout();
-  mesh.single_precision = layout.binary && std::ranges::find(layout.scalar, CoordinateScalar::Float32) != layout.scalar.end();
+  mesh.single_precision = std::ranges::find(layout.scalar, CoordinateScalar::Float32) != layout.scalar.end();
   mesh.source = std::move(source);
   progress.set(1.0);
   return mesh;

@@ -138,7 +138,7 @@ struct Mesh {
   std::vector<Group> groups;
   /// Elements whose winding was reversed after reading (see orientation.h); empty if none, else one entry per element.
   std::vector<std::uint8_t> flipped;
-  /// The file holds 32-bit coordinates: moved vertices are put on such, so that what is judged is what will be written.
+  /// The file holds 32-bit coordinates, or says so: moved vertices are put on such, so that what is judged is what will be read.
   bool single_precision = false;
   /// What the file was; writing the same format patches only the coordinates that changed. May be null.
   std::shared_ptr<const SourceFile> source;

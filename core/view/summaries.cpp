@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "core/base/radix_sort.h"
-#include "core/input/declared_floats.h"
 #include "core/view/frame_builder.h"
 
 namespace dmoscope {
@@ -67,9 +66,9 @@ bool Summaries::find_inputs(Session& session, const std::function<bool()>& go_on
       const QualityContext context = input->quality_context();
       const std::span<const Vec3> positions = input->mesh.positions;
       const std::vector<Index> immovable = immovable_elements(input->mesh, standing_vertices(*input, rule), pool);
-      summary = std::make_shared<const InputSummary>(InputSummary{
-          session.shown(), compute_statistics(context, positions, session.shown(), immovable, pool),
-          compute_percentiles(context, positions, session.shown(), pool), seen_as_floats(*input, positions, session.shown(), pool)});
+      summary = std::make_shared<const InputSummary>(InputSummary{session.shown(),
+                                                                  compute_statistics(context, positions, session.shown(), immovable, pool),
+                                                                  compute_percentiles(context, positions, session.shown(), pool)});
       found = true;
     }
     if (summary) known.push_back({input, rule, std::move(summary)});

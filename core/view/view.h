@@ -68,7 +68,6 @@ struct InputSummary {
   Metric metric = Metric::MeanRatio;
   Statistics statistics;
   Percentiles percentiles;
-  std::string as_floats{};  // see seen_as_floats
 };
 
 /// A mesh that is open.
@@ -129,12 +128,12 @@ struct SessionView {
   Metric shown = Metric::MeanRatio;
   std::shared_ptr<const InputSummary> input_summary;  // of the active run's mesh, see InputView
   unsigned threads = 1;
-  std::string restored_view;           // the JSON that was saved with the session that was opened last; see save-state
-  std::uint64_t restored_serial = 0;   // grows with every session opened: "must the view be restored?"
+  std::string restored_view;                      // the JSON that was saved with the session that was opened last; see save-state
+  std::uint64_t restored_serial = 0;              // grows with every session opened: "must the view be restored?"
   std::shared_ptr<const ReadFiles> read_files{};  // which nothing that is written may replace
-  std::string undo_label, redo_label;  // the commands that undo and redo are about ("run 10"); empty: there is none
-  std::shared_ptr<const Frame> frame;  // of the active run; null when nothing is open
-  std::vector<WatchedFrame> watched;   // what Engine::watch asked for, in its order
+  std::string undo_label, redo_label;             // the commands that undo and redo are about ("run 10"); empty: there is none
+  std::shared_ptr<const Frame> frame;             // of the active run; null when nothing is open
+  std::vector<WatchedFrame> watched;              // what Engine::watch asked for, in its order
   /// Whether runs are on different meshes, so that they are told apart by those, too.
   [[nodiscard]] bool several_meshes() const noexcept { return meshes.size() > 1; }
 };

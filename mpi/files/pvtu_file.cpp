@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/base/same_bits.h"
+#include "core/input/declared_floats.h"
 #include "core/io/format.h"
 #include "core/io/mesh_io.h"
 #include "core/io/pvtu/pvtu.h"
@@ -52,6 +53,7 @@ class PvtuFile final : public SharedMeshFile {
     SharedNumbers vertices = ids ? number_by_id(world_, mine.vertex_ids) : number_by_place(world_, mine.positions);
     MeshBlock block;
     block.single_precision = world_.any(mine.floats);
+    if (block.single_precision) round_to_floats(mine.positions);
     block.vertices = vertices.ranges;
     take_vertices(mine, vertices, block);
     for (std::uint64_t& corner : mine.corners) corner = vertices.of_thing[corner];

@@ -19,7 +19,6 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 
 class Ending : public HeadlessTest {
  protected:
@@ -161,26 +160,6 @@ TEST_F(Ending, LaplaceIsToldWhatItMadeWorse) {
   ASSERT_FALSE(notice().empty());
   EXPECT_THAT(notice().sentences.back(), HasSubstr("the run is back there."));
   EXPECT_FALSE(has_item("notice:best"));
-}
-
-TEST_F(Ending, WhatFloatsWouldShowIsANoteOnTheMesh) {
-  // Far from the origin floats lie 1/16 apart: a tip 1/64 beside the middle of its base is above it for them. 4 sqrt(3) times the area of
-  // 1/4, by the sum of the squared sides: 2 with the tip above the middle, 2 + 2/64^2 beside it.
-  const std::filesystem::path file = folder_ / "floats.vtk";
-  std::ofstream(file) << "# vtk DataFile Version 3.0\nfar\nASCII\nDATASET POLYDATA\nPOINTS 4 float\n1000000 0 0\n1000001 0 0\n"
-                         "1000000.515625 0.5 0\n1000000.5 -0.5 0\nPOLYGONS 2 8\n3 0 1 2\n3 0 3 1\n";
-  good("open " + file.string());
-  const auto summary = session()->input_summary;
-  ASSERT_TRUE(summary);
-  EXPECT_THAT(summary->as_floats, HasSubstr("its points are declared as float"));
-  EXPECT_THAT(summary->as_floats, HasSubstr("sees a minimum of 0.866 and 0 inverted (here 0.8658 and 0)"));
-  const std::filesystem::path copy = folder_ / "copy.vtk";
-  good("export " + copy.string());
-  const bool told =
-      std::ranges::any_of(window_->said(), [](const Message& m) { return m.text.find("declared as float") != std::string::npos; });
-  EXPECT_TRUE(told);
-  good("generate grid 100");
-  EXPECT_THAT(session()->input_summary->as_floats, IsEmpty());
 }
 
 }  // namespace

@@ -57,9 +57,7 @@ void draw_mesh(PanelContext& context, const Frame& frame) {
     value_row(context, "on the boundary", count(frame.input->faces.boundary().size()), {}, {}, "faces of one element alone");
   }
   if (const RunView* run = context.run()) value_row(context, "free", count(run->free_vertices), {}, {}, "vertices that may move");
-  std::vector<std::string> facts = context.derived.mesh_facts;
-  const auto& judged = context.session.input_summary;
-  if (judged && !judged->as_floats.empty()) facts.push_back(judged->as_floats);
+  const std::vector<std::string>& facts = context.derived.mesh_facts;
   if (!facts.empty()) dim_text(context, "found in the input:");
   for (const std::string& fact : facts) {
     ImGui::PushStyleColor(ImGuiCol_Text, colour_vector(context.palette.warning));

@@ -176,7 +176,6 @@ Mesh read_pvtu(SourceFile& source, const IoContext& context) {
   }
   source.set_not_patchable("its pieces are written anew");
   CoordinateLayout layout;
-  layout.binary = floats;
   if (floats) layout.scalar.fill(CoordinateScalar::Float32);
   source.set_layout(layout);
   std::vector<std::string> notes;

@@ -7,6 +7,7 @@
 #include "app/common/acceleration.h"
 #include "core/base/error.h"
 #include "core/quality/defined_metric.h"
+#include "core/run/run_task.h"
 #include "core/smooth/execution/method_table.h"
 
 namespace dmoscope::app {
@@ -113,25 +114,6 @@ Acceleration acceleration_of(const std::vector<Contender>& contenders) {
   return acceleration_for(wants(Backend::Cuda) ? Backend::Cuda : wants(Backend::Auto) ? Backend::Auto : Backend::Cpu);
 }
 
-/// Why a run cannot be; empty when it can.
-std::string obstacle(const Contender& contender, const std::shared_ptr<const InputMesh>& input, const Acceleration& acceleration) {
-  const RunParameters& p = contender.parameters;
-  try {
-    require_executable(p.backend, acceleration,
-                       {.method = p.method,
-                        .input = input,
-                        .metric = p.metric,
-                        .search = p.search,
-                        .options = p.options,
-                        .combination = p.combination,
-                        .then_joint = p.then_joint.has_value(),
-                        .then_mean = p.then_mean.has_value()});
-  } catch (const UsageError& error) {
-    return error.what();
-  }
-  return {};
-}
-
 }  // namespace
 
 ComparisonPlan plan_of(const CompareOptions& options) {
@@ -156,7 +138,7 @@ void fit_to_mesh(ComparisonPlan& plan, const std::shared_ptr<const InputMesh>& i
   for (Contender& contender : plan.contenders) {
     contender.parameters.fixed = fixed;
     contender.parameters.kinds = kinds;
-    std::string reason = obstacle(contender, input, plan.acceleration);
+    std::string reason = why_no_run(input, contender.parameters, plan.acceleration);
     if (reason.empty()) {
       possible.push_back(std::move(contender));
     } else if (contender.by_every) {

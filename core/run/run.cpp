@@ -9,6 +9,7 @@
 #include "core/input/mesh_share.h"
 #include "core/quality/metric_phrase.h"
 #include "core/reference/domain.h"
+#include "core/run/run_task.h"
 #include "core/run/sweep_after.h"
 #include "core/smooth/execution/choose_executor.h"
 #include "core/smooth/execution/method_table.h"
@@ -101,21 +102,13 @@ std::string Run::backend_sentence() const {
 }
 
 SmoothingTask Run::task() const {
-  return {parameters_.method,
-          input_,
-          colouring_,
-          parameters_.metric,
-          parameters_.search,
-          parameters_.options,
-          parameters_.combination,
-          size_,
-          parameters_.then_joint.has_value(),
-          parameters_.then_mean.has_value(),
-          lets_slide(*input_, parameters_.standing()),
-          domain_,
-          parameters_.max_deviation * input_->geometry.size,
-          immovable_,
-          pool_.get()};
+  SmoothingTask task = task_of(input_, parameters_);
+  task.colouring = colouring_;
+  task.size = size_;
+  task.domain = domain_;
+  task.immovable = immovable_;
+  task.pool = pool_.get();
+  return task;
 }
 
 void Run::download() const {

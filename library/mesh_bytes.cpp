@@ -29,7 +29,7 @@ constexpr std::size_t kHashSize = 16;  // digits, at the end
 
 struct SourceParts {
   std::string path, bytes, format, beside, not_patchable;
-  std::uint64_t size_on_disk = 0;
+  std::uint64_t size_on_disk = 0, first_beside = 0;
   CoordinateLayout layout;
   std::vector<std::uint64_t> places;
   std::vector<Index> place_vertices;
@@ -59,8 +59,8 @@ void pass(Archive& archive, Group& g) {
 template <class Archive>
 void pass(Archive& archive, SourceParts& s) {
   CoordinateLayout& l = s.layout;
-  archive(s.path, s.bytes, s.format, s.beside, s.not_patchable, s.size_on_disk, s.places, s.place_vertices, s.only_in_file, s.notes,
-          s.companion, l.binary, l.components, l.at, l.syntax.comment, l.syntax.comma_is_blank, l.syntax.backslash_joins_lines,
+  archive(s.path, s.bytes, s.format, s.beside, s.first_beside, s.not_patchable, s.size_on_disk, s.places, s.place_vertices, s.only_in_file,
+          s.notes, s.companion, l.binary, l.components, l.at, l.syntax.comment, l.syntax.comma_is_blank, l.syntax.backslash_joins_lines,
           l.syntax.free_form, l.width, l.scalar, l.big_endian);
 }
 template <class Archive>
@@ -188,6 +188,7 @@ SourceParts parts_of(const SourceFile& file) {
                     .beside = file.beside(),
                     .not_patchable = file.not_patchable(),
                     .size_on_disk = file.size_on_disk(),
+                    .first_beside = file.first_beside(),
                     .layout = file.layout(),
                     .places = {},
                     .place_vertices = {},
@@ -209,7 +210,7 @@ std::shared_ptr<const SourceFile> source_of(SourceParts parts) {
   auto file = std::make_shared<SourceFile>(parts.path, dmoscope::FileBytes(parts.bytes));
   file->set_size_on_disk(parts.size_on_disk);
   file->set_format(parts.format);
-  file->set_beside(parts.beside);
+  file->set_beside(parts.beside, parts.first_beside);
   file->set_not_patchable(parts.not_patchable);
   file->set_layout(parts.layout);
   file->add_places(parts.places);

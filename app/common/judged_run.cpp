@@ -52,8 +52,14 @@ JudgedRun run_judged(std::string name, std::shared_ptr<const InputMesh> input, R
 
   JudgedRun done;
   done.outcome = retry_on_cpu(run, smooth_all, workshop.warn);
-  if (done.outcome.phases.joint_since)
-    if (const auto held = what_holds(run, pool, workshop.progress)) done.held = held->sentence(true);
+  if (done.outcome.phases.joint_since && workshop.hints != Hints::Off) {
+    const auto find_hold = [&] {
+      const HintBudget budget = budget_of(workshop.hints, row_of(run, judge, pool).seconds);
+      if (const auto held = what_holds(run, pool, workshop.progress, {.go_on = [&] { return budget.left(); }}))
+        done.held = held->sentence(true);
+    };
+    look_afterwards("what holds the minimum", find_hold, workshop.warn);
+  }
   if (done.held.ends_with('.')) done.held.pop_back();
   done.name = std::move(name);
   done.parameters = run.parameters();

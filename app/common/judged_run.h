@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/common/hints.h"
 #include "core/run/run.h"
 #include "core/view/run_table.h"
 
@@ -26,7 +27,7 @@ struct JudgedRun {
   RunRow row;                  // its title is `name`; iterations and seconds are those of all that was done
   Statistics after;            // by the judge, where the run stands: until converged, at its best iteration (see Run::end_at_best)
   Outcome outcome;
-  std::string held;                      // of a run that moved vertices jointly: what holds its minimum, without a point; else empty
+  std::string held;  // of a run that moved vertices jointly, with hints: what holds its minimum, without a point; else empty
   std::vector<IterationRecord> records;  // their statistics are the judge's; the first is the input
   std::vector<double> qualities;         // of all elements by the judge, ascending
   std::vector<Vec3> positions;
@@ -42,6 +43,7 @@ struct Workshop {
   Acceleration acceleration;
   Progress& progress;
   std::function<void(std::string)> warn;
+  Hints hints = Hints::On;
 };
 
 /// Throws what Run does, and UsageError when the judge is not defined for the mesh. Where a device fails that was not

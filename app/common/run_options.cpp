@@ -108,6 +108,12 @@ void add_run_options(CLI::App& subcommand, RunOptions& options) {
       ->transform(whole_number(0, kMostThreads))
       ->type_name("N")
       ->capture_default_str();
+  subcommand
+      .add_option("--hints", options.hints,
+                  "Whether it is looked, once a run is done, for what holds the minimum and what gets further: on (for a tenth of the "
+                  "run's time, at least 0.2 s), full (as long as it takes) or off. The mesh is the same")
+      ->type_name("on|full|off")
+      ->capture_default_str();
   for (const ParameterInfo& row : parameter_table()) add_parameter(subcommand, row, options.parameters.at(std::string(row.name)));
   subcommand.add_option("--fix", options.fix, fmt::format("Vertices to keep where they are besides the boundary: {}", kVertexWords))
       ->type_name("VERTICES")

@@ -58,12 +58,20 @@ Json json_of(const JointCluster& cluster) {
 Json json_of(const HeldMinimum& held) {
   Json vertices = Json::array();
   for (const HeldVertex& one : held.vertices) vertices.push_back({{"vertex", one.vertex}, {"held_by", name(one.by)}});
-  Json object{{"element", held.element},         {"quality", json_number(held.quality)},     {"by", name(held.by)},
-              {"vertices", std::move(vertices)}, {"unchanged", json_number(held.unchanged)}, {"switch", nullptr},
-              {"would_raise_to", nullptr},       {"sentence", held.sentence(true)}};
+  Json object{{"element", held.element},
+              {"quality", json_number(held.quality)},
+              {"by", name(held.by)},
+              {"vertices", std::move(vertices)},
+              {"unchanged", json_number(held.unchanged)},
+              {"switch", nullptr},
+              {"would_raise_to", nullptr},
+              {"on_whole_mesh", nullptr},
+              {"not_looked_at", held.untried},
+              {"sentence", held.sentence(true)}};
   if (held.change) {
     object["switch"] = held.options();
     object["would_raise_to"] = json_number(held.changed);
+    if (held.whole) object["on_whole_mesh"] = json_number(*held.whole);
   }
   object["certificate"] = held.joint ? json_of(*held.joint) : Json(nullptr);
   return object;

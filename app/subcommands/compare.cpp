@@ -69,6 +69,7 @@ void write_files(const Comparison& comparison, const ComparisonFacts& facts, con
 
 int compare(const CompareOptions& options, const std::string& command_line) {
   refuse_early(options);
+  const Hints hints = parse_hints(options.run.hints);
   ComparisonPlan plan = plan_of(options);
   if (options.goal.until_converged)  // the first phase is as patient as it would be alone
     for (Contender& contender : plan.contenders) be_patient(contender.parameters, options.goal.until_converged->patience);
@@ -85,7 +86,7 @@ int compare(const CompareOptions& options, const std::string& command_line) {
     complain(sentence);
     warnings.push_back(std::move(sentence));
   };
-  const Comparison comparison = run_all(plan, input, options.goal, options.shuffles, {pool, plan.acceleration, progress, warn});
+  const Comparison comparison = run_all(plan, input, options.goal, options.shuffles, {pool, plan.acceleration, progress, warn, hints});
   const ComparisonFacts facts{options, pool->size(), command_line, std::move(warnings)};
   write_files(comparison, facts, progress);
   if (options.json) {

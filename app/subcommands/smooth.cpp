@@ -15,6 +15,7 @@
 #include "app/common/acceleration.h"
 #include "app/common/console.h"
 #include "app/common/goal_options.h"
+#include "app/common/hints.h"
 #include "app/common/memory_limit.h"
 #include "app/common/output_checks.h"
 #include "app/common/provenance.h"
@@ -116,32 +117,29 @@ void go_to_what_is_written(Run& run, const SmoothOptions& options, Progress& pro
                    kMayMakeWorse, iteration_name(best), ended));
 }
 
-/// Says what stays inverted, where to look and, if one does, which method gets further.
+/// Says which method gets further where elements stay inverted, and what holds the minimum.
 template <class Warn>
-std::optional<LeftInverted> tell_left_inverted(const Run& run, const std::shared_ptr<const InputMesh>& input,
-                                               const std::shared_ptr<ThreadPool>& pool, Progress& progress, const Warn& warn) {
-  std::optional<LeftInverted> left = find_left_inverted(run);
-  if (!left) return left;
-  warn(left->sentence());
-  try {
-    if (const auto hint = untangling_hint(run, input, pool, progress))
-      warn(fmt::format("{}: try --method {}", hint->sentence(), hint->method));
-  } catch (const Cancelled&) {  // what was asked for has been written
-  }
-  return left;
-}
-
-/// What holds the minimum of what is written. Nobody waits for it who does not want to.
-std::optional<HeldMinimum> find_hold(const Run& run, ThreadPool* pool, Progress& progress) {
-  try {
-    return what_holds(run, pool, progress);
-  } catch (const Cancelled&) {  // what was asked for has been written
-    return std::nullopt;
-  }
+std::optional<HeldMinimum> look_for_hints(const Run& run, bool inverted, const HintBudget& budget, const std::shared_ptr<ThreadPool>& pool,
+                                          Progress& progress, const Warn& warn) {
+  std::optional<HeldMinimum> held;
+  const auto find_method = [&] {
+    progress.begin("looking for a method that gets further");
+    const UntanglingLook look = untangling_hint(run, pool, progress, [half = budget.half()] { return half.left(); });
+    if (look.hint) warn(fmt::format("{}: try --method {}", look.hint->sentence(), look.hint->method));
+    if (!look.to_the_end) warn("Whether another method gets further was not looked at to the end (--hints full does)");
+  };
+  const auto find_hold = [&] {
+    progress.begin("looking for what holds the minimum");
+    held = what_holds(run, pool.get(), progress, {.go_on = [&] { return budget.left(); }});
+  };
+  if (inverted) look_afterwards("whether another method gets further", find_method, warn);
+  look_afterwards("what holds the minimum", find_hold, warn);
+  return held;
 }
 
 int smooth(const SmoothOptions& options) {
   refuse_early(options);
+  const Hints hints = parse_hints(options.run.hints);
   RunParameters parameters = parameters_of(options.run);
   const Acceleration acceleration = acceleration_for(parameters.backend);
 
@@ -188,14 +186,17 @@ int smooth(const SmoothOptions& options) {
   go_to_what_is_written(run, options, progress, warn);
   if (run.last_outcome()) outcome = *run.last_outcome();
 
+  std::optional<LeftInverted> left = find_left_inverted(run);
   std::optional<Provenance> provenance;
   if (options.json || options.provenance) provenance = provenance_of(input->mesh, options.command_line);
   for (std::string& sentence : write_results(options, run, provenance, {progress, pool.get()})) {
     complain(fmt::format("{}: {}", options.output.string(), sentence));
     warnings.push_back(std::move(sentence));
   }
-  std::optional<LeftInverted> left = tell_left_inverted(run, input, pool, progress, warn);
-  std::optional<HeldMinimum> held = find_hold(run, pool.get(), progress);
+  // From here on nothing changes what comes of the call.
+  if (left) warn(left->sentence());
+  std::optional<HeldMinimum> held;
+  if (hints != Hints::Off) held = look_for_hints(run, left.has_value(), budget_of(hints, seconds), pool, progress, warn);
   const SmoothReport result{.input = options.input,
                             .output = options.output,
                             .until_converged = options.goal.until_converged,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <set>
@@ -25,11 +26,31 @@ constexpr int kRounds = 12;            // of visits in a trial
 constexpr double kAngleStep = 5.0;     // degrees: angles are proposed in multiples of it
 constexpr double kMoreDeviation = 10;  // times the bound
 
+bool is_possible(const SmoothingTask& task) {
+  try {
+    require_possible(task);
+    return true;
+  } catch (const UsageError&) {
+    return false;
+  }
+}
+
 /// A few words changed about what may move.
 struct Conditions {
   StandingRule rule;
   double max_deviation;
   std::vector<Index> by_hand;
+  std::optional<Combination> combination;
+};
+
+/// Whether the look goes on.
+struct Asking {
+  Progress& progress;
+  const std::function<bool()>& go_on;
+  void check() const {
+    progress.check();
+    if (go_on && !go_on()) throw Cancelled();
+  }
 };
 
 double angle_between(Vec3 a, Vec3 b) { return std::atan2(length(cross(a, b)), dot(a, b)) / kDegree; }
@@ -40,49 +61,72 @@ double angle_above(double angle) { return std::min(180.0, kAngleStep * (std::flo
 /// What is asked about one element.
 class Look {
  public:
-  Look(const HeldQuestion& question, Index element, std::span<const std::uint8_t> standing, ThreadPool* pool)
-      : q_(question), mesh_(question.input->mesh), element_(element), standing_(standing), pool_(pool) {
+  Look(const HeldQuestion& question, Index element, std::span<const std::uint8_t> standing, ThreadPool* pool, const Asking& asking)
+      : q_(question),
+        input_(*question.task.input),
+        mesh_(input_.mesh),
+        element_(element),
+        standing_(standing),
+        pool_(pool),
+        asking_(asking) {
     gather();
   }
 
-  [[nodiscard]] HeldMinimum find(Progress& progress, const std::function<bool()>& go_on) const {
+  [[nodiscard]] HeldMinimum find() const {
     HeldMinimum found;
     found.element = element_;
-    found.quality = quality_of(q_.positions, element_);
+    found.quality = found.unchanged = quality_of(q_.positions, element_);
     for (const Index v : std::set<Index>(corners().begin(), corners().end())) found.vertices.push_back({v, holding(v)});
     const std::vector<HoldSwitch> all = switches(found);
-    const auto check = [&](std::size_t done) {
-      progress.check();
-      if (go_on && !go_on()) throw Cancelled();
-      progress.set(static_cast<double>(done) / static_cast<double>(all.size() + 1));
-    };
-    check(0);
-    found.unchanged = std::max(found.quality, after({q_.rule, q_.max_deviation, {q_.by_hand.begin(), q_.by_hand.end()}}, q_.domain));
-    double best = found.unchanged;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      check(i + 1);
-      const double there = after_switches({&all[i], 1});
-      if (is_gain(best, there)) {
-        if (found.change) found.in_vain.push_back(*found.change);
-        best = found.changed = there;
-        found.change = all[i];
-      } else if (!is_gain(found.unchanged, there)) {
-        found.in_vain.push_back(all[i]);
+    // Once it has ended, it ends for all that would follow.
+    const auto attempt = [&](std::string_view what, double share, const auto& trial) {
+      try {
+        if (!found.untried.empty()) throw Cancelled();
+        asking_.check();
+        asking_.progress.set(share);
+        trial();
+      } catch (const Cancelled&) {
+        found.untried.push_back(what);
       }
-    }
+    };
+    attempt(kMoreIterations, 0.0, [&] { found.unchanged = std::max(found.quality, after(conditions(), q_.task.domain)); });
+    double best = found.unchanged;
+    if (!all.empty()) attempt("switches that could free it", 0.1, [&] { try_switches(found, all, best); });
     const bool stays = std::ranges::all_of(found.vertices, [](const HeldVertex& one) { return is_fixed(one.by); });
     const bool is_moot = stays || (found.rises() && !q_.joint_where_it_rises);
-    if (found.change || !is_moot) try_joint(found, best, progress, go_on);
-    if (!found.change && !found.rises()) try_pairs(found, all, check);
+    if (q_.task.combination) attempt("a higher threshold", 0.4, [&] { try_threshold(found, best); });
+    if (q_.joint && (found.change || !is_moot)) attempt("joint moves", 0.5, [&] { try_joint(found, best); });
+    if (!found.change && !found.rises() && !all.empty()) attempt("two switches together", 0.7, [&] { try_pairs(found, all); });
     if (found.change) std::erase_if(found.in_vain, [&](const HoldSwitch& one) { return one.frees == found.change->frees; });
+    if (q_.whole && found.change && found.change->frees != Holding::Neighbours)
+      attempt("the whole mesh with it", 0.8, [&] { try_whole(found); });
     settle(found);
     return found;
   }
 
  private:
+  [[nodiscard]] Conditions conditions() const {
+    return {q_.rule, q_.max_deviation, {q_.by_hand.begin(), q_.by_hand.end()}, q_.task.combination};
+  }
+  static void take(HeldMinimum& found, const HoldSwitch& change, double there) {
+    if (found.change) found.in_vain.push_back(*found.change);
+    found.change = change;
+    found.changed = there;
+  }
+
+  void try_switches(HeldMinimum& found, const std::vector<HoldSwitch>& all, double& best) const {
+    for (const HoldSwitch& one : all) {
+      asking_.check();
+      const double there = after_switches({&one, 1});
+      if (is_gain(best, there)) {
+        take(found, one, best = there);
+      } else if (!is_gain(found.unchanged, there)) {
+        found.in_vain.push_back(one);
+      }
+    }
+  }
   /// Two switches together, where none gains alone.
-  template <class Check>
-  void try_pairs(HeldMinimum& found, std::vector<HoldSwitch> all, const Check& check) const {
+  void try_pairs(HeldMinimum& found, std::vector<HoldSwitch> all) const {
     const auto has = [&all](std::string_view name) { return std::ranges::find(all, name, &HoldSwitch::name) != all.end(); };
     // What does not slide as long as it is a corner may need more room afterwards; so may its neighbours, before.
     if ((has("corner-angle") || has("feature-angle")) && !has("max-deviation") && q_.max_deviation < 1.0) {
@@ -96,39 +140,55 @@ class Look {
     for (std::size_t i = 0; i < all.size(); ++i)
       for (std::size_t k = i + 1; k < all.size(); ++k) {
         if (all[i].name == all[k].name) continue;
-        check(all.size());
+        asking_.check();
         const double there = after_switches({{all[i], all[k]}});
         if (!is_gain(found.change ? found.changed : found.unchanged, there)) continue;
         found.change = all[i], found.also = all[k];
         found.changed = there;
       }
   }
+  /// What the first aim alone would gain: up to there the threshold can be raised.
+  void try_threshold(HeldMinimum& found, double& best) const {
+    Conditions alone = conditions();
+    alone.combination.reset();
+    const Combination& now = *q_.task.combination;
+    Combination raised = now;
+    raised.threshold = std::min(0.99, std::floor(100.0 * after(alone, q_.task.domain)) / 100.0);
+    if (!(raised.threshold > now.threshold)) return;
+    const HoldSwitch change{"combine", to_text(q_.task.metric, raised), Holding::Threshold, raised.threshold,
+                            now.size() != nullptr ? to_text(*now.size()) : std::string()};
+    if (const double there = after_switches({&change, 1}); is_gain(best, there)) take(found, change, best = there);
+  }
   /// Joint moves, where a vertex may move: of sliding ones they hold the place.
-  void try_joint(HeldMinimum& found, double& best, Progress& progress, const std::function<bool()>& go_on) const {
+  void try_joint(HeldMinimum& found, double& best) const {
     std::vector<std::uint8_t> fixed(q_.fixed.begin(), q_.fixed.end());
-    if (q_.domain != nullptr)
+    if (q_.task.domain)
       for (Index v = 0; v < fixed.size(); ++v)
-        if (q_.domain->slides(v)) fixed[v] = 1;
-    auto cluster = joint_hold(*q_.input, q_.positions, fixed, q_.metric, element_, q_.joint_at_most, pool_, progress, go_on);
+        if (q_.task.domain->slides(v)) fixed[v] = 1;
+    auto cluster =
+        joint_hold(input_, q_.positions, fixed, q_.task.metric, element_, q_.joint_at_most, pool_, asking_.progress, asking_.go_on);
     if (!cluster) return;
     const bool same = is_as_bad(quality_of(q_.positions, cluster->worst_element), found.quality);
     if (same && is_gain(best, cluster->after)) {
-      if (!q_.joint_phase.empty()) {
-        if (found.change) found.in_vain.push_back(*found.change);
-        found.change = HoldSwitch{"then", q_.joint_phase, Holding::Neighbours};
-        found.changed = cluster->after;
-      } else if (!found.change) {
+      if (!q_.joint_phase.empty())
+        take(found, {"then", q_.joint_phase, Holding::Neighbours}, cluster->after);
+      else if (!found.change)
         found.unchanged = cluster->after;
-      }
       best = cluster->after;
     }
     found.joint = std::make_shared<const JointCluster>(std::move(*cluster));
   }
+  /// Whether the whole mesh gains from what frees the element.
+  void try_whole(HeldMinimum& found) const {
+    std::vector<HoldSwitch> changes{*found.change};
+    if (found.also) changes.push_back(*found.also);
+    found.whole = after_switches(changes, Of::Whole);
+  }
   [[nodiscard]] std::span<const Index> corners() const { return mesh_.elements.corners(element_); }
   [[nodiscard]] double quality_of(PositionView positions, Index e) const {
-    return element_quality(q_.input->quality_context(), positions, q_.metric, e);
+    return element_quality(input_.quality_context(), positions, q_.task.metric, e);
   }
-  [[nodiscard]] bool on_boundary(Index v) const { return q_.input->topology.boundary()[v] != 0; }
+  [[nodiscard]] bool on_boundary(Index v) const { return input_.topology.boundary()[v] != 0; }
 
   /// The elements that are judged, around the worst one, and the vertices that are visited, two rings of them.
   void gather() {
@@ -136,7 +196,7 @@ class Look {
     for (int ring = 0; ring < 2; ++ring) {
       std::set<Index> touched;
       for (const Index v : around)
-        for (const Incidence& at : q_.input->topology.star(v)) touched.insert(at.element);
+        for (const Incidence& at : input_.topology.star(v)) touched.insert(at.element);
       if (ring == 0) judged_.assign(touched.begin(), touched.end());
       for (const Index e : touched) around.insert(mesh_.elements.corners(e).begin(), mesh_.elements.corners(e).end());
     }
@@ -144,14 +204,14 @@ class Look {
   }
 
   [[nodiscard]] bool between_materials(Index v) const {
-    const auto star = q_.input->topology.star(v);
-    return std::ranges::any_of(star, [&](const Incidence& at) { return q_.input->interfaces.between(star[0].element, at.element); });
+    const auto star = input_.topology.star(v);
+    return std::ranges::any_of(star, [&](const Incidence& at) { return input_.interfaces.between(star[0].element, at.element); });
   }
 
   [[nodiscard]] Holding holding(Index v) const {
-    if (q_.fixed[v] == 0) return q_.domain != nullptr && q_.domain->slides(v) ? Holding::Slides : Holding::Nothing;
+    if (q_.fixed[v] == 0) return q_.task.domain && q_.task.domain->slides(v) ? Holding::Slides : Holding::Nothing;
     if (standing_[v] == 0) return Holding::Hand;
-    switch (q_.domain != nullptr ? q_.domain->held_on(v) : HeldOn::Nothing) {
+    switch (q_.task.domain ? q_.task.domain->held_on(v) : HeldOn::Nothing) {
       case HeldOn::Corner:
       case HeldOn::Hand:
         return Holding::Corner;
@@ -168,7 +228,7 @@ class Look {
         break;
     }
     if (on_boundary(v) && q_.rule.boundary == BoundaryRule::Fixed) return Holding::Boundary;
-    if (q_.input->interfaces.meets_boundary_at(v) || between_materials(v)) return Holding::Interface;
+    if (input_.interfaces.meets_boundary_at(v) || between_materials(v)) return Holding::Interface;
     return on_boundary(v) ? Holding::Touching : Holding::Named;
   }
 
@@ -177,20 +237,24 @@ class Look {
     std::vector<HoldSwitch> all;
     std::string by_hand;
     const auto any = [&](Holding by) { return std::ranges::find(found.vertices, by, &HeldVertex::by) != found.vertices.end(); };
-    const bool slides = method_info(q_.method).slides && !(q_.input->geometry.plane.period > 0.0);
     for (const HeldVertex& one : found.vertices)
       if (one.by == Holding::Hand) by_hand += fmt::format("{}{}", by_hand.empty() ? "" : " ", one.vertex);
     if (!by_hand.empty()) all.push_back({"unfix", by_hand, Holding::Hand});
-    if (!slides) return all;
     if (const std::string made = made_corners(found); !made.empty()) all.push_back({"auto-corner", made, Holding::Corner});
     if (any(Holding::Boundary)) all.push_back({"boundary", "slide", Holding::Boundary});
     if (any(Holding::Interface) && q_.rule.interfaces == InterfaceRule::Fixed) all.push_back({"interfaces", "slide", Holding::Interface});
-    if (q_.domain != nullptr) add_angles(found, all);
+    if (q_.task.domain) add_angles(found, all);
     if (any(Holding::Slides) && q_.max_deviation < 1.0) all.push_back(more_deviation());
+    std::erase_if(all, [this](const HoldSwitch& one) {
+      Conditions then = conditions();
+      apply(one, then);
+      return !is_possible(task_of(then, nullptr));
+    });
     return all;
   }
   [[nodiscard]] HoldSwitch more_deviation() const {
-    return {"max-deviation", fmt::format("{:.6g}", std::min(1.0, kMoreDeviation * q_.max_deviation)), Holding::Deviation};
+    const double more = std::min(1.0, kMoreDeviation * q_.max_deviation);
+    return {"max-deviation", fmt::format("{:.6g}", more), Holding::Deviation, more};
   }
 
   /// "4 7": those that a person made corners.
@@ -206,7 +270,7 @@ class Look {
   void add_angles(const HeldMinimum& found, std::vector<HoldSwitch>& all) const {
     std::set<double> turns, folds;
     for (const HeldVertex& one : found.vertices) {
-      const bool on_edge = one.by == Holding::Slides && q_.domain->on_curve(one.vertex);
+      const bool on_edge = one.by == Holding::Slides && q_.task.domain->on_curve(one.vertex);
       if (one.by != Holding::Corner && one.by != Holding::Feature && !on_edge) continue;
       const std::vector<Index> beside = along_curves(one.vertex);
       if (one.by == Holding::Corner && beside.size() == 2) turns.insert(angle_above(turn(beside[0], one.vertex, beside[1])));
@@ -217,14 +281,14 @@ class Look {
       std::set<double> ends;
       if (!angles.empty()) ends = {*angles.begin(), *angles.rbegin()};
       for (const double angle : ends)
-        if (angle > now) all.push_back({name, fmt::format("{:g}", angle), frees});
+        if (angle > now) all.push_back({name, fmt::format("{:g}", angle), frees, angle});
     };
     add("corner-angle", turns, q_.rule.corner_angle, Holding::Corner);
     add("feature-angle", folds, q_.rule.feature_angle, Holding::Feature);
   }
   /// Where the edges of curves at a vertex lead to: of the boundary or an interface in a plane, else feature edges.
   [[nodiscard]] std::vector<Index> along_curves(Index v) const {
-    const SlidingFaces& faces = q_.domain->faces();
+    const SlidingFaces& faces = q_.task.domain->faces();
     std::map<Index, std::vector<Index>> beside;  // by neighbour: the elements or faces at the edge
     const auto add = [&](std::span<const Index> c, Index of) {
       const auto i = static_cast<std::size_t>(std::ranges::find(c, v) - c.begin());
@@ -233,25 +297,25 @@ class Look {
     if (faces.any())
       for (const Index f : faces.at(v)) add(faces.table().corners(f), f);
     else
-      for (const Incidence& at : q_.input->topology.star(v)) add(mesh_.elements.corners(at.element), at.element);
+      for (const Incidence& at : input_.topology.star(v)) add(mesh_.elements.corners(at.element), at.element);
     std::vector<Index> found;
     for (const auto& [other, at] : beside) {
       const bool along =
-          faces.any() ? q_.domain->is_feature(v, other) : at.size() == 1 || q_.input->interfaces.between(at.front(), at.back());
+          faces.any() ? q_.task.domain->is_feature(v, other) : at.size() == 1 || input_.interfaces.between(at.front(), at.back());
       if (along) found.push_back(other);
     }
     return found;
   }
   /// By how many degrees a curve of the input turns at a vertex.
   [[nodiscard]] double turn(Index before, Index v, Index after) const {
-    const Plane& plane = q_.input->geometry.plane;
+    const Plane& plane = input_.geometry.plane;
     const auto& at = mesh_.positions;
     return angle_between(plane.difference(at[v], at[before]), plane.difference(at[after], at[v]));
   }
   /// By how many degrees the surface of the input folds along an edge; none where other than two facets meet.
   [[nodiscard]] std::optional<double> fold(Index a, Index b) const {
-    if (!q_.domain->faces().any() || !q_.domain->faces().are_own()) return std::nullopt;
-    const Facets& facets = q_.domain->faces().facets();
+    if (!q_.task.domain->faces().any() || !q_.task.domain->faces().are_own()) return std::nullopt;
+    const Facets& facets = q_.task.domain->faces().facets();
     const auto sides = facets.sides_of(a, b);
     if (sides.size() != 2) return std::nullopt;
     const auto normal = [&](const FacetSide& side) {
@@ -265,62 +329,78 @@ class Look {
     const auto is_corner = [&](Index v) { return std::ranges::find(corners(), v) != corners().end(); };
     if (change.name == "boundary") then.rule.boundary = BoundaryRule::Slide;
     if (change.name == "interfaces") then.rule.interfaces = InterfaceRule::Slide;
-    if (change.name == "corner-angle") then.rule.corner_angle = std::stod(change.value);
-    if (change.name == "feature-angle") then.rule.feature_angle = std::stod(change.value);
+    if (change.name == "corner-angle") then.rule.corner_angle = change.number;
+    if (change.name == "feature-angle") then.rule.feature_angle = change.number;
     if (change.name == "auto-corner") std::erase_if(then.rule.kinds.corners, is_corner);
-    if (change.name == "max-deviation") then.max_deviation = std::stod(change.value);
+    if (change.name == "max-deviation") then.max_deviation = change.number;
     if (change.name == "unfix") std::erase_if(then.by_hand, is_corner);
+    if (change.name == "combine") then.combination->threshold = change.number;
   }
-  /// The least quality of what is judged, after switches; as bad as can be where they are not possible.
-  [[nodiscard]] double after_switches(std::span<const HoldSwitch> changes) const {
-    Conditions then{q_.rule, q_.max_deviation, {q_.by_hand.begin(), q_.by_hand.end()}};
+  enum class Of : std::uint8_t { Around, Whole };
+  /// The least quality of what is judged, after switches.
+  [[nodiscard]] double after_switches(std::span<const HoldSwitch> changes, Of what = Of::Around) const {
+    Conditions then = conditions();
     for (const HoldSwitch& change : changes) apply(change, then);
-    std::shared_ptr<const Domain> made;
-    const Domain* domain = q_.domain;
-    if (then.rule != q_.rule) {
-      made = q_.domains ? q_.domains(then.rule) : domain_for(*q_.input, then.rule);
-      domain = made.get();
-    }
-    return after(then, domain);
+    if (then.rule == q_.rule) return after(then, q_.task.domain, what);
+    if (!last_domain_ || last_domain_->first != then.rule)
+      last_domain_.emplace(then.rule, q_.domains ? q_.domains(then.rule) : domain_for(input_, then.rule));
+    return after(then, last_domain_->second, what);
   }
-  [[nodiscard]] SmoothingTask task_of(const Conditions& then, const Domain* domain, std::span<const Index> free) const {
-    SmoothingTask task;
-    task.method = q_.method;
-    task.input = q_.input;
-    task.colouring = std::make_shared<const Colouring>(colour_vertices(mesh_, q_.input->topology, free));
-    task.metric = q_.metric;
-    task.search = q_.search;
+  [[nodiscard]] SmoothingTask task_of(const Conditions& then, std::shared_ptr<const Domain> domain) const {
+    SmoothingTask task = q_.task;
     task.search.precision = Precision::Float;  // of gains that a person would call none, double finds more, at ten times the cost
-    task.slides = lets_slide(*q_.input, then.rule);
-    task.domain = std::shared_ptr<const Domain>(std::shared_ptr<const Domain>(), domain);  // borrowed: it outlives the trial
-    task.max_deviation = then.max_deviation * q_.input->geometry.size;
+    task.combination = then.combination;
+    task.then_joint = task.then_mean = false;
+    task.slides = lets_slide(input_, then.rule);
+    task.domain = std::move(domain);
+    task.max_deviation = then.max_deviation * input_.geometry.size;
     return task;
   }
-  [[nodiscard]] double after(const Conditions& then, const Domain* domain) const {
-    std::vector<std::uint8_t> fixed = standing_vertices(*q_.input, then.rule, domain);
+  /// After some visits around the element, or of the whole mesh: there it is enough to have seen a gain when the look has to end.
+  [[nodiscard]] double after(const Conditions& then, std::shared_ptr<const Domain> domain, Of what = Of::Around) const {
+    const bool whole = what == Of::Whole;
+    std::vector<std::uint8_t> fixed = standing_vertices(input_, then.rule, domain.get());
     for (const Index v : then.by_hand) fixed[v] = 1;
     std::vector<Index> free;
-    for (const Index v : visited_)
-      if (fixed[v] == 0) free.push_back(v);
-    const SmoothingTask task = task_of(then, domain, free);
+    if (whole)
+      for (Index v = 0; v < fixed.size(); ++v) free.push_back(v);
+    else
+      free = visited_;
+    std::erase_if(free, [&fixed](Index v) { return fixed[v] != 0; });
+    SmoothingTask task = task_of(then, std::move(domain));
+    task.colouring = std::make_shared<const Colouring>(colour_vertices(mesh_, input_.topology, free));
     std::vector<Vec3> positions(q_.positions.begin(), q_.positions.end());
-    try {
-      const auto smoother = make_smoother(task);
-      smoother->positions_replaced();
-      for (int round = 0; round < kRounds; ++round) {
-        smoother->begin({static_cast<std::uint64_t>(round)});
-        if (smoother->visit(0, task.colouring->order.size(), positions, nullptr) == 0) break;
-      }
+    const auto smoother = make_smoother(task);
+    smoother->positions_replaced();
+    const auto least = [&] {
       smoother->store(positions, nullptr);
-    } catch (const UsageError&) {  // such as a mesh in which nothing slides
-      return -std::numeric_limits<double>::infinity();
+      if (whole) {  // worse is only what nothing moves
+        const Statistics all = compute_statistics(input_.quality_context(), positions, task.metric, fixed, pool_);
+        return all.minimum < quality_of(q_.positions, element_) ? all.movable_minimum : all.minimum;
+      }
+      double worst = std::numeric_limits<double>::infinity();
+      for (const Index e : judged_)
+        if (const double quality = quality_of(positions, e); !std::isnan(quality)) worst = std::min(worst, quality);
+      return worst;
+    };
+    try {
+      visit(*smoother, task.colouring->order.size(), positions, whole ? pool_ : nullptr);
+    } catch (const Cancelled&) {
+      if (!whole || !is_gain(quality_of(q_.positions, element_), least())) throw;
     }
-    double least = std::numeric_limits<double>::infinity();
-    for (const Index e : judged_) {
-      const double quality = quality_of(positions, e);
-      if (!std::isnan(quality)) least = std::min(least, quality);
+    return least();
+  }
+  void visit(Smoother& smoother, std::uint64_t count, std::span<Vec3> positions, ThreadPool* pool) const {
+    constexpr std::uint64_t kBlock = 65536;  // vertices between two questions whether to go on
+    for (int round = 0; round < kRounds; ++round) {
+      smoother.begin({static_cast<std::uint64_t>(round), std::nullopt, q_.untangling});
+      std::uint64_t moved = 0;
+      for (std::uint64_t first = 0; first < count; first += kBlock) {
+        asking_.check();
+        moved += smoother.visit(first, std::min(kBlock, count - first), positions, pool);
+      }
+      if (moved == 0) return;
     }
-    return least;
   }
 
   /// Says what keeps it in one word.
@@ -329,7 +409,7 @@ class Look {
       found.by = found.change->frees;
       for (HeldVertex& one : found.vertices)
         if (one.by == Holding::Slides &&
-            (found.by == Holding::Deviation || (found.by == Holding::Feature && q_.domain->on_curve(one.vertex))))
+            (found.by == Holding::Deviation || (found.by == Holding::Feature && q_.task.domain->on_curve(one.vertex))))
           one.by = found.by;
       return;
     }
@@ -342,14 +422,14 @@ class Look {
     const bool slides = std::ranges::find(found.vertices, Holding::Slides, &HeldVertex::by) != found.vertices.end();
     if (most > 0 || !slides) return;
     found.by = Holding::Slides;
-    if (!found.rises()) look_into_visits(found);
+    if (!found.rises() && found.untried.empty()) look_into_visits(found);
   }
 
   /// Whether what the vertices on a surface could gain is refused to them.
   void look_into_visits(HeldMinimum& found) const {
-    const SmoothingTask task = task_of({q_.rule, q_.max_deviation, {}}, q_.domain, {});
+    const SmoothingTask task = task_of(conditions(), q_.task.domain);
     for (HeldVertex& one : found.vertices) {
-      if (one.by != Holding::Slides || !q_.domain->on_surface(one.vertex) || q_.method != "dmo") continue;
+      if (one.by != Holding::Slides || !q_.task.domain->on_surface(one.vertex) || q_.task.method != "dmo") continue;
       const VisitEnd end = trace_surface_visit(task, q_.positions, one.vertex, {}).trace.end;
       if (end == VisitEnd::Leans) one.by = Holding::Tilt;
       if (end == VisitEnd::Deviates) one.by = Holding::Deviation;
@@ -358,18 +438,21 @@ class Look {
   }
 
   const HeldQuestion& q_;
+  const InputMesh& input_;
   const Mesh& mesh_;
   Index element_;
   std::span<const std::uint8_t> standing_;
   ThreadPool* pool_;
+  const Asking& asking_;
   std::vector<Index> judged_, visited_;
+  mutable std::optional<std::pair<StandingRule, std::shared_ptr<const Domain>>> last_domain_{};  // it takes longer than a trial
 };
 
 /// The worst element of all, and of those with a corner that is not fixed; kNoIndex: there is none.
 std::pair<Index, Index> worst_elements(const HeldQuestion& question, ThreadPool* pool) {
-  const Mesh& mesh = question.input->mesh;
+  const Mesh& mesh = question.task.input->mesh;
   std::vector<double> qualities(mesh.elements.size());
-  element_qualities(question.input->quality_context(), question.positions, question.metric, pool, qualities);
+  element_qualities(question.task.input->quality_context(), question.positions, question.task.metric, pool, qualities);
   Index worst = kNoIndex, movable = kNoIndex;
   for (Index e = 0; e < qualities.size(); ++e) {
     if (std::isnan(qualities[e])) continue;
@@ -387,12 +470,13 @@ std::optional<HeldMinimum> held_minimum(const HeldQuestion& question, ThreadPool
                                         const std::function<bool()>& go_on) {
   const auto [worst, movable] = worst_elements(question, pool);
   if (worst == kNoIndex) return std::nullopt;
-  const std::vector<std::uint8_t> standing = standing_vertices(*question.input, question.rule, question.domain);
-  HeldMinimum found = Look(question, worst, standing, pool).find(progress, go_on);
-  if (found.change || movable == kNoIndex || movable == worst || found.rises()) return found;
+  const std::vector<std::uint8_t> standing = standing_vertices(*question.task.input, question.rule, question.task.domain.get());
+  const Asking asking{progress, go_on};
+  HeldMinimum found = Look(question, worst, standing, pool, asking).find();
+  if (found.change || movable == kNoIndex || movable == worst || found.rises() || !found.untried.empty()) return found;
   const bool stays = std::ranges::all_of(found.vertices, [](const HeldVertex& one) { return is_fixed(one.by); });
   if (!stays) return found;
-  HeldMinimum next = Look(question, movable, standing, pool).find(progress, go_on);
+  HeldMinimum next = Look(question, movable, standing, pool, asking).find();
   next.ceiling = {found.element, found.quality};
   return next;
 }

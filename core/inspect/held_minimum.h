@@ -12,29 +12,29 @@
 #include <vector>
 
 #include "core/base/progress.h"
-#include "core/input/input_mesh.h"
 #include "core/joint/joint_clusters.h"
-#include "core/quality/metric.h"
 #include "core/reference/domain.h"
 #include "core/reference/standing.h"
-#include "core/search/parameters.h"
+#include "core/search/untangling.h"
+#include "core/smooth/task.h"
 
 namespace dmoscope {
 
 /// What keeps a vertex where it is.
 enum class Holding : std::uint8_t {
-  Nothing,    // it is free
-  Slides,     // it slides, and gains nothing more
-  Deviation,  // it slides, and the bound of deviation ends its way
-  Tilt,       // it slides, and faces would lean over the input by more than 60 degrees
-  Boundary,   // the boundary stays
-  Interface,  // the interface between materials stays
-  Named,      // the file gives it a meaning
-  Corner,     // the boundary, or a feature edge, turns there by more than the corner angle
-  Feature,    // feature edges meet or end there, or keep it on them
-  Touching,   // parts of the mesh touch there
-  Hand,       // it was fixed by hand
-  Neighbours  // no single move gains, joint ones do
+  Nothing,     // it is free
+  Slides,      // it slides, and gains nothing more
+  Deviation,   // it slides, and the bound of deviation ends its way
+  Tilt,        // it slides, and faces would lean over the input by more than 60 degrees
+  Boundary,    // the boundary stays
+  Interface,   // the interface between materials stays
+  Named,       // the file gives it a meaning
+  Corner,      // the boundary, or a feature edge, turns there by more than the corner angle
+  Feature,     // feature edges meet or end there, or keep it on them
+  Touching,    // parts of the mesh touch there
+  Hand,        // it was fixed by hand
+  Neighbours,  // no single move gains, joint ones do
+  Threshold    // of two aims: beyond it the first does not count
 };
 /// Does it keep a vertex from a place that would be better?
 [[nodiscard]] inline bool is_fixed(Holding by) { return by != Holding::Nothing && by != Holding::Slides; }
@@ -42,6 +42,9 @@ enum class Holding : std::uint8_t {
 [[nodiscard]] inline bool is_gain(double before, double after) { return after - before > 1e-4 + 0.02 * std::abs(before); }
 /// Elements that hold one another are equally bad but for the last digits.
 [[nodiscard]] inline bool is_as_bad(double quality, double than) { return quality <= (1.0 + 1e-4) * than; }
+
+/// Of HeldMinimum::untried: the first of all, with which nothing was tried.
+inline constexpr std::string_view kMoreIterations = "more iterations";
 
 /// For machines: "free", "slides", "boundary".
 [[nodiscard]] std::string_view name(Holding holding) noexcept;
@@ -57,8 +60,10 @@ struct HeldVertex {
 struct HoldSwitch {
   std::string name, value;  // "boundary", "slide"
   Holding frees = Holding::Nothing;
+  double number = 0.0;   // the value, of what is a number; of "combine" the threshold
+  std::string beside{};  // what the command says besides: a size function
   /// "boundary slide", "unfix 4 7"
-  [[nodiscard]] std::string command() const { return name + ' ' + value; }
+  [[nodiscard]] std::string command() const { return name + ' ' + value + (beside.empty() ? "" : ' ' + beside); }
   /// On the command line: "--boundary slide".
   [[nodiscard]] std::string option() const;
 };
@@ -72,9 +77,11 @@ struct HeldMinimum {
   std::optional<HoldSwitch> change;                 // what would free it
   std::optional<HoldSwitch> also;                   // where that alone gains nothing: what must go with it
   double changed = 0.0;                             // the same with these
+  std::optional<double> whole;                      // the mesh's minimum, but for ceilings, once all of it was visited with these
   std::vector<HoldSwitch> in_vain;                  // what was tried and gains nothing here
   std::optional<std::pair<Index, double>> ceiling;  // an element that is worse, and that nothing moves
   std::shared_ptr<const JointCluster> joint;        // what joint moves make of the worst that they can change; null where they cannot be
+  std::vector<std::string_view> untried;            // what the look did not come to: "more iterations", ...; empty: it came to its end
 
   /// The switches that would free it together: "boundary slide".
   [[nodiscard]] std::vector<std::string> commands() const;
@@ -97,6 +104,7 @@ struct HeldMinimum {
   [[nodiscard]] std::string hold_sentence(bool as_option) const;
   [[nodiscard]] std::string shares() const;
   [[nodiscard]] std::string tried(bool as_option) const;
+  [[nodiscard]] std::string gain(bool as_option) const;
 };
 
 /// Where vertices slide by a rule, see domain_for(): for those who keep domains.
@@ -104,26 +112,26 @@ using DomainSource = std::function<std::shared_ptr<const Domain>(const StandingR
 
 /// Of what the question is. What it points to must outlive the call.
 struct HeldQuestion {
-  std::shared_ptr<const InputMesh> input;
+  SmoothingTask task;  // of the run; its colouring is not looked at
   std::span<const Vec3> positions;
   std::span<const std::uint8_t> fixed;  // see Run::fixed
   std::span<const Index> by_hand;       // what the user fixed
   StandingRule rule;
-  const Domain* domain = nullptr;  // by that rule
-  double max_deviation = 0.0;      // a share of the diagonal
-  std::string_view method = "dmo";
-  Metric metric = Metric::MeanRatio;
-  SearchParameters search{};
+  double max_deviation = 0.0;        // a share of the diagonal
+  Untangling untangling{};           // of visits in the trials
   DomainSource domains{};            // empty: each is made anew
-  std::string joint_phase{};         // what "then" must be told for joint moves; empty: the run has them
+  bool joint = true;                 // can there be joint moves beside what the run does?
+  std::string joint_phase{};         // what "then" must be told for them; empty: the run has them
   std::size_t joint_at_most{};       // see joint_hold
   bool joint_where_it_rises = true;  // are joint moves tried, too, where more iterations raise the minimum?
+  bool whole = true;                 // is what frees the element tried on the whole mesh?
 };
 
 /// Looks at the worst element: what keeps its vertices, and what each switch that concerns them would gain. For that the vertices around
-/// it are visited some times by the product's own smoother, and moved jointly, on a copy of the positions. Where no switch frees an element
-/// that cannot move, it looks at the worst that can. None for a mesh without a quality. Costs a look at each element, and a Domain for each
-/// switch. Throws Cancelled, also once `go_on`, which is asked between two trials, says no.
+/// it are visited some times by the product's own smoother, and moved jointly, on a copy of the positions; what gains there is tried on the
+/// whole mesh. Only what can be is tried. Where no switch frees an element that cannot move, it looks at the worst that can. None for a
+/// mesh without a quality. Costs a look at each element, and a Domain for each switch. A cancel, and `go_on`, which is asked between two
+/// trials, end the look: `untried` says what it did not come to.
 [[nodiscard]] std::optional<HeldMinimum> held_minimum(const HeldQuestion& question, ThreadPool* pool, Progress& progress,
                                                       const std::function<bool()>& go_on = {});
 

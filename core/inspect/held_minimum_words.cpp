@@ -16,9 +16,9 @@ namespace dmoscope {
 
 namespace {
 
-constexpr std::array<std::string_view, 12> kNames{"free", "slides", "deviation", "tilt",     "boundary", "interface",
-                                                  "file", "corner", "feature",   "touching", "hand",     "neighbours"};
-constexpr std::array<std::string_view, 12> kPhrases{"nothing",
+constexpr std::array<std::string_view, 13> kNames{"free",   "slides",  "deviation", "tilt", "boundary",   "interface", "file",
+                                                  "corner", "feature", "touching",  "hand", "neighbours", "threshold"};
+constexpr std::array<std::string_view, 13> kPhrases{"nothing",
                                                     "nothing: it slides",
                                                     "the bound of deviation",
                                                     "how far faces may lean",
@@ -29,7 +29,8 @@ constexpr std::array<std::string_view, 12> kPhrases{"nothing",
                                                     "feature edges",
                                                     "parts that touch there",
                                                     "what is fixed by hand",
-                                                    "its neighbours"};
+                                                    "its neighbours",
+                                                    "the threshold of two aims"};
 
 }  // namespace
 
@@ -105,13 +106,16 @@ std::string HeldMinimum::tried(bool as_option) const {
 }
 
 std::string HeldMinimum::sentence(bool as_option) const {
-  const std::string text = hold_sentence(as_option);
-  if (!joint || change || rises()) return text;
-  if (!is_of_another()) return text + ' ' + certificate_sentence(*joint);
-  return text +
-         fmt::format(" Of those that moves can change, element {} at {} is the worst. ", joint->worst_element, four_digits(joint->before)) +
-         (is_gain(joint->before, joint->after) ? fmt::format("Joint moves raise it to about {:.2g}.", joint->after)
-                                               : certificate_sentence(*joint));
+  std::string text = hold_sentence(as_option);
+  if (joint && !change && !rises()) {
+    if (is_of_another())
+      text +=
+          fmt::format(" Of those that moves can change, element {} at {} is the worst.", joint->worst_element, four_digits(joint->before));
+    text += is_of_another() && is_gain(joint->before, joint->after) ? fmt::format(" Joint moves raise it to about {:.2g}.", joint->after)
+                                                                    : ' ' + certificate_sentence(*joint);
+  }
+  if (untried.empty()) return text;
+  return text + fmt::format(" Not looked at further: {}{}.", fmt::join(untried, ", "), as_option ? " (--hints full does)" : "");
 }
 
 std::string HeldMinimum::hold_sentence(bool as_option) const {
@@ -120,15 +124,27 @@ std::string HeldMinimum::hold_sentence(bool as_option) const {
     text = fmt::format("No switch frees element {} at {}, whose vertices all stay. ", ceiling->first, four_digits(ceiling->second));
   text += fmt::format("{} {} at {} is {}", ceiling ? "Of those that move element" : "Element", element, four_digits(quality),
                       ceiling ? "the worst" : "the worst of all");
+  const bool all_tried = untried.empty();
+  if (!all_tried && !change && !rises() && is_fixed(by))
+    return text + fmt::format(". Held by {}: {}.", phrase(by), shares()) + tried(as_option);
+  if (!all_tried && untried.front() == kMoreIterations) return text + ". Its vertices can move.";
   if (!change && rises()) return text + fmt::format(", and nothing holds it: more iterations raise it to about {:.2g} here.", unchanged);
   if (!change && !is_fixed(by))
     return text + (unchanged > quality ? ". Nothing holds it: more iterations raise it slowly." : ". It is at a local optimum.") +
            tried(as_option);
   text += fmt::format(". It is held by {} ({})", phrase(by), shares());
   if (!change) return text + '.' + tried(as_option);
-  text += fmt::format(": {} would raise it from {:.2g} to about {:.2g} here",
-                      as_option ? options() : fmt::format("{}", fmt::join(commands(), " with ")), quality, changed);
-  return text + (rises() ? fmt::format(", more iterations alone to {:.2g}.", unchanged) : ".");
+  return text + ": " + gain(as_option) + (rises() ? fmt::format(", more iterations alone to {:.2g}.", unchanged) : ".");
+}
+
+/// What the change gains, as far as it was tried.
+std::string HeldMinimum::gain(bool as_option) const {
+  const std::string with = as_option ? options() : fmt::format("{}", fmt::join(commands(), " with "));
+  if (whole && is_gain(quality, *whole))
+    return fmt::format("{} would raise it from {:.2g} to about {:.2g} at least (tried on the whole mesh, from here on)", with, quality,
+                       *whole);
+  const std::string text = fmt::format("{} would raise it locally from {:.2g} to about {:.2g}", with, quality, changed);
+  return whole ? text + fmt::format(", but some iterations of the whole mesh leave its minimum at {}", four_digits(*whole)) : text;
 }
 
 }  // namespace dmoscope

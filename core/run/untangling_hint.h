@@ -19,10 +19,14 @@ struct UntanglingHint {
   [[nodiscard]] std::string sentence() const;
 };
 
-/// None where none of those that cost little leaves fewer than `run`. Tries each from the input on, with the run's other parameters; some 2
-/// million visits each at most. Throws Cancelled, also once `go_on`, which is asked every now and then, says no.
-[[nodiscard]] std::optional<UntanglingHint> untangling_hint(const Run& run, std::shared_ptr<const InputMesh> input,
-                                                            std::shared_ptr<ThreadPool> pool, Progress& progress,
-                                                            const std::function<bool()>& go_on = {});
+struct UntanglingLook {
+  std::optional<UntanglingHint> hint{};  // none where none of those that cost little leaves fewer
+  bool to_the_end = true;
+};
+
+/// Tries each method that can be from the input on, with the run's other parameters; some 2 million visits each at most. A cancel, and
+/// `go_on`, which is asked every now and then, end the look, but not what it has found by then.
+[[nodiscard]] UntanglingLook untangling_hint(const Run& run, std::shared_ptr<ThreadPool> pool, Progress& progress,
+                                             const std::function<bool()>& go_on = {});
 
 }  // namespace dmoscope

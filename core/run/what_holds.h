@@ -9,8 +9,13 @@
 
 namespace dmoscope {
 
-/// Of the metric that the run optimises, see held_minimum(). Brings the positions. Throws Cancelled and DeviceError.
-[[nodiscard]] std::optional<HeldMinimum> what_holds(const Run& run, ThreadPool* pool, Progress& progress, const DomainSource& domains = {},
-                                                    const std::function<bool()>& go_on = {});
+struct HoldLook {
+  DomainSource domains{};
+  std::function<bool()> go_on{};  // see held_minimum(); empty: to the end
+  bool at_rest = false;           // nobody has asked: it is not to take long, and holders are drawn
+};
+
+/// Of the metric that the run optimises, see held_minimum(). Brings the positions. Throws DeviceError.
+[[nodiscard]] std::optional<HeldMinimum> what_holds(const Run& run, ThreadPool* pool, Progress& progress, const HoldLook& look = {});
 
 }  // namespace dmoscope

@@ -48,14 +48,10 @@ bool Endings::find_hint(Session& session, const std::function<bool()>& go_on) {
   Known& known = known_[static_cast<std::size_t>(there - known_.data())];
   known.tried = true;
   Progress unwatched;
-  try {
-    auto hint = untangling_hint(session.run(active), session.run(active).shared_input(), session.pool(), unwatched, go_on);
-    if (!hint) return false;
-    known.ending = std::make_shared<const RunEnding>(RunEnding{known.ending->left, std::move(hint)});
-  } catch (const Cancelled&) {
-    known.tried = false;
-    return false;
-  }
+  UntanglingLook look = untangling_hint(session.run(active), session.pool(), unwatched, go_on);
+  known.tried = look.to_the_end;
+  if (!look.to_the_end || !look.hint) return false;
+  known.ending = std::make_shared<const RunEnding>(RunEnding{known.ending->left, std::move(look.hint)});
   return true;
 }
 

@@ -44,7 +44,8 @@ std::shared_ptr<const HeldMinimum> Holds::find(Session& session, std::size_t ind
   if (const Known* known = find_known(session, index)) return known->found;
   const Run& run = session.run(index);
   const auto domains = [&](const StandingRule& rule) { return domain(run.shared_input(), rule); };
-  auto found = what_holds(run, session.pool().get(), progress, domains, go_on);
+  auto found = what_holds(run, session.pool().get(), progress, {domains, go_on, static_cast<bool>(go_on)});
+  if (found && !found->untried.empty()) throw Cancelled();
   const auto here = session.identity(index);
   std::erase_if(known_, [&](const Known& known) { return known.run.expired() || known.run.lock() == here.lock(); });
   known_.push_back({here, run.path(), run.moment(), found ? std::make_shared<const HeldMinimum>(std::move(*found)) : nullptr});

@@ -135,7 +135,7 @@ TEST(Recipe, BestIsNoLowerThanDmoAloneAndSaysWhatHoldsIt) {
   for (const std::string kind : {"random", "mixed", "tetrahedra"}) {
     const std::string input = made(folder, kind), alone = folder / (kind + "_dmo.vtk"), best = folder / (kind + "_best.vtk");
     (void)run({"smooth", input, "-o", alone, "--until-converged"});
-    const Json told = json_of(run({"smooth", input, "-o", best, "--recipe", "best", "--json"}));
+    const Json told = json_of(run({"smooth", input, "-o", best, "--recipe", "best", "--hints", "full", "--json"}));
     EXPECT_GE(judge(best).minimum, judge(alone).minimum) << kind;
     EXPECT_EQ(told["then"], "joint,mean");
     EXPECT_FALSE(told["joint_over"].is_null());

@@ -223,13 +223,5 @@ TEST(WhatHolds, AMethodThatSlidesNothingIsOfferedNothing) {
   EXPECT_FALSE(held.change);
 }
 
-TEST(WhatHolds, CanBeCancelled) {
-  const dmoscope::Run run = run_of(spoiled(3, 0));
-  Progress progress;
-  EXPECT_THROW((void)what_holds(run, nullptr, progress, {}, [] { return false; }), Cancelled);
-  progress.request_cancel();
-  EXPECT_THROW((void)what_holds(run, nullptr, progress), Cancelled);
-}
-
 }  // namespace
 }  // namespace dmoscope

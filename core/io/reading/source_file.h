@@ -97,6 +97,7 @@ class SourceFile {
 
   /// A file whose fields were read with it, and which is never written; empty: none.
   [[nodiscard]] const std::string& beside() const noexcept { return beside_; }
+  [[nodiscard]] std::size_t first_beside() const noexcept { return first_beside_; }  // see set_beside()
   /// The file that a field of the mesh was read from.
   [[nodiscard]] std::filesystem::path file_of_field(std::size_t field) const {
     return beside_.empty() || field < first_beside_ ? path_ : path_.parent_path() / beside_;

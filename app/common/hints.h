@@ -1,0 +1,35 @@
+#pragma once
+// What is looked into once a run is done, beside what was asked for.
+
+#include <cstdint>
+#include <exception>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/run/hint_budget.h"
+
+namespace dmoscope::app {
+
+/// On: for a tenth of the run's time. Full: as long as it takes.
+enum class Hints : std::uint8_t { On, Full, Off };
+/// Throws UsageError.
+[[nodiscard]] Hints parse_hints(std::string_view word);
+
+[[nodiscard]] inline HintBudget budget_of(Hints hints, double run_seconds) {
+  return hints == Hints::On ? HintBudget::of_run(run_seconds) : HintBudget();
+}
+
+/// Does what nobody waits for. What was asked for is done by then, and stays done whatever comes of this: `warn` is told.
+template <class Look, class Warn>
+void look_afterwards(std::string_view what, const Look& look, const Warn& warn) {
+  try {
+    look();
+  } catch (const Cancelled&) {
+  } catch (const std::exception& error) {
+    warn(fmt::format("{} is not known: {}", what, error.what()));
+  }
+}
+
+}  // namespace dmoscope::app

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "core/base/number_text.h"
 #include "tests/gui/headless_test.h"
 #include "tests/gui/squares.h"
 #include "tests/support/temporary_folder.h"

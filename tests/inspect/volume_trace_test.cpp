@@ -281,16 +281,33 @@ TEST_P(VolumeTraces, OfTwoAims) {
   EXPECT_EQ(follower.fast, 0U);
 }
 
-TEST(VolumeTrace, OfElementsThatAreNearToInvertedInside) {
-  const auto input = testing::input(test::twisted_block(4, test::Fill::Hexahedra, 2));
-  std::uint64_t halved = 0;
+/// Where the best candidate would invert one of four hexahedra inside: the free vertex is the last.
+TEST(VolumeTrace, OfAWayThatIsHalved) {
+  Mesh mesh;
+  mesh.positions = {{0.8514, 0.8539, 1.1988},   {1.2936, -0.8836, -0.7547}, {-0.7375, 1.0251, -0.9698}, {-1.1629, -1.2739, 1.0896},
+                    {1.2509, -0.3208, 0.2392},  {-0.2917, 0.7289, -0.1532}, {0.0084, -0.1108, 0.6599},  {-0.3226, 0.0665, -1.3378},
+                    {-0.2358, -0.7168, 0.0374}, {-1.0174, 0.2277, 0.0618},  {0.2875, 0.5104, -0.0024},  {0.5801, -0.4962, 0.2466},
+                    {-0.216, 0.1922, 0.6706},   {-0.3115, -0.163, -0.6117}, {-0.1275, -0.017, -0.1595}};
+  for (const auto& corners : {std::vector<Index>{0, 5, 10, 4, 6, 12, 14, 11}, std::vector<Index>{1, 4, 10, 7, 8, 11, 14, 13},
+                              std::vector<Index>{2, 7, 10, 5, 9, 13, 14, 12}, std::vector<Index>{3, 6, 11, 8, 9, 12, 14, 13}})
+    mesh.elements.add(ElementKind::Hexahedron, corners);
+  const auto input = testing::input(mesh);
+  ASSERT_EQ(test::inverted_inside(mesh, mesh.positions), 0U);
   for (const Precision precision : {Precision::Float, Precision::Double}) {
     VolumeFollower follower(input, {.search = {.precision = precision}});
-    follower.follow(3);
-    halved += follower.halved;
-  }
-  if (!testing::kSanitized) {
-    EXPECT_GT(halved, 0U) << "or there is nothing to see";
+    follower.follow(1);
+    EXPECT_EQ(follower.halved, testing::kSanitized ? follower.halved : 1U);
+    const VolumeTrace trace =
+        trace_volume_visit(*input, mesh.positions, input->topology.boundary(), Metric::MeanRatio, {.precision = precision}, 14);
+    ASSERT_GT(trace.halvings, 0);
+    EXPECT_NEAR(length(trace.step), length(trace.found) / (1 << trace.halvings), 1e-12);
+    EXPECT_GT(trace.after.quality, trace.before.quality);
+    std::vector<Vec3> all_of_it = mesh.positions, moved = mesh.positions;
+    all_of_it[14] = all_of_it[14] + trace.found;
+    moved[14] = trace.to;
+    EXPECT_EQ(test::inverted_inside(mesh, all_of_it), 1U);
+    EXPECT_EQ(test::inverted_inside(mesh, moved), 0U);
+    EXPECT_NE(trace.sentence().find("of the way, since all of it would invert an element inside"), std::string::npos);
   }
 }
 

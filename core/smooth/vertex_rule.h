@@ -72,9 +72,10 @@ void for_classes(const Colouring& colouring, std::uint64_t first, std::uint64_t 
 }
 
 /// A rule says where one vertex goes, from the positions alone and, if it has a begin(const Sweep&), the iteration. Nowhere: it stays.
-/// Rule::Scratch is what it works in, kept from one vertex to the next; no result may depend on what is left there. Besides it may have
-/// - static constexpr bool kDependsOnStarAlone = true: the target depends only on the positions of the star's vertices and on
-///   Sweep::untangling; so a vertex that stayed is not visited again until a vertex of its star moves;
+/// The target depends only on the positions of the star's vertices and on Sweep::untangling, so that a vertex that stayed is not visited
+/// again until a vertex of its star moves. Rule::Scratch is what it works in, kept from one vertex to the next; no result may depend on
+/// what is left there. Besides it may have
+/// - static constexpr bool kDependsOnIteration = true: the target also depends on Sweep::iteration, and nobody is passed over;
 /// - others(Index vertex): the other vertices of its star, or none where it has not noted them;
 /// - static constexpr std::size_t kGrain: how many vertices a thread takes at once, if not 128.
 template <class Rule>
@@ -135,7 +136,7 @@ class RuleSmoother final : public Smoother {
   }
 
  private:
-  static constexpr bool kSleeps = requires { requires Rule::kDependsOnStarAlone; };
+  static constexpr bool kSleeps = !requires { requires Rule::kDependsOnIteration; };
 
   bool visit(Index vertex, std::span<Vec3> positions, typename Rule::Scratch& room, [[maybe_unused]] std::uint64_t& passed_over) {
     if constexpr (kSleeps) {

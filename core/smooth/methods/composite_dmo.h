@@ -211,8 +211,6 @@ class CompositeRule : public StarJudge<Frame> {
     Star star;
     StarPoints<Frame> points;
   };
-  /// The visit of a vertex depends only on the positions of its elements' vertices: see RuleSmoother.
-  static constexpr bool kDependsOnStarAlone = true;
   static constexpr std::size_t kGrain = std::is_same_v<Frame, Plane> ? 32 : 1;  // in space a visit may take half a millisecond
   CompositeRule(const InputMesh& input, CompositeObjective composite, const SearchParameters& parameters);
   /// For many visits.

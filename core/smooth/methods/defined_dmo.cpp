@@ -18,7 +18,6 @@ template <class Frame>
 class DefinedDmo {
  public:
   using Scratch = typename DefinedSearch<Frame>::Scratch;
-  static constexpr bool kDependsOnStarAlone = true;
   static constexpr std::size_t kGrain = std::is_same_v<Frame, Plane> ? 64 : 8;
 
   explicit DefinedDmo(const SmoothingTask& task)
@@ -67,7 +66,6 @@ class TargetVolumeDmo {
     VolumeStarSearch::Points points;
     DefinedDmo<Space>::Scratch alone;
   };
-  static constexpr bool kDependsOnStarAlone = true;
   static constexpr std::size_t kGrain = 8;
   TargetVolumeDmo(const SmoothingTask& task, std::shared_ptr<const TetrahedronTargets> targets)
       : alone_(task),

@@ -43,6 +43,7 @@ void for_corners(const Star<double>& star, const Take& take) {
 class Dvr {
  public:
   using Scratch = StarOnLine;
+  static constexpr bool kDependsOnIteration = true;
   explicit Dvr(const SmoothingTask& task) : mesh_(*task.input), options_(task.options) {}
 
   void begin(const Sweep& sweep) {

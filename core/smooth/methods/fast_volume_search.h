@@ -57,7 +57,6 @@ class FastVolumeSearch {
     VolumeStarSearch::Points points;
     VolumeStar<double> star;  // for the plain search
   };
-  static constexpr bool kDependsOnStarAlone = true;
   static constexpr std::size_t kGrain = 16;
   explicit FastVolumeSearch(const SmoothingTask& task)
       : mesh_(*task.input),

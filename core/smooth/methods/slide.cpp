@@ -379,7 +379,6 @@ namespace {
 /// Nothing moves by it.
 struct NobodyIsFree {
   struct Scratch {};
-  static constexpr bool kDependsOnStarAlone = true;
   static constexpr std::size_t kGrain = 32;
   void begin(const Sweep& /*sweep*/) {}
   [[nodiscard]] std::optional<Vec3> target(PositionView /*positions*/, Index /*vertex*/, Scratch& /*scratch*/) const {

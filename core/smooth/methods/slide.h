@@ -113,7 +113,6 @@ class SlidingRule {
     typename Rule::Scratch free;
     typename Slide<Frame>::Scratch slide;
   };
-  static constexpr bool kDependsOnStarAlone = requires { requires Rule::kDependsOnStarAlone; };
   static constexpr std::size_t kGrain = std::min<std::size_t>(grain_of<Rule>(), 32);
   SlidingRule(Rule rule, Slide<Frame> slide) : rule_(std::move(rule)), slide_(std::move(slide)) {}
   void begin(const Sweep& sweep) {

@@ -19,6 +19,7 @@ class VolumeDvr {
     VolumeStar<double> star;
     std::vector<LineCorner> corners;
   };
+  static constexpr bool kDependsOnIteration = true;
   explicit VolumeDvr(const SmoothingTask& task) : mesh_(*task.input), options_(task.options) {}
 
   void begin(const Sweep& sweep) {

@@ -1,6 +1,7 @@
 #include "core/run/best_state.h"
 
 #include <algorithm>
+#include <limits>
 #include <tuple>
 
 #include "core/smooth/execution/method_table.h"
@@ -10,7 +11,8 @@ namespace dmoscope {
 BestState::BestState(const RunParameters& parameters)
     : rule_(parameters.combination                     ? Rule::Last
             : method_info(parameters.method).optimises ? Rule::MinimumThenMean
-                                                       : Rule::Values) {}
+                                                       : Rule::Values),
+      least_rise_(parameters.then_mean || parameters.then_joint ? std::numeric_limits<double>::denorm_min() : kLeastRise) {}
 
 void BestState::take(const IterationRecord& record) {
   if (!first_ && !is_better(record)) return;
@@ -26,7 +28,7 @@ bool BestState::rises(const IterationRecord& record) const {
   // The worst element may have a part between fixed vertices that nothing changes, so that joint moves raise others alone.
   if (record.joint && record.moved > 0 && !(now.minimum < minimum_) && !(now.movable_minimum < movable_)) return true;
   // As differences: where nothing is movable both are infinite, and that is no rise.
-  return now.minimum - minimum_ >= kLeastRise || now.movable_minimum - movable_ >= kLeastRise;
+  return now.minimum - minimum_ >= least_rise_ || now.movable_minimum - movable_ >= least_rise_;
 }
 
 bool BestState::is_better(const IterationRecord& record) {

@@ -14,7 +14,8 @@ inline constexpr double kLeastRise = 1e-6;
 
 /// The best iteration, from records that are told one after another, the input's first.
 /// - Of a method that optimises: the one of greatest mean since an element was last untangled, a minimum last rose by kLeastRise, or joint
-///   moves raised what they can change. The minimum does not rise noticeably any more there, but goes on to cost the mean.
+///   moves raised what they can change. The minimum does not rise noticeably any more there, but goes on to cost the mean. Where another
+///   phase follows, any rise counts: it begins with the best state, and must not lower the minimum.
 /// - Of another method: fewest inverted elements, then greatest minimum, then greatest movable minimum, then greatest mean.
 /// - Of a run for two aims, which gives up some of the first for the second: the last.
 /// Among equals the last.
@@ -30,6 +31,7 @@ class BestState {
   [[nodiscard]] bool rises(const IterationRecord& record) const;
 
   Rule rule_;
+  double least_rise_;  // Rule::MinimumThenMean
   bool first_ = true;
   std::uint64_t best_ = 0;
   Statistics statistics_;                 // of the best

@@ -67,6 +67,16 @@ TEST(BestState, WhatIsNoRiseIsNoReasonToGiveUpTheMeanUnlessItAddsUp) {
   EXPECT_EQ(best_iteration(dmo, course({{0.4, 0.7}, {0.4 + 4e-7, 0.6}, {0.4 + 8e-7, 0.5}, {0.4 + 12e-7, 0.4}})), 3U);
 }
 
+TEST(BestState, NothingOfTheMinimumIsGivenUpWhereAPhaseFollows) {
+  RunParameters mean, joint;
+  mean.then_mean.emplace();
+  joint.then_joint.emplace();
+  for (const RunParameters& dmo : {mean, joint}) {
+    EXPECT_EQ(best_iteration(dmo, course({{0.4, 0.7}, {0.4 + 4e-7, 0.6}, {0.4 + 4e-7, 0.5}})), 1U);
+    EXPECT_EQ(best_iteration(dmo, course({{0.4, 0.7}, {0.4 + 4e-7, 0.5}, {0.4 + 4e-7, 0.6}, {0.4 + 4e-7, 0.55}, {0.4, 0.7}})), 2U);
+  }
+}
+
 TEST(BestState, OfOtherMethodsEveryValueCountsInTurn) {
   const RunParameters laplace{.method = "laplace"};
   EXPECT_EQ(best_iteration(laplace, course({{0.3, 0.8}, {0.5, 0.7}, {0.4, 0.9}})), 1U);

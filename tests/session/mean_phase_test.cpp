@@ -161,15 +161,12 @@ TEST_P(MeanPhaseOf, IsTheFirstPhaseBeforeItBegins) {
 class MeanPhaseAfterWear : public ::testing::TestWithParam<Cells> {};
 INSTANTIATE_TEST_SUITE_P(Meshes, MeanPhaseAfterWear, ::testing::Values(Cells::Triangles, Cells::Mixed));
 
-/// The best of a first phase, told by plain loops: of the iterations since the minimum last rose by 1e-6, the one of greatest mean.
+/// The best of a first phase: of the iterations of greatest minimum the one of greatest mean, the last of these.
 std::uint64_t best_by_hand(std::span<const IterationRecord> all) {
-  std::size_t begin = 0;
+  const auto worth = [](const IterationRecord& record) { return std::pair(record.statistics.movable_minimum, record.statistics.mean); };
+  std::size_t best = 0;
   for (std::size_t i = 1; i < all.size(); ++i)
-    if (all[i].statistics.movable_minimum - all[begin].statistics.movable_minimum >= 1e-6) begin = i;
-  std::size_t best = begin;
-  for (std::size_t i = begin; i < all.size(); ++i)
-    if (all[i].statistics.mean >= all[best].statistics.mean && all[i].statistics.movable_minimum >= all[begin].statistics.movable_minimum)
-      best = i;
+    if (worth(all[i]) >= worth(all[best])) best = i;
   return best;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What is looked into once a run is done, beside what was asked for.
+// Hints after a run: how they are asked for, how long they may take, and that they change nothing.
 
 #include <cstdint>
 #include <exception>

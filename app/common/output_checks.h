@@ -12,7 +12,7 @@ void require_writable(const std::filesystem::path& path);
 /// Throws UsageError when `path`, the value of `option`, is the file `other` or one that a mesh there is read from, also through links and
 /// when neither exists yet. An empty path is no file.
 void require_another_file(const std::filesystem::path& path, std::string_view option, const std::filesystem::path& other);
-/// The same of a mesh that is written, too: nor may `path` be one that is written with it.
+/// Throws UsageError when `path`, the value of `option`, is a file that `mesh` is read from or that is written together with it.
 void require_another_output(const std::filesystem::path& path, std::string_view option, const std::filesystem::path& mesh);
 
 /// require_writable, and UsageError when no mesh format has this extension, or a file that `input` is read from would be overwritten,

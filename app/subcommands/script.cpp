@@ -43,7 +43,7 @@ struct ScriptSubcommandOptions {
 
 constexpr std::size_t kMostScript = std::size_t{1} << 26U;
 
-/// Of a stream that may never end.
+/// Reads a whole stream. Throws InputError beyond kMostScript bytes, since a pipe may never end.
 std::string text_of(std::istream& stream, const std::string& name) {
   std::string text;
   for (std::array<char, 65536> part{}; stream.read(part.data(), part.size()), stream.gcount() > 0;) {

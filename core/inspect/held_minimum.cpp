@@ -147,7 +147,7 @@ class Look {
         found.changed = there;
       }
   }
-  /// What the first aim alone would gain: up to there the threshold can be raised.
+  /// Tries the first aim without the second: the threshold can be raised to what it reaches.
   void try_threshold(HeldMinimum& found, double& best) const {
     Conditions alone = conditions();
     alone.combination.reset();

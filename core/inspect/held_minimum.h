@@ -43,7 +43,7 @@ enum class Holding : std::uint8_t {
 /// Elements that hold one another are equally bad but for the last digits.
 [[nodiscard]] inline bool is_as_bad(double quality, double than) { return quality <= (1.0 + 1e-4) * than; }
 
-/// Of HeldMinimum::untried: the first of all, with which nothing was tried.
+/// The first entry of HeldMinimum::untried where nothing was tried.
 inline constexpr std::string_view kMoreIterations = "more iterations";
 
 /// For machines: "free", "slides", "boundary".

@@ -137,7 +137,7 @@ std::string HeldMinimum::hold_sentence(bool as_option) const {
   return text + ": " + gain(as_option) + (rises() ? fmt::format(", more iterations alone to {:.2g}.", unchanged) : ".");
 }
 
-/// What the change gains, as far as it was tried.
+/// Says how far the change raises the minimum, on the whole mesh where that was tried.
 std::string HeldMinimum::gain(bool as_option) const {
   const std::string with = as_option ? options() : fmt::format("{}", fmt::join(commands(), " with "));
   if (whole && is_gain(quality, *whole))

@@ -326,7 +326,7 @@ class Look {
     }
   }
 
-  /// As RuleMesh does it.
+  /// Ends the visit at the longest step that confirm(place) allows, as RuleMesh::moved_if() moves the vertex.
   template <class Confirm>
   void end(const Confirm& confirm) {
     const auto halves = [&](Vec3 target) {

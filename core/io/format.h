@@ -71,7 +71,7 @@ struct FormatHandler {
 [[nodiscard]] const FormatHandler& exodus_format();
 [[nodiscard]] const FormatHandler& cgns_format();  // needs HDF5: not in every build
 
-/// What a mesh that is written takes the place of.
+/// The files of a mesh on the disk that a new one replaces.
 class FormerMesh {
  public:
   /// `path`: as the person named it.

@@ -388,7 +388,7 @@ Mesh read_mesh(const std::filesystem::path& path, const IoContext& context) {
 }
 
 bool writes_source_again(const std::filesystem::path& path, const Mesh& mesh) {
-  const FormatHandler* handler = by_extension(mesh_extension(path));
+  const FormatHandler* handler = written_by(path, mesh);
   return handler != nullptr && can_patch(mesh, *handler);
 }
 

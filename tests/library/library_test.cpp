@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <string>
@@ -439,6 +440,20 @@ TEST(Library, NewPlacesAreWrittenInTheFilesOwnFormat) {
       for (std::size_t k = 0; k < read.cell_groups().size(); ++k) EXPECT_EQ(written.cell_groups()[k].cells, read.cell_groups()[k].cells);
     }
   }
+}
+
+/// A CalculiX text named .msh is written as what it was.
+TEST(Library, NewPlacesAreWrittenUnderAnotherFormatsExtension) {
+  const std::string folder = ::testing::TempDir() + "/library_other";
+  (void)sheet_with_data(coarse_sheet(8)).write(folder + ".inp");
+  std::filesystem::rename(folder + ".inp", folder + ".msh");
+  const dmo::Mesh read = dmo::Mesh::read(folder + ".msh");
+  std::vector<double> places(read.positions(), read.positions() + 3 * read.vertex_count());
+  for (double& x : places) x = 2.0 * x;
+  (void)read.with_positions(places.data()).write(folder + "_new.msh");
+  const dmo::Mesh written = dmo::Mesh::read(folder + "_new.msh");
+  ASSERT_EQ(written.vertex_count(), read.vertex_count());
+  EXPECT_EQ(std::memcmp(written.positions(), places.data(), places.size() * sizeof(double)), 0);
 }
 
 TEST(Library, ATraceEndsWhereTheFirstVisitDoes) {

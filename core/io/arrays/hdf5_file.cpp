@@ -22,6 +22,7 @@ namespace {
 
 constexpr std::size_t kMostSizes = 8;         // of an array
 constexpr std::size_t kMostText = 1U << 16U;  // bytes of an attribute
+constexpr const char* kNoName = "\x01";       // of no link
 constexpr std::size_t kMostChildren = 1U << 20U;
 
 /// An identifier of the library, given back when it goes.
@@ -336,11 +337,17 @@ std::vector<std::string> Hdf5File::children(const std::string& group) {
   context_.progress.check();
   const H5Id properties(H5Gget_create_plist(id), H5Pclose);
   unsigned order = 0;
-  const bool known = H5Pget_link_creation_order(properties, &order) >= 0 && (order & H5P_CRT_ORDER_INDEXED) != 0;
+  const H5_index_t index =
+      H5Pget_link_creation_order(properties, &order) >= 0 && (order & H5P_CRT_ORDER_INDEXED) != 0 ? H5_INDEX_CRT_ORDER : H5_INDEX_NAME;
+  // In order of its own, for the table that it sorts is freed where reading it failed before it was filled (1.10.8).
+  H5G_info_t info{};
+  const bool dense = H5Gget_info(id, &info) >= 0 && info.storage_type == H5G_STORAGE_TYPE_DENSE;
+  const bool sound = H5Lexists(id, kNoName, H5P_DEFAULT) >= 0;  // all links of a small group decode
   hsize_t at = 0;
-  if (H5Literate(id, known ? H5_INDEX_CRT_ORDER : H5_INDEX_NAME, H5_ITER_INC, &at, add_name, &names) < 0) {
+  if (!sound || H5Literate(id, index, dense ? H5_ITER_NATIVE : H5_ITER_INC, &at, add_name, &names) < 0) {
     fail(fmt::format("group {}: damaged", shown_name(group)));
   }
+  if (dense && index == H5_INDEX_NAME) std::ranges::sort(names);
   return names;
 }
 

@@ -35,6 +35,7 @@ class JointClusters::Of final : public Base {
       state = std::move(next);
       return untangled;
     }
+    if (options.only_untangle) return std::nullopt;
     ClusterSearch<D> search(mesh_, positions, next, options, progress);
     std::optional<JointCluster> result = search.run();
     state = std::move(next);

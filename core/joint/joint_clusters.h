@@ -30,6 +30,7 @@ struct JointOptions {
   double gap = 2e-4;        // a cluster ends when its minimum is within this share of its bound
   bool push_first = false;  // first all free vertices together, down to `push_gap`: raises the mean as well
   double push_gap = 0.03;
+  bool only_untangle = false;       // and by the first attempts alone, which move few vertices
   bool beyond_minimum = false;      // goes on where the minimum is certified, with the next worst elements
   int max_steps = 150;              // Newton steps a solution
   std::size_t whole_at_most = 0;    // a cluster may become the whole mesh when this many vertices are free; 0: 80000, of volumes 3000

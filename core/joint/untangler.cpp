@@ -80,6 +80,7 @@ void Untangler<D>::attempt_all(const std::vector<Index>& inverted) {
   for (std::size_t tried = 0; tried < kAttempts.size(); ++tried) {
     if (next == kMostAttempts) return;
     const Attempt& attempt = kAttempts[next++ % kAttempts.size()];
+    if (options_.only_untangle && attempt.rings == kWhole) return;
     if (attempt.rings != rings) {
       std::vector<std::vector<Index>> others = patches(inverted, attempt.rings);
       same = attempt.rings > rings && others == groups;

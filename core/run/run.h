@@ -216,8 +216,10 @@ class Run {
   [[nodiscard]] std::optional<std::uint64_t> first_phase_best() const;
   [[nodiscard]] std::optional<std::uint64_t> joint_over() const;
   [[nodiscard]] bool joint_follows(std::uint64_t iteration) const;
+  [[nodiscard]] bool joint_untangling_follows(std::uint64_t iteration) const;
   [[nodiscard]] JointClusters& joint_clusters();
   void move_jointly(Progress& progress);
+  void untangle_jointly(Progress& progress);
   void end_joint_iteration(std::span<const Vec3> positions, const JointIteration& done, double seconds);
   [[nodiscard]] bool copy_unkept(std::vector<Vec3>& copy) const;
   [[nodiscard]] bool attempts_to_untangle(std::uint64_t iteration) const;

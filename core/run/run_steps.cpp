@@ -116,6 +116,9 @@ void Run::walk_to(const Moment& target, Progress& progress) {
     progress.check();
     if (const Edit* edit = edits_.at(now)) {
       recovering([&] { do_edit(edit->vertices); });
+    } else if (now.visits == 0 && joint_untangling_follows(now.iteration)) {
+      untangle_jointly(progress);
+      begin_next_phase(progress);
     } else if (now.visits == 0 && joint_follows(now.iteration)) {
       move_jointly(progress);
     } else if (whole == 0) {                                                     // nothing is free: an iteration visits nobody
@@ -154,7 +157,8 @@ Moment Run::moment_before(StepUnit unit) const {
   // The end of an iteration is the same place as the start of the next; from there "back" goes into the iteration before.
   if (target.is_iteration_end()) {
     target = {target.iteration - 1, whole};
-    if (unit != StepUnit::Iteration && joint_follows(target.iteration)) return {target.iteration, 0, edits_.count_at({target.iteration})};
+    if (unit != StepUnit::Iteration && (joint_follows(target.iteration) || joint_untangling_follows(target.iteration)))
+      return {target.iteration, 0, edits_.count_at({target.iteration})};
   }
   if (unit == StepUnit::Iteration || whole == 0) return {target.iteration};
   if (unit == StepUnit::Vertex) {

@@ -22,6 +22,13 @@ bool repairs(std::span<const IterationRecord> records, std::uint64_t iteration) 
 
 }  // namespace
 
+bool untangles_jointly(std::span<const IterationRecord> records, std::uint64_t iteration) {
+  if (records[iteration].statistics.inverted == 0 || iteration == 0) return false;
+  const std::uint64_t since = iterations_since_untangled(records, iteration);
+  if (since < UntanglingPlan::kEnd) return since == 2 && records[iteration].moved == 0;
+  return iterations_since_untangled(records, iteration - 1) < since;
+}
+
 Sweep sweep_after(std::span<const IterationRecord> records, std::uint64_t iteration, std::optional<std::uint64_t> mean_since, bool strays) {
   const Statistics& now = records[iteration].statistics;
   Sweep sweep{.iteration = iteration};

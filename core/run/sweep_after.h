@@ -24,6 +24,10 @@ struct UntanglingPlan {
 [[nodiscard]] Sweep sweep_after(std::span<const IterationRecord> records, std::uint64_t iteration, std::optional<std::uint64_t> mean_since,
                                 bool strays);
 
+/// Whether vertices of inverted elements are then moved together instead of one by one: once where an attempt has moved nothing, and once
+/// after the last.
+[[nodiscard]] bool untangles_jointly(std::span<const IterationRecord> records, std::uint64_t iteration);
+
 /// Iterations since the number of inverted elements last fell, at the end of `iteration`: at most UntanglingPlan::kEnd.
 [[nodiscard]] std::uint64_t iterations_since_untangled(std::span<const IterationRecord> records, std::uint64_t iteration);
 

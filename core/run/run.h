@@ -223,6 +223,8 @@ class Run {
   void end_joint_iteration(std::span<const Vec3> positions, const JointIteration& done, double seconds);
   [[nodiscard]] bool copy_unkept(std::vector<Vec3>& copy) const;
   [[nodiscard]] bool attempts_to_untangle(std::uint64_t iteration) const;
+  [[nodiscard]] bool can_be_certified() const;
+  [[nodiscard]] bool minimum_is_certified(const Statistics& now, Progress& progress);
   Outcome advance(const ConvergenceLimits& limits, bool stop_when_still, std::uint64_t from, Progress& progress,
                   const AfterIteration& after);
   template <class Body>

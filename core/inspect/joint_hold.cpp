@@ -11,11 +11,9 @@
 namespace dmoscope {
 
 std::optional<JointCluster> joint_hold(const InputMesh& input, std::span<const Vec3> positions, std::span<const std::uint8_t> fixed,
-                                       Metric metric, Index element, std::size_t at_most, ThreadPool* pool, Progress& progress,
+                                       Metric metric, std::size_t at_most, ThreadPool* pool, Progress& progress,
                                        const std::function<bool()>& go_on) {
   if (!why_not_joint(input, metric).empty()) return std::nullopt;
-  const auto quality = [&](Index e) { return element_quality(input.quality_context(), positions, metric, e); };
-  if (!(quality(element) > 0.0)) return std::nullopt;
   JointOptions options;
   options.whole_at_most = options.cluster_at_most = options.push_at_most = at_most;
   options.pool = pool;

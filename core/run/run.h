@@ -217,6 +217,7 @@ class Run {
   [[nodiscard]] std::optional<std::uint64_t> joint_over() const;
   [[nodiscard]] bool joint_follows(std::uint64_t iteration) const;
   [[nodiscard]] bool joint_untangling_follows(std::uint64_t iteration) const;
+  [[nodiscard]] std::vector<std::uint8_t> held_jointly() const;
   [[nodiscard]] JointClusters& joint_clusters();
   void move_jointly(Progress& progress);
   void untangle_jointly(Progress& progress);
@@ -224,7 +225,8 @@ class Run {
   [[nodiscard]] bool copy_unkept(std::vector<Vec3>& copy) const;
   [[nodiscard]] bool attempts_to_untangle(std::uint64_t iteration) const;
   [[nodiscard]] bool can_be_certified() const;
-  [[nodiscard]] bool minimum_is_certified(const Statistics& now, Progress& progress);
+  [[nodiscard]] bool minimum_is_certified(double movable_minimum, Progress& progress);
+  [[nodiscard]] bool knows_joint_moves() const;
   Outcome advance(const ConvergenceLimits& limits, bool stop_when_still, std::uint64_t from, Progress& progress,
                   const AfterIteration& after);
   template <class Body>

@@ -9,7 +9,6 @@
 #include "core/base/stopwatch.h"
 #include "core/reference/domain.h"
 #include "core/run/run.h"
-#include "core/run/sweep_after.h"
 #include "core/smooth/execution/method_table.h"
 
 namespace dmoscope {
@@ -88,12 +87,6 @@ bool Run::joint_follows(std::uint64_t iteration) const {
   return !mean || *mean > iteration;
 }
 
-/// Whether the iteration after this one, of the method's phase, moves vertices of inverted elements together.
-bool Run::joint_untangling_follows(std::uint64_t iteration) const {
-  return untangles_jointly(history_.records(), iteration) && method_info(parameters_.method).optimises && !joint_follows(iteration) &&
-         !input_->share && why_not_joint(*input_, parameters_.metric).empty();
-}
-
 std::shared_ptr<const JointStanding> Run::joint_standing() const {
   const std::uint64_t iteration = at_.moment.iteration;
   if (!joint_follows(iteration)) return nullptr;
@@ -103,13 +96,7 @@ std::shared_ptr<const JointStanding> Run::joint_standing() const {
 }
 
 JointClusters& Run::joint_clusters() {
-  if (!joint_clusters_) {
-    std::vector<std::uint8_t> fixed(fixed_.begin(), fixed_.end());
-    if (domain_)
-      for (Index v = 0; v < fixed.size(); ++v)
-        if (domain_->slides(v)) fixed[v] = 1;
-    joint_clusters_ = std::make_unique<JointClusters>(*input_, parameters_.metric, fixed);
-  }
+  if (!joint_clusters_) joint_clusters_ = std::make_unique<JointClusters>(*input_, parameters_.metric, held_jointly());
   return *joint_clusters_;
 }
 
@@ -139,19 +126,6 @@ void Run::move_jointly(Progress& progress) {
   auto cluster = joint_clusters().raise_worst(positions, after, options, progress);
   joint_course_.add(iteration + 1, *before, std::move(after), std::move(cluster), anew);
   end_joint_iteration(positions, *joint_course_.find(iteration + 1), watch.seconds());
-}
-
-/// At the end of an iteration (or after edits there): the next one, in which vertices of inverted elements move together.
-void Run::untangle_jointly(Progress& progress) {
-  const std::uint64_t iteration = at_.moment.iteration + 1;
-  const Stopwatch watch;
-  recovering([this] { download(); });
-  std::vector<Vec3> positions(positions_.host().begin(), positions_.host().end());
-  JointState state;
-  const auto found = joint_clusters().raise_worst(positions, state, {.only_untangle = true, .pool = pool_.get()}, progress);
-  last_moved_ = found ? found->moved.size() : 0;
-  put(positions, {{iteration}});
-  record({.moment = {iteration}, .moved = last_moved_, .seconds = watch.seconds()});
 }
 
 void Run::end_joint_iteration(std::span<const Vec3> positions, const JointIteration& done, double seconds) {

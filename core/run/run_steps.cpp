@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "core/base/stopwatch.h"
-#include "core/inspect/joint_hold.h"
 #include "core/run/left_inverted.h"
 #include "core/run/run.h"
 #include "core/run/sweep_after.h"
@@ -233,23 +232,6 @@ bool Run::attempts_to_untangle(std::uint64_t iteration) const {
          iterations_since_untangled(records, iteration) < UntanglingPlan::kEnd;
 }
 
-/// Whether minimum_is_certified() may be asked. Where vertices slide it would hold them.
-bool Run::can_be_certified() const {
-  const MethodInfo& method = method_info(parameters_.method);
-  const bool is_all = !method.joint && !parameters_.then_joint && !parameters_.then_mean && !parameters_.combination;
-  return is_all && method.optimises && !domain_ && !input_->share && why_not_joint(*input_, parameters_.metric).empty();
-}
-
-/// Whether not even vertices that move together raise the worst element that can move: a look at those around it, on a copy.
-bool Run::minimum_is_certified(const Statistics& now, Progress& progress) {
-  constexpr std::size_t kAtMost = 500;  // vertices: it is asked while others still move
-  constexpr double kNoGain = 2e-3;      // of the minimum: finer than what single vertices find
-  recovering([this] { download(); });
-  const auto found =
-      joint_hold(*input_, positions_.host(), fixed_, parameters_.metric, now.worst_element, kAtMost, pool_.get(), progress, {});
-  return found && found->certified && found->after - found->before <= kNoGain * found->before;
-}
-
 Outcome Run::iterate(std::uint64_t iterations, Progress& progress, const AfterIteration& after) {
   return advance({.patience = iterations, .max_iterations = iterations, .rise = ConvergenceLimits{}.rise}, false, at_.moment.iteration,
                  progress, after);
@@ -376,7 +358,7 @@ Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, std:
     const std::uint64_t visits_left = record.moved * (limits.patience - since_rise);
     if (std::min(since_rise, reached - best.iteration()) != kIdle || visits_left < (input_->is_volume() ? kWorthALook / 10 : kWorthALook))
       continue;
-    stopped = minimum_is_certified(now, progress);
+    stopped = minimum_is_certified(now.movable_minimum, progress);
     if (stopped) outcome.reason = StopReason::Certified;
   }
   if (has_best && best.iteration() != reached) history_.hold(best.iteration(), positions_of_best, pool_.get());

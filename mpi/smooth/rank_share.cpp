@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/input/mesh_region.h"
 #include "core/smooth/task.h"
 #include "mpi/mesh/shared_winding.h"
 
@@ -9,6 +10,15 @@ namespace dmoscope {
 
 RankShare::RankShare(const World& world, Share share)
     : world_(world), share_(std::move(share)), halo_(world, share_), statistics_(world, share_) {}
+
+void RankShare::join(RegionParts& parts) const {
+  const auto on_all = [this](auto& values) {
+    values = world_.gather(values);
+    world_.broadcast(values, 0);
+  };
+  on_all(parts.vertices);
+  on_all(parts.elements);
+}
 
 Index RankShare::orient(Mesh& mesh, const Geometry& geometry, const Topology& topology, const FaceNeighbours* faces) const {
   return orient_share(world_, share_, mesh, geometry, topology, faces);

@@ -20,10 +20,15 @@ class RankShare final : public MeshShare {
   [[nodiscard]] std::uint64_t element_count() const noexcept override { return share_.element_count; }
   [[nodiscard]] std::uint64_t vertex_count() const noexcept { return share_.vertex_count; }
   [[nodiscard]] bool owns(Index vertex) const noexcept override { return share_.owner[vertex] == world_.rank(); }
+  [[nodiscard]] bool counts(Index element) const noexcept override { return share_.home[element] != 0; }
+  [[nodiscard]] std::span<const std::uint64_t> vertex_numbers() const noexcept override { return share_.vertices; }
+  [[nodiscard]] std::span<const std::uint64_t> element_numbers() const noexcept override { return share_.elements; }
   void agree(std::span<std::uint8_t> values) const override { halo_.agree(values); }
   void agree(std::span<double> values) const override { halo_.agree(values); }
   [[nodiscard]] bool any(bool here) const override { return world_.any(here); }
   [[nodiscard]] double greatest(double here) const override { return world_.greatest(here); }
+  [[nodiscard]] std::uint64_t sum(std::uint64_t here) const override { return world_.sum(here); }
+  void join(RegionParts& parts) const override;
   Index orient(Mesh& mesh, const Geometry& geometry, const Topology& topology, const FaceNeighbours* faces) const override;
   [[nodiscard]] Colouring colour(const Mesh& mesh, const Geometry& geometry, const Topology& topology, std::span<const std::uint8_t> fixed,
                                  ThreadPool* pool) const override;

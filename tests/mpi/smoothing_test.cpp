@@ -1,10 +1,14 @@
 // Ranks smooth a mesh to the very bits that one process finds, and know the same of it after each iteration.
 
+#include <algorithm>
 #include <bit>
 
+#include "core/base/same_bits.h"
+#include "core/input/mesh_region.h"
 #include "core/run/run.h"
 #include "mpi/smooth/shared_left_inverted.h"
 #include "tests/mpi/blocks.h"
+#include "tests/support/meshes.h"
 #include "tests/support/testing.h"
 
 namespace dmoscope::testing {
@@ -150,6 +154,35 @@ TEST(SharedSmoothing, ConvergesWhereOneProcessDoes) {
     }
 }
 
+/// Many vertices move on for long, and one whose neighbours all stay has one of them far too near.
+TEST(SharedSmoothing, EndsByTheSameCertificate) {
+  const World world;
+  constexpr Index kSide = 90, kVertex = 45 * (kSide + 1) + 45;
+  Mesh mesh = lattice(kSide, 0.3, 5);
+  mesh.positions[kVertex] = {0.5, 0.5, 0.0};
+  mesh.positions[kVertex + 1] = {0.5 + 0.1 / kSide, 0.5, 0.0};
+  RunParameters parameters;
+  parameters.backend = Backend::Cpu;
+  const SharedMesh part = shared(world, mesh);
+  std::vector<Index> neighbours, here;
+  for (const Index row : {kVertex - kSide - 1, kVertex, kVertex + kSide + 1})
+    for (const Index v : {row - 1, row, row + 1}) {
+      if (v == kVertex) continue;
+      neighbours.push_back(v);
+      if (const Index mine = find_vertex(*part.input, v); mine != kNoIndex) here.push_back(mine);
+    }
+  Progress progress;
+  parameters.fixed = neighbours;
+  dmoscope::Run theirs(whole_input(mesh), parameters, std::make_shared<ThreadPool>(1), 0);
+  parameters.fixed = here;
+  dmoscope::Run mine(part.input, parameters, std::make_shared<ThreadPool>(1), 0);
+  const Outcome want = theirs.until_converged({}, progress), got = mine.until_converged({}, progress);
+  EXPECT_EQ(want.reason, StopReason::Certified) << want.sentence();
+  EXPECT_EQ(got.reason, StopReason::Certified);
+  EXPECT_EQ(got.iterations, want.iterations);
+  expect_same_positions(part, mine, theirs);
+}
+
 /// A method that may make things worse goes back to its best iteration: also where a rank has nothing to visit, or no vertex at all.
 TEST(SharedSmoothing, GoesBackToTheBestIterationTogether) {
   const World world;
@@ -170,6 +203,51 @@ TEST(SharedSmoothing, GoesBackToTheBestIterationTogether) {
       EXPECT_EQ(mine.moment(), theirs.moment());
       expect_same_positions(mesh, mine, theirs);
     }
+}
+
+/// The inner square of nine, or of more, is turned by half a turn: no single vertex gains, and several are moved together.
+TEST(SharedSmoothing, UntanglesSeveralVerticesTogether) {
+  const World world;
+  for (const Index side : {3U, 12U}) {
+    Mesh mesh = lattice(side, 0.0, 1, Cells::Quadrilaterals);
+    const Index corner = (side / 2) * (side + 2), above = corner + side + 1;
+    std::swap(mesh.positions[corner], mesh.positions[above + 1]);
+    std::swap(mesh.positions[corner + 1], mesh.positions[above]);
+    compare(world, {"turned square", mesh}, {}, 8);
+    compare(world, {"turned square, other numbers", shuffled_mesh(mesh, 5)}, {.metric = Metric::ScaledJacobian}, 8);
+    RunParameters parameters;
+    dmoscope::Run mine(shared(world, mesh).input, parameters, std::make_shared<ThreadPool>(1), 0);
+    Progress progress;
+    mine.iterate(8, progress);
+    EXPECT_EQ(mine.history().records().back().statistics.inverted, 0U);
+  }
+}
+
+/// A region that several ranks have parts of is the same on all of them, and that of one process.
+TEST(SharedSmoothing, ARegionIsTheSameForAll) {
+  const World world;
+  for (const Sample& sample : {Sample{"coast", generated("coast", 300)}, Sample{"solids", generated("solids", 150)}}) {
+    SCOPED_TRACE(sample.name);
+    const auto whole = whole_input(sample.mesh);
+    const SharedMesh mesh = shared(world, sample.mesh);
+    const auto around = [&](const InputMesh& input, std::uint64_t number) {
+      std::vector<Index> seeds;
+      for (Index e = 0; e < input.mesh.elements.size(); ++e)
+        if ((input.share ? input.share->element_numbers()[e] : e) == number) seeds.push_back(e);
+      const std::vector<std::uint8_t> fixed(input.topology.boundary().begin(), input.topology.boundary().end());
+      return region_around(input, input.mesh.positions, fixed, seeds, 2, 1U << 20U);
+    };
+    for (const std::uint64_t number : {0U, 57U, 133U}) {
+      const auto mine = around(*mesh.input, number), theirs = around(*whole, number);
+      ASSERT_TRUE(mine && theirs);
+      EXPECT_EQ(mine->vertices, theirs->vertices);
+      EXPECT_EQ(mine->fixed, theirs->fixed);
+      EXPECT_EQ(mine->rim, theirs->rim);
+      EXPECT_TRUE(std::ranges::equal(mine->input->mesh.elements.all_corners(), theirs->input->mesh.elements.all_corners()));
+      EXPECT_TRUE(same_bits(mine->input->mesh.positions, theirs->input->mesh.positions));
+      EXPECT_FALSE(region_around(*whole, whole->mesh.positions, whole->topology.boundary(), {}, 2, 100)) << "nothing to look around";
+    }
+  }
 }
 
 TEST(SharedSmoothing, MayHaveMoreRanksThanVertices) {

@@ -1,0 +1,103 @@
+// Joint moves within the method's phase: where it is stuck in a tangle, and to certify its minimum. Both look at a region of the mesh
+// alone.
+
+#include <algorithm>
+#include <vector>
+
+#include "core/base/stopwatch.h"
+#include "core/input/mesh_region.h"
+#include "core/input/mesh_share.h"
+#include "core/inspect/joint_hold.h"
+#include "core/reference/domain.h"
+#include "core/run/run.h"
+#include "core/run/sweep_after.h"
+#include "core/smooth/execution/method_table.h"
+
+namespace dmoscope {
+
+namespace {
+
+constexpr std::size_t kMostVertices = 1U << 20U;  // of a region
+
+/// Elements that the process has.
+template <class IsSeed>
+std::vector<Index> elements_that(const InputMesh& input, IsSeed is_seed) {
+  std::vector<Index> seeds;
+  for (Index e = 0; e < input.mesh.elements.size(); ++e)
+    if (is_seed(e)) seeds.push_back(e);
+  return seeds;
+}
+
+}  // namespace
+
+bool Run::knows_joint_moves() const {
+  const bool cannot = !why_not_joint(*input_, parameters_.metric).empty();
+  return method_info(parameters_.method).optimises && !(input_->share ? input_->share->any(cannot) : cannot);
+}
+
+/// Whether the iteration after this one, of the method's phase, moves vertices of inverted elements together.
+bool Run::joint_untangling_follows(std::uint64_t iteration) const {
+  return untangles_jointly(history_.records(), iteration) && !joint_follows(iteration) && knows_joint_moves();
+}
+
+/// By vertex: those that joint moves leave where they are.
+std::vector<std::uint8_t> Run::held_jointly() const {
+  std::vector<std::uint8_t> held(fixed_.begin(), fixed_.end());
+  if (domain_)
+    for (Index v = 0; v < held.size(); ++v)
+      if (domain_->slides(v)) held[v] = 1;
+  return held;
+}
+
+/// At the end of an iteration (or after edits there): the next one, in which vertices of inverted elements move together.
+void Run::untangle_jointly(Progress& progress) {
+  constexpr int kRings = 6;  // as far as an Untangler's smaller patches go
+  const std::uint64_t iteration = at_.moment.iteration + 1;
+  const Stopwatch watch;
+  recovering([this] { download(); });
+  std::vector<Vec3> positions(positions_.host().begin(), positions_.host().end());
+  const QualityContext context = input_->quality_context();
+  const auto is_inverted = [&](Index e) { return smallest_jacobian(context, std::span<const Vec3>(positions), e) <= 0.0; };
+  const auto region = region_around(*input_, positions, held_jointly(), elements_that(*input_, is_inverted), kRings, kMostVertices);
+  last_moved_ = 0;
+  if (region) {
+    std::vector<Vec3> places = region->input->mesh.positions;
+    JointState state;
+    JointClusters clusters(*region->input, parameters_.metric, region->fixed);
+    const auto found = clusters.raise_worst(places, state, {.only_untangle = true, .pool = pool_.get()}, progress);
+    if (found) last_moved_ = found->moved.size();
+    for (std::size_t i = 0; i < places.size(); ++i)
+      if (const Index v = find_vertex(*input_, region->vertices[i]); v != kNoIndex) positions[v] = places[i];
+  }
+  put(positions, {{iteration}});
+  record({.moment = {iteration}, .moved = last_moved_, .seconds = watch.seconds()});
+}
+
+/// Whether minimum_is_certified() may be asked. Where vertices slide it would hold them.
+bool Run::can_be_certified() const {
+  const bool is_all = !method_info(parameters_.method).joint && !parameters_.then_joint && !parameters_.then_mean;
+  return is_all && !parameters_.combination && !domain_ && knows_joint_moves();
+}
+
+/// Whether not even vertices that move together raise the worst element that can move: a look at those around it, on a copy.
+bool Run::minimum_is_certified(double movable_minimum, Progress& progress) {
+  constexpr std::size_t kAtMost = 500;  // vertices: it is asked while others still move
+  constexpr double kNoGain = 2e-3;      // of the minimum: finer than what single vertices find
+  const int rings = input_->is_volume() ? 6 : 16;
+  recovering([this] { download(); });
+  const std::span<const Vec3> positions = positions_.host();
+  const QualityContext context = input_->quality_context();
+  auto immovable = immovable_.begin();
+  const auto is_worst = [&](Index e) {
+    if (immovable != immovable_.end() && *immovable == e) return ++immovable, false;
+    return element_quality(context, positions, parameters_.metric, e) == movable_minimum;
+  };
+  const auto region = region_around(*input_, positions, fixed_, elements_that(*input_, is_worst), rings, kMostVertices);
+  if (!region) return false;
+  const InputMesh& part = *region->input;
+  const auto found = joint_hold(part, part.mesh.positions, region->fixed, parameters_.metric, kAtMost, pool_.get(), progress, {});
+  if (!found || !found->certified || found->after - found->before > kNoGain * found->before) return false;
+  return std::ranges::none_of(found->active, [&](const JointCluster::Active& each) { return region->touches_rim(each.element); });
+}
+
+}  // namespace dmoscope

@@ -70,8 +70,9 @@ TEST(Hints, ChangeNeitherTheMeshNorTheExitCodeOfAnyMix) {
 
 TEST(Hints, ATangledMeshThatSlidesHasItsSummary) {
   const Folder folder;
-  const Output said = run({"smooth", turned_square(folder), "-o", folder / "out.vtk", "--method", "smart-laplace", "--boundary", "slide"});
-  EXPECT_EQ(said.code, 1) << said.err;
+  const Output said = run(
+      {"smooth", turned_square(folder), "-o", folder / "out.vtk", "--method", "smart-laplace", "--boundary", "slide", "--iterations", "2"});
+  EXPECT_EQ(said.code, 1) << said.err << "\nit is to stay tangled";
   EXPECT_THAT(said.out, HasSubstr("wrote "));
 }
 

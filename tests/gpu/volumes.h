@@ -9,6 +9,7 @@
 #include "core/input/input_mesh.h"
 #include "core/mesh/generate.h"
 #include "core/mesh/random.h"
+#include "tests/support/inside.h"
 
 namespace dmoscope::gpu::testing {
 
@@ -66,6 +67,8 @@ struct VolumeSample {
     single.single_precision = true;
     add(", single precision", single);
   }
+  for (const test::Fill fill : {test::Fill::Hexahedra, test::Fill::Mixed})
+    all.push_back({"near to being inverted inside", volume_input_of(test::twisted_block(3, fill, 2))});
   all.push_back({"as many as the fast search takes", volume_input_of(ball(48, {0.3, 0.1, -0.2}))});
   all.push_back({"more than the fast search takes", volume_input_of(ball(49, {0.3, 0.1, -0.2}))});
   return all;

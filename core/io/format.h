@@ -2,7 +2,7 @@
 // What a format has to give (for readers and writers only; others use mesh_io.h), and what writers share.
 //
 // A new format is a source in a folder beside those of the others, with a function `const FormatHandler& <name>_format()`, declared
-// below and listed in formats.cpp.
+// below and listed in format_choice.cpp.
 
 #include <array>
 #include <filesystem>

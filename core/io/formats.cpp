@@ -1,11 +1,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <memory>
 #include <new>
 #include <optional>
-#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -13,7 +11,7 @@
 #include "core/base/error.h"
 #include "core/io/commented_mesh.h"
 #include "core/io/foreign_format.h"
-#include "core/io/format.h"
+#include "core/io/format_choice.h"
 #include "core/io/mesh_io.h"
 #include "core/io/reading/gzip.h"
 #include "core/io/reading/tokenizer.h"
@@ -22,73 +20,6 @@
 
 namespace dmoscope {
 namespace {
-
-const std::vector<const FormatHandler*>& handlers() {
-  static const std::vector<const FormatHandler*> table{
-      &off_format(),    &obj_format(),    &ply_format(),     &stl_format(),     &vtk_format(),
-#ifdef DMOSCOPE_VTU
-      &vtu_format(),    &pvtu_format(),   &xdmf_format(),
-#endif
-      &fort14_format(), &su2_format(),    &gmsh_format(),    &medit_format(),   &meshb_format(),
-      &tetgen_format(), &abaqus_format(), &sms_2dm_format(), &nastran_format(), &exodus_format(),
-#ifdef DMOSCOPE_HDF5
-      &cgns_format(),
-#endif
-  };
-  return table;
-}
-
-/// The format with this extension (".off", whatever its case), null if there is none.
-const FormatHandler* by_extension(std::string_view extension) {
-  if (extension.size() < 2) return nullptr;
-  for (const FormatHandler* handler : handlers()) {
-    std::string_view list = handler->info.extensions;
-    while (!list.empty()) {
-      const std::string_view one = list.substr(0, list.find(' '));
-      if (equal_ignoring_case(one, extension)) return handler;
-      list.remove_prefix(std::min(list.size(), one.size() + 1));
-    }
-  }
-  return nullptr;
-}
-
-/// "off (.off), obj (.obj), ..."
-std::string known_formats() {
-  std::string result;
-  for (const FormatHandler* handler : handlers()) {
-    result += fmt::format("{}{} ({})", result.empty() ? "" : ", ", handler->info.name, handler->info.extensions);
-  }
-#ifndef DMOSCOPE_VTU
-  result += "; VTU and XDMF are left out of this build of the program, which was made without zlib or pugixml";
-#endif
-#ifndef DMOSCOPE_HDF5
-  result += "; CGNS, and Exodus and XDMF in HDF5, are left out of this build of the program, which was made without HDF5";
-#endif
-  return result;
-}
-
-bool is_certain(const FormatHandler& handler, std::string_view bytes) { return handler.recognises != nullptr && handler.recognises(bytes); }
-
-constexpr std::string_view kPacked = ".gz";
-
-/// Its bytes, unpacked. `size`: of the file itself.
-FileBytes read_unpacked(const std::filesystem::path& path, const IoContext& context, std::size_t& size) {
-  FileBytes bytes = read_whole_file(path, context.progress);
-  size = bytes.view().size();
-  return is_gzip(bytes.view()) ? gunzipped(path, bytes.view(), context) : std::move(bytes);
-}
-
-const FormatHandler& format_of(const std::filesystem::path& path, std::string_view bytes) {
-  const std::string extension = mesh_extension(path);
-  const FormatHandler* named = by_extension(extension);
-  if (named != nullptr && is_certain(*named, bytes)) return *named;
-  for (const FormatHandler* handler : handlers()) {
-    if (is_certain(*handler, bytes)) return *handler;
-  }
-  if (named != nullptr) return *named;
-  const std::string foreign = foreign_format(bytes, extension);
-  throw InputError(path.string(), 0, foreign.empty() ? "unknown format; known are " + known_formats() : foreign);
-}
 
 /// Reads by a handler. An error in a file that is of another format altogether says which.
 Mesh read_by(const FormatHandler& handler, SourceFile& source, const IoContext& context) {
@@ -162,17 +93,6 @@ void add_comment(AtomicFile& file, const FormatHandler& handler, const Mesh& mes
   file.write(text);
 }
 
-/// The file of a format with the coordinates, which `path` may name by its companion.
-std::filesystem::path main_path(const std::filesystem::path& path, const FormatHandler* handler) {
-  if (handler == nullptr || handler->companion == nullptr) return path;
-  if (!equal_ignoring_case(path.extension().string(), handler->companion->extension)) return path;
-  return std::filesystem::path(path).replace_extension(handler->companion->main_extension);
-}
-
-std::filesystem::path companion_path(const std::filesystem::path& main, const CompanionFile& companion) {
-  return std::filesystem::path(main).replace_extension(companion.extension);
-}
-
 /// Both files of a format that has two must be there; the error names the one that was asked for.
 void require_both(const std::filesystem::path& path, const FormatHandler* handler) {
   if (handler == nullptr || handler->companion == nullptr) return;
@@ -189,8 +109,8 @@ void require_both(const std::filesystem::path& path, const FormatHandler* handle
 const FormatHandler* written_by(const std::filesystem::path& path, const Mesh& mesh) {
   const FormatHandler* named = by_extension(mesh_extension(path));
   if (named == nullptr || !mesh.source || !equal_ignoring_case(mesh_extension(mesh.source->path()), mesh_extension(path))) return named;
-  const auto found = std::ranges::find(handlers(), mesh.source->format(), [](const FormatHandler* one) { return one->info.name; });
-  return found == handlers().end() ? named : *found;
+  const auto found = std::ranges::find(format_handlers(), mesh.source->format(), [](const FormatHandler* one) { return one->info.name; });
+  return found == format_handlers().end() ? named : *found;
 }
 
 /// Nothing that the mesh was read from may be replaced, unless the mesh is written to where it was.
@@ -211,27 +131,6 @@ void require_finite(const std::filesystem::path& path, std::span<const Vec3> pos
 }
 
 }  // namespace
-
-std::span<const FormatHandler* const> format_handlers() { return handlers(); }
-
-std::span<const FormatInfo> format_table() {
-  static const std::vector<FormatInfo> table = [] {
-    std::vector<FormatInfo> result;
-    for (const FormatHandler* handler : handlers()) result.push_back(handler->info);
-    return result;
-  }();
-  return table;
-}
-
-const FormatInfo* format_by_extension(std::string_view extension) {
-  const FormatHandler* handler = by_extension(extension);
-  return handler == nullptr ? nullptr : &handler->info;
-}
-
-std::string mesh_extension(const std::filesystem::path& path) {
-  const std::string extension = path.extension().string();
-  return gzip_is_here() && equal_ignoring_case(extension, kPacked) ? path.stem().extension().string() : extension;
-}
 
 void require_known_format(const std::filesystem::path& path, const IoContext& context) {
   if (by_extension(mesh_extension(path)) != nullptr) return;
@@ -273,106 +172,7 @@ Mesh read_whole_mesh(const std::filesystem::path& path, const IoContext& context
   return mesh;
 }
 
-/// Of a mesh that is read from more than one file.
-std::vector<std::filesystem::path> further_files(const std::filesystem::path& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return {};
-  Progress unwatched;
-  const IoContext context(unwatched);
-  std::string head(65536, '\0');
-  std::ifstream stream(path, std::ios::binary);
-  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
-  head.resize(static_cast<std::size_t>(stream.gcount()));
-  const FormatHandler* named = by_extension(mesh_extension(path));
-  const auto may_have = [&](const FormatHandler* handler) {
-    return handler->further != nullptr && (handler == named || is_certain(*handler, head));
-  };
-  if (std::ranges::none_of(handlers(), may_have)) return {};
-  try {
-    std::size_t size = 0;
-    const SourceFile source(path, read_unpacked(path, context, size));
-    const FormatHandler& handler = format_of(path, source.bytes());
-    if (handler.further != nullptr) return handler.further(source, context);
-  } catch (const std::exception&) {  // who reads it is told
-  }
-  return {};
-}
-
-/// One name for a file, whatever links lead to it.
-std::filesystem::path real_path(const std::filesystem::path& path) {
-  std::error_code error;
-  return std::filesystem::weakly_canonical(std::filesystem::absolute(path), error);
-}
-
 }  // namespace
-
-std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& path) {
-  const FormatHandler* named = by_extension(mesh_extension(path));
-  const std::filesystem::path main = main_path(path, named);
-  std::vector<std::filesystem::path> files{path};
-  if (main != path) files.push_back(main);
-  if (named != nullptr && named->companion != nullptr && main == path) files.push_back(companion_path(main, *named->companion));
-  for (std::filesystem::path& file : further_files(main)) files.push_back(std::move(file));
-  return files;
-}
-
-bool same_mesh(const std::filesystem::path& a, const std::filesystem::path& b) {
-  const auto main = [](const std::filesystem::path& path) { return main_path(path, by_extension(mesh_extension(path))); };
-  return same_file(main(a), main(b));
-}
-
-bool may_write(const std::filesystem::path& target, const std::filesystem::path& file) {
-  if (same_file(target, file)) return true;
-  const FormatHandler* handler = by_extension(mesh_extension(target));
-  if (handler == nullptr) return false;
-  const std::filesystem::path main = main_path(target, handler);
-  if (handler->companion != nullptr) return same_file(main, file) || same_file(companion_path(main, *handler->companion), file);
-  if (handler->writes_beside == nullptr) return false;
-  return same_file(main.parent_path() / file.filename(), file) && handler->writes_beside(main, file);
-}
-
-std::filesystem::path replaced_file(const std::filesystem::path& target, const std::filesystem::path& read) {
-  if (target.empty() || read.empty()) return {};
-  const std::vector<std::filesystem::path> files = mesh_files(read);
-  for (const auto is_hit : {same_file, may_write})
-    for (const std::filesystem::path& file : files)
-      if (is_hit(target, file)) return file;
-  return {};
-}
-
-FormerMesh::FormerMesh(std::filesystem::path path) : path_(std::move(path)) {
-  std::error_code error;
-  if (!std::filesystem::exists(path_, error)) return;
-  for (const std::filesystem::path& file : mesh_files(path_)) files_.insert(real_path(file));
-}
-
-void FormerMesh::require_own(const std::filesystem::path& beside) const {
-  std::error_code error;
-  if (same_file(beside, path_) || !std::filesystem::exists(beside, error) || files_.contains(real_path(beside))) return;
-  throw OutputError(beside.string(),
-                    fmt::format("it is no part of {}, with which it would be replaced: name the output otherwise, or move it",
-                                path_.filename().string()));
-}
-
-void FormerMesh::settle(Notes& notes) const {
-  std::set<std::filesystem::path> present;
-  std::error_code error;
-  for (const std::filesystem::path& file : mesh_files(path_)) present.insert(real_path(file));
-  std::vector<std::string> removed, left;
-  for (const std::filesystem::path& file : files_) {
-    if (!std::filesystem::exists(file, error) || present.contains(file)) continue;
-    // A piece under a name that we give belonged to that file alone; what else was named may serve others, too.
-    const bool ours = equal_ignoring_case(file.extension().string(), ".vtu") && may_write(path_, file);
-    (ours && std::filesystem::remove(file, error) ? removed : left).push_back(file.filename().string());
-  }
-  const auto tell = [&](const std::vector<std::string>& names, std::string_view what) {
-    if (names.empty()) return;
-    const std::string more = names.size() > 1 ? fmt::format(" and {} more", names.size() - 1) : std::string();
-    notes.push_back(fmt::format("{}: {}{}, of the mesh that was replaced.", what, names.front(), more));
-  };
-  tell(removed, "Removed");
-  tell(left, "Left");
-}
 
 const FormatInfo* written_format(const std::filesystem::path& path, const Mesh& mesh) {
   const FormatHandler* handler = written_by(path, mesh);

@@ -23,11 +23,11 @@ struct FormulaOptions {
 
 void print_vocabulary() {
   print("Names of an element\n");
-  print("  {:<16} corners, in the element's order; differences of them are vectors\n", "p1, p2, ...");
-  print("  {:<16} length from corner 1 to corner 2, and so on\n", "l12, l13, ...");
+  print("  {:<22} corners, in the element's order; differences of them are vectors\n", "p1, p2, ...");
+  print("  {:<22} length from corner 1 to corner 2, and so on\n", "l12, l13, ...");
   const auto names_in = [](NameScope scope) {
     for (const FormulaName& name : formula_names())
-      if (name.scope == scope) print("  {:<16} {}\n", name.name, name.doc);
+      if (name.scope == scope) print("  {:<22} {}\n", name.name, name.doc);
   };
   names_in(NameScope::Element);
   print("\nNames of a corner: a formula with them is the least over the corners, if it does not gather them itself\n");
@@ -35,14 +35,14 @@ void print_vocabulary() {
   print("\nNames of an edge, for min_edge(...) and its like\n");
   names_in(NameScope::Edge);
   print("\nFunctions\n");
-  for (const FormulaFunction& f : formula_functions()) print("  {:<20} {}\n", fmt::format("{}({})", f.name, f.arguments), f.doc);
+  for (const FormulaFunction& f : formula_functions()) print("  {:<22} {}\n", fmt::format("{}({})", f.name, f.arguments), f.doc);
   print("\nSigns: + - * / ^ ( ), < <= > >= == != for conditions, && || ! to join them. What is divided by 0 is 0.\n");
   print(
       "Parts have names, 'a = l12/l13; 2*a': several lines or ';' between. For some kinds of elements alone: triangle {{ ... }} "
       "quadrilateral {{ ... }}.\n");
   print("\nThe built-in metrics as formulas\n");
-  for (const MetricInfo& m : metric_table()) print("  {:<16} {}\n", m.name, formula_of(m.metric));
-  for (const NamedFormula& m : named_formulas()) print("  {:<16} {}\n", m.name, m.formula);
+  for (const MetricInfo& m : metric_table()) print("  {:<22} {}\n", m.name, formula_of(m.metric));
+  for (const NamedFormula& m : named_formulas()) print("  {:<22} {}\n", m.name, m.formula);
 }
 
 int formula(const FormulaOptions& options) {

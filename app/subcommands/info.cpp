@@ -142,8 +142,8 @@ void print_for_a_person() {
   print("  opengl {}{}\n\nformats\n", gl.usable ? "" : "not usable: ", gl.text);
   for (const FormatInfo& f : format_table()) print("  {:<16} {}; {}\n", f.extensions, f.title, f.doc);
   print("\nmetrics\n");
-  for (const MetricInfo& m : metric_table()) print("  {:<16} {}\n", m.name, m.doc);
-  for (const NamedFormula& m : named_formulas()) print("  {:<16} {}\n", m.name, m.doc);
+  for (const MetricInfo& m : metric_table()) print("  {:<22} {}\n", m.name, m.doc);
+  for (const NamedFormula& m : named_formulas()) print("  {:<22} {}\n", m.name, m.doc);
   print("\nmethods\n");
   for (const MethodInfo& m : method_table()) print("  {:<16} {}\n", m.name, m.doc);
   print("\nsamples (dmoscope generate)\n");

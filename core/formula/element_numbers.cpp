@@ -411,6 +411,41 @@ Number ElementNumbers::circumradius() {
   return b.divide(length(n), b.times(2.0, size));
 }
 
+Number ElementNumbers::scaled_jacobian_inside(Index moving) {
+  if (kind_ != ElementKind::Hexahedron && kind_ != ElementKind::Wedge)
+    throw NoSuchNumber{"has its least scaled Jacobian at a corner: 'scaled_jacobian_inside' is of hexahedra and wedges"};
+  struct Coefficient {
+    std::optional<Number> determinants{}, lengths{};  // sums
+  };
+  std::array<Coefficient, 27> coefficients{};
+  const auto take = [&](std::size_t at, const Vector& a, const Vector& b, const Vector& c) {
+    const auto join = [&](std::optional<Number>& sum, Number one) { sum = sum ? builder_.add(*sum, one) : one; };
+    join(coefficients[at].determinants, determinant_of(a, b, c));
+    join(coefficients[at].lengths, builder_.multiply(builder_.multiply(length(a), length(b)), length(c)));
+  };
+  if (kind_ == ElementKind::Hexahedron) {  // (p, q, r) at 9 p + 3 q + r; edges by the two other coordinates, the lower one first
+    const std::array x{edge(0, 1), edge(3, 2), edge(4, 5), edge(7, 6)}, y{edge(0, 3), edge(1, 2), edge(4, 7), edge(5, 6)},
+        z{edge(0, 4), edge(1, 5), edge(3, 7), edge(2, 6)};
+    for (std::size_t ends = 0; ends < 64; ++ends) {
+      const auto end = [ends](unsigned i) { return ends >> i & 1U; };
+      take(9 * (end(0) + end(1)) + 3 * (end(2) + end(3)) + end(4) + end(5), x[end(2) + 2 * end(4)], y[end(0) + 2 * end(5)],
+           z[end(1) + 2 * end(3)]);
+    }
+  } else {  // along the edges between the triangles, where its least stands: (edge, q) at 3 edge + q
+    const auto side = [this](Index triangle, Index i) { return edge(3 * triangle + i % 3, 3 * triangle + (i + 1) % 3); };
+    for (Index i = 0; i < 3; ++i)
+      for (Index first = 0; first < 2; ++first)
+        for (Index second = 0; second < 2; ++second) take(3 * i + first + second, side(first, i + 2), side(second, i), edge(i, i + 3));
+  }
+  std::optional<Number> least;
+  for (const Coefficient& one : coefficients) {
+    if (!one.determinants) continue;
+    const Number ratio = builder_.divide(*one.determinants, *one.lengths);
+    if (moving == kNoIndex || builder_.depends_on(ratio, moving)) least = least ? builder_.minimum(*least, ratio) : ratio;
+  }
+  return kind_ == ElementKind::Wedge ? builder_.times(2.0 / sqrt3, *least) : *least;
+}
+
 Number ElementNumbers::smallest_jacobian(Index moving) {
   ElementNumbers plain(builder_, kind_, FormulaSpace::Plain);
   Number least = 0;

@@ -81,6 +81,13 @@ class ElementNumbers {
   [[nodiscard]] Number inradius();
   [[nodiscard]] Number circumradius();
   [[nodiscard]] Number mean_measure() { return builder_.input({FormulaInput::What::MeanMeasure, 0, 0, 0}); }
+  /// Of a hexahedron or wedge: above 0 it is valid everywhere, and this no more than the scaled Jacobian anywhere in it; of a wedge, across
+  /// which the determinant is linear, on the edges between its triangles. The determinant is a sum of coefficients times Bernstein
+  /// polynomials, each coefficient a mean of determinants of triples of edges, one along each coordinate. The same means of the products of
+  /// these edges' lengths make a sum that is no less than the product of the lengths of the Jacobian's columns, for each is a mean of
+  /// edges. No polynomial is negative, so that determinant over sum is at least the least coefficient over its own mean of products, which
+  /// is the number; at corners these are the scaled Jacobian. Of those that change with `moving` (kNoIndex: all).
+  [[nodiscard]] Number scaled_jacobian_inside(Index moving);
   /// The least Jacobian of the corners as they stand, of those that change with `moving` (kNoIndex: all).
   [[nodiscard]] Number smallest_jacobian(Index moving);
 

@@ -94,6 +94,8 @@ Value Lowering::result_value() {
   }
   if (node(id).what == Syntax::Call && node(id).text == "min_corner" && node(id).operands.size() == 1)
     return over_corners("min_corner", node(id).operands[0], parts, {}, true);
+  if (node(id).what == Syntax::Name && node(id).text == "scaled_jacobian_inside")  // likewise
+    return number(known(node(id), [&] { return element_.scaled_jacobian_inside(moving_); }));
   return value_of(id, parts, {});
 }
 
@@ -382,6 +384,7 @@ Number Lowering::number_named(const SyntaxNode& n, const FormulaName& entry, con
   if (name == "amax") return element_.greatest_angle();
   if (name == "inradius") return element_.inradius();
   if (name == "circumradius") return element_.circumradius();
+  if (name == "scaled_jacobian_inside") return element_.scaled_jacobian_inside(kNoIndex);
   if (name == "mean_measure") {
     if (space_ != FormulaSpace::Plain) throw NoSuchNumber{"is measured against its target here: 'size' says how large it is"};
     return element_.mean_measure();

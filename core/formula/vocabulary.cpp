@@ -23,6 +23,8 @@ constexpr std::array kNames{
     FormulaName{"amax", kElement, false, 0, "largest one"},
     FormulaName{"inradius", kElement, false, 1, "of the circle or sphere inside a simplex"},
     FormulaName{"circumradius", kElement, false, 1, "of the circle or sphere through a simplex's corners"},
+    FormulaName{"scaled_jacobian_inside", kElement, false, 0,
+                "of a hexahedron or wedge: a lower bound of the scaled Jacobian everywhere in it"},
     FormulaName{"mean_measure", kElement, false, kMeasure, "mean area or volume of the mesh's elements at input"},
     FormulaName{"u", kCorner, true, 1, "first edge that leaves the corner"},
     FormulaName{"v", kCorner, true, 1, "second edge, counter-clockwise of the first"},

@@ -28,6 +28,12 @@ constexpr std::array kNamed{
                  "The mean ratio times the relative size (Knupp)."},
     NamedFormula{"aspect", "Aspect", "sign(det)*smin/smax",
                  "Width over length of what the worst corner makes of the ideal element, or of its target."},
+    NamedFormula{"scaled-jacobian-inside", "Scaled Jacobian, inside",
+                 "hexahedron, wedge { scaled_jacobian_inside } "
+                 "triangle { 2/sqrt(3)*2*area/max_corner(length(u)*length(v)) } quadrilateral { J/(length(u)*length(v)) } "
+                 "tetrahedron { sqrt(2)*6*volume/max_corner(length(u)*length(v)*length(w)) } "
+                 "pyramid { sqrt(2)*J/(length(u)*length(v)*length(w)) }",
+                 "A lower bound of the scaled Jacobian everywhere in an element, not at its corners alone.", 0.5},
 };
 
 constexpr std::array<std::string_view, kMetricCount> kBuiltIn{
@@ -132,7 +138,7 @@ class Definitions {
               kinds,
               base != nullptr ? base->lowest : lowest,
               base != nullptr ? base->highest : highest,
-              base != nullptr ? base->acceptable : 0.3,
+              m.acceptable,
               m.formula->text(),
               m.doc};
   }
@@ -172,7 +178,9 @@ DefinedMetric of_name(const NamedFormula& named) {
   m.title = named.title;
   m.doc = named.doc;
   m.formula = std::make_shared<const Formula>(named.formula);
-  m.facts = facts_of(*m.formula);
+  m.acceptable = named.acceptable;
+  m.facts.least = -1.0;
+  m.facts.greatest = 1.0;
   return m;
 }
 
@@ -184,6 +192,7 @@ DefinedMetric of_built_in(Metric metric) {
   m.title = known.title;
   m.doc = known.doc;
   m.base = metric;
+  m.acceptable = known.acceptable;
   m.formula = std::make_shared<const Formula>(formula_of(metric));
   m.facts.least = known.lowest;
   m.facts.greatest = known.highest;

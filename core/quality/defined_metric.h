@@ -21,6 +21,7 @@ struct DefinedMetric {
   std::shared_ptr<const Formula> formula;
   std::optional<Metric> base{};  // the built-in one whose formula it is
   Target target{};
+  double acceptable = 0.3;
   FormulaFacts facts{};
   MetricInfo info{};
 };
@@ -39,6 +40,7 @@ struct DefinedMetric {
 /// Formulas that have names of their own.
 struct NamedFormula {
   std::string_view name, title, formula, doc;
+  double acceptable = 0.3;
 };
 [[nodiscard]] std::span<const NamedFormula> named_formulas();
 /// What a built-in metric is as a formula.

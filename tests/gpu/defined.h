@@ -30,6 +30,7 @@ inline constexpr std::string_view kDefinedMetrics[] = {
     "shape-size",
     "relative-size",
     "aspect@input:1",
+    "scaled-jacobian-inside",
     "scaled-jacobian@input:2:20%",
     "formula:if(det > 0, smin/smax, det/norm^2)@input",
     "shape-size@aspect:3:30",

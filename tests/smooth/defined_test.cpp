@@ -36,6 +36,7 @@ constexpr std::array kMetrics{
     "formula:min(1, size)*smin/smax",                      // and by sizes
     "formula:exp(-3*(smax/smin - 1))*sign(det)",
     "shape-size",
+    "scaled-jacobian-inside",
     "mean-ratio@input:3",
     "mean-ratio@input:2:20%",
     "aspect@input:1",

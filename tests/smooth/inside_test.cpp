@@ -60,6 +60,24 @@ INSTANTIATE_TEST_SUITE_P(Optimisers, Inside, ::testing::ValuesIn(volume_optimise
   return name;
 });
 
+/// The metric that sees inside is raised, and no visit lowers it; the same bits for any number of threads.
+TEST(InsideAlone, IsRaisedByItsMetric) {
+  const Metric metric = parse_metric("scaled-jacobian-inside");
+  Progress progress;
+  for (const Fill fill : {Fill::Hexahedra, Fill::Mixed})
+    for (const char* method : {"dmo", "pattern-search", "smart-laplace"}) {
+      const auto mesh = input(test::twisted_block(4, fill, 3));
+      const RunParameters parameters{.method = method, .metric = metric};
+      dmoscope::Run run = make_run(mesh, parameters), other = make_run(mesh, parameters, 3);
+      const double before = run.statistics().minimum;
+      testing::expect_promise_one({method, mesh->mesh}, run, 6);
+      EXPECT_GT(run.statistics().minimum, before + (method == std::string_view("smart-laplace") ? 0.0 : 0.05)) << method;
+      EXPECT_EQ(test::inverted_inside(mesh->mesh, run.positions()), 0U);
+      other.iterate(6, progress);
+      EXPECT_TRUE(same_bits(run.positions(), other.positions())) << method;
+    }
+}
+
 /// Corners alone call this hexahedron sound: the least of their Jacobians is 92. Half-way up its second edge the determinant is negative.
 TEST(InsideAlone, IsCountedAsInverted) {
   Mesh mesh;

@@ -110,6 +110,12 @@ struct Field {
   std::string type = "double";  // the file's own word for its scalar ("float", "int", ...)
   std::string role;             // the file's own word for what it is ("SCALARS", "VECTORS", "depth", ...), may be empty
   std::vector<double> values;
+  /// Where it stands in the text it was read from, for errors that are found late.
+  struct Place {
+    std::uint64_t begin = 0;      // the byte of its first word
+    std::uint32_t words = 0;      // from row to row; 0: not known
+    bool with_positions = false;  // each row on the line of its vertex
+  } place{};
 };
 
 /// A named set that the file carried: boundary strings of fort.14, markers of SU2.

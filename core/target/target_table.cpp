@@ -378,19 +378,20 @@ class TargetTable::Maker {
     }
   }
 
-  [[noreturn]] void fail(const Field& field, const std::string& what) const {
+  [[noreturn]] void fail(const Field& field, Index vertex, const std::string& what) const {
     const auto number = static_cast<std::size_t>(&field - mesh_.fields.data());
-    throw InputError(mesh_.source ? mesh_.source->file_of_field(number).string() : mesh_.name.empty() ? "mesh" : mesh_.name, 0, what);
+    const std::string sentence = fmt::format("{} at vertex {}", what, vertex);
+    if (!mesh_.source) throw InputError(mesh_.name.empty() ? "mesh" : mesh_.name, 0, sentence);
+    throw InputError(mesh_.source->file_of_field(number).string(), mesh_.source->line_of_row(mesh_, number, vertex), sentence);
   }
 
   [[nodiscard]] SmallMatrix log_of(const Field& field, Index v) const {
-    if (field.components == 1 && !(field.values[v] > 0.0))
-      fail(field, fmt::format("the size '{}' is not above 0 at vertex {}", field.name, v));
+    if (field.components == 1 && !(field.values[v] > 0.0)) fail(field, v, fmt::format("the size '{}' is not above 0", field.name));
     const SmallMatrix m = metric_tensor(field, v, n_);
     const Eigen e = eigen(m);
     for (std::size_t i = 0; static_cast<int>(i) < n_; ++i)
       if (!(e.values[i] > 0.0 && std::isfinite(e.values[i])))
-        fail(field, fmt::format("the metric '{}' is not positive definite at vertex {}", field.name, v));
+        fail(field, v, fmt::format("the metric '{}' is not positive definite", field.name));
     return apply(m, [](double value) { return std::log(value); });
   }
 

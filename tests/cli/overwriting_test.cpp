@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -100,7 +101,7 @@ TEST(Convert, RefusesWhatCannotBeComputedWithInTheWordsOfQuality) {
   EXPECT_FALSE(exists(out));
 }
 
-TEST(MetricField, ThatIsNoneNamesItsFileAndVertex) {
+TEST(MetricField, ThatIsNoneNamesItsFileLineAndVertex) {
   const Folder folder;
   const std::string mesh = folder.file(
       "a.mesh", "MeshVersionFormatted 2\nDimension 2\nVertices 4\n0 0 0\n1 0 0\n1 1 0\n0 1 0\nTriangles 2\n1 2 3 0\n1 3 4 0\nEnd\n");
@@ -111,7 +112,34 @@ TEST(MetricField, ThatIsNoneNamesItsFileAndVertex) {
         {"smooth", mesh, "-o", folder / "o.mesh", "--metric", "mean-ratio@field", "--iterations", "1"}}) {
     const Output output = run(arguments);
     EXPECT_EQ(output.code, 3) << output.err;
-    EXPECT_THAT(output.err, HasSubstr(sol + ": the metric 'metric' is not positive definite at vertex 2"));
+    EXPECT_THAT(output.err, HasSubstr(sol + ":7: the metric 'metric' is not positive definite at vertex 2"));
+  }
+}
+
+/// The word is the first number of the vertex, and occurs nowhere else.
+TEST(MetricField, ThatIsNoneNamesItsLineInEveryText) {
+  const Folder folder;
+  const std::string mesh = folder.file(
+      "a.mesh", "MeshVersionFormatted 2\nDimension 2\nVertices 4\n0 0 0\n1 0 0\n1 1 0\n0 1 0\nTriangles 2\n1 2 3 0\n1 3 4 0\nEnd\n");
+  (void)folder.file("a.sol",
+                    "MeshVersionFormatted 2\nDimension 2\nSolAtVertices 4\n2 3 1\n1 0 1 9\n1 0 1 9\n-7.25 2\n1 -3.5\n1 0 1 9\nEnd\n");
+  for (const char* format : {"mesh", "vtk", "msh", "vtu", "14"}) {
+    const std::string other = folder / (std::string("b.") + format);
+    ASSERT_EQ(run({"convert", mesh, other}).code, 0) << format;
+    if (std::string(format) == "mesh") std::filesystem::copy_file(folder / "a.sol", folder / "b.sol");
+    const bool of_vertices = std::string(format) == "14";
+    const std::string file = std::string(format) == "mesh" ? folder / "b.sol" : other;
+    const auto lines = lines_of(read_file(file));
+    const auto line =
+        std::ranges::find_if(lines, [&](const std::string& l) { return l.find(of_vertices ? "-3.5" : "-7.25") != std::string::npos; });
+    const std::string number = line == lines.end() ? "" : fmt::format("{}:", line - lines.begin() + 1);
+    if (std::string(format) != "vtu") {
+      EXPECT_NE(line, lines.end()) << format << " is binary";
+    }
+    const Output output = run({"quality", other, "--metric", of_vertices ? "mean-ratio@field:depth" : "mean-ratio@field:metric"});
+    EXPECT_EQ(output.code, 3) << output.err;
+    EXPECT_THAT(output.err, HasSubstr(file + ":" + number + " the "));
+    EXPECT_THAT(output.err, HasSubstr(" at vertex 2"));
   }
 }
 

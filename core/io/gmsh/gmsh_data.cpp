@@ -77,6 +77,8 @@ void GmshData::read(Field::On on, const TagPlaces& tags) {
   for (std::size_t i = 0; i < head.values; ++i) {
     const std::int64_t tag = in_.binary ? in_.int_at(bytes + i * each) : in_.words.integer("the number of a node or element");
     const Index row = tags.find(tag);
+    if (i == 0 && !in_.binary) field.place = {in_.words.token(), static_cast<std::uint32_t>(n + 1)};
+    if (row != i) field.place = {};
     if (row == kNoIndex) in_.words.fail(fmt::format("values of {} {}, which the file does not have", of_nodes ? "node" : "element", tag));
     for (std::size_t k = 0; k < n; ++k) {
       const double value = in_.binary ? in_.real_at(bytes + i * each + 4 + k * kReal) : in_.words.number("a value");

@@ -70,6 +70,10 @@ class SolReader {
     if (kinds < 1 || kinds > 100) tokens_.fail(fmt::format("{} solutions at a vertex: 1 to 100 are read", kinds));
     std::vector<Field> fields;
     for (std::int64_t i = 0; i < kinds; ++i) fields.push_back(begin(tokens_.read_integer("type of a solution"), count));
+    std::uint32_t words = 0;
+    for (const Field& field : fields) words += static_cast<std::uint32_t>(field.components);
+    (void)tokens_.at_end();
+    for (Field& field : fields) field.place = {tokens_.offset(), words};
     for (std::size_t v = 0; v < count; ++v) {
       if (v % 65536 == 0) progress_.check();
       for (Field& field : fields)

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "core/base/memory.h"
+#include "core/mesh/mesh.h"
 
 namespace dmoscope {
 namespace {
@@ -45,6 +46,25 @@ std::string_view kind_of(mode_t mode) {
 }
 
 }  // namespace
+
+std::size_t SourceFile::line_of_row(const Mesh& mesh, std::size_t field, std::size_t row) const {
+  const Field::Place place = mesh.fields[field].place;
+  const std::filesystem::path file = file_of_field(field);
+  Progress unwatched;
+  FileBytes other;
+  if (file != path_) try {
+      other = read_whole_file(file, unwatched);
+    } catch (const InputError&) {  // it is no more
+      return 0;
+    }
+  const std::string_view text = file == path_ ? bytes() : other.view();
+  Tokenizer words(text, file.string(), {.comment = '#', .free_form = true}, unwatched);
+  if (place.with_positions) return layout_.binary || row >= place_count() ? 0 : words.line_at(static_cast<std::size_t>(this->place(row)));
+  if (place.words == 0 || place.begin >= text.size()) return 0;
+  words.seek(place.begin);
+  for (std::size_t n = row * place.words; n > 0; --n) (void)words.token();
+  return words.at_end() ? 0 : words.line_at(words.offset());
+}
 
 FileBytes::FileBytes(std::string_view bytes) {
   std::ranges::copy(bytes, room(bytes.size()).begin());

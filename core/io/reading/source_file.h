@@ -60,6 +60,8 @@ class FileBytes {
   std::size_t capacity_ = 0;
 };
 
+struct Mesh;
+
 /// A file as it was read. A reader fills in the layout, the places and what only the file holds; afterwards nothing changes it.
 ///
 /// The file is read whole into memory of our own: a mapping would crash the program when the file is truncated while it is
@@ -102,6 +104,8 @@ class SourceFile {
   [[nodiscard]] std::filesystem::path file_of_field(std::size_t field) const {
     return beside_.empty() || field < first_beside_ ? path_ : path_.parent_path() / beside_;
   }
+  /// The 1-based line where a row of one of the mesh's fields begins; 0 where that is not known, as in binary files.
+  [[nodiscard]] std::size_t line_of_row(const Mesh& mesh, std::size_t field, std::size_t row) const;
 
   // For readers of formats.
   void set_size_on_disk(std::size_t size) { size_on_disk_ = size; }

@@ -74,7 +74,13 @@ class Reader {
 
  private:
   void read_nodes(std::size_t count) {
-    Field depth{.name = "depth", .on = Field::On::Vertices, .components = 1, .type = "double", .role = "depth", .values = {}};
+    Field depth{.name = "depth",
+                .on = Field::On::Vertices,
+                .components = 1,
+                .type = "double",
+                .role = "depth",
+                .values = {},
+                .place = {.with_positions = true}};
     reserve_large(mesh_.positions, count);
     reserve_large(depth.values, count);
     numbers_.reserve(count);

@@ -197,7 +197,8 @@ class Sms2dmReader {
                             .components = 1,
                             .type = "double",
                             .role = std::string(kElevation),
-                            .values = std::move(elevations_)});
+                            .values = std::move(elevations_),
+                            .place = {.with_positions = true}});
     add_strings();
   }
 

@@ -28,8 +28,13 @@ constexpr std::int64_t kMostAttributes = 1024;
 std::vector<Field> fields_of(Field::On on, std::size_t attributes, bool marker, std::size_t rows) {
   std::vector<Field> fields;
   const auto add = [&](std::string name, std::string_view type, std::string_view role) {
-    fields.push_back(
-        {.name = std::move(name), .on = on, .components = 1, .type = std::string(type), .role = std::string(role), .values = {}});
+    fields.push_back({.name = std::move(name),
+                      .on = on,
+                      .components = 1,
+                      .type = std::string(type),
+                      .role = std::string(role),
+                      .values = {},
+                      .place = {.with_positions = on == Field::On::Vertices}});
     fields.back().values.reserve(rows);
   };
   for (std::size_t k = 1; k <= attributes; ++k) add(fmt::format("{} {}", kAttribute, k), "double", kAttribute);

@@ -102,8 +102,9 @@ void VtkAttributes::append(std::string name, std::string_view role, std::string_
   values_.in.need(n, values_.least_bytes(type), "the number of values");
   field.values.reserve(n);
   bool rounded = false;
-  values_.numbers(type, n, "a value of the data", [&](double value, std::size_t) {
+  values_.numbers(type, n, "a value of the data", [&](double value, std::size_t at) {
     field.values.push_back(value * scale);
+    if (field.values.size() == 1 && !values_.binary) field.place = {at, static_cast<std::uint32_t>(components)};
     rounded = rounded || std::abs(value) >= kExactWhole;
   });
   if (rounded && is_whole(type.scalar)) {

@@ -325,7 +325,9 @@ class VtuReader {
         is_whole(array.type) && std::any_of(values.begin(), values.end(), [](double v) { return std::abs(v) >= kExactWhole; });
     if (field.values.empty()) {
       field.values = std::move(values);
+      if (array.ascii) field.place = {array.begin, static_cast<std::uint32_t>(array.components)};
     } else {
+      field.place = {};
       field.values.insert(field.values.end(), values.begin(), values.end());
     }
     if (rounded) {

@@ -93,11 +93,29 @@ void print_worst(const MetricSummary& summary, const PlaceText& place) {
 
 }  // namespace
 
+Json json_of_inverted(const InvertedCount& inverted) {
+  Json list = Json::array();
+  for (const InvertedCount::Element& one : inverted.first)
+    list.push_back({{"element", one.number}, {"inside_alone", one.inside_alone}, {"at", {one.at.x, one.at.y, one.at.z}}});
+  return list;
+}
+
+std::string sentence_of(const InvertedCount& inverted) {
+  constexpr std::size_t kMostSaid = 10;
+  std::string text = fmt::format("{} inverted", grouped(inverted.all));
+  if (inverted.inside_alone == 0) return text;
+  text += fmt::format(", {} of them inside alone, where corners do not tell", grouped(inverted.inside_alone));
+  std::size_t said = 0;
+  for (const InvertedCount::Element& one : inverted.first) {
+    if (!one.inside_alone || said == kMostSaid) continue;
+    text += fmt::format("{}element {} at ({:.10g}, {:.10g}, {:.10g})", said++ == 0 ? ": " : ", ", one.number, one.at.x, one.at.y, one.at.z);
+  }
+  return said < inverted.inside_alone ? text + ", ..." : text;
+}
+
 void print_counts(const std::string& mesh, std::uint64_t vertices, std::uint64_t elements, const InvertedCount& inverted) {
-  print("{}: {}, {}, {} inverted", mesh, counted(vertices, "vertex", "vertices"), counted(elements, "element", "elements"),
-        grouped(inverted.all));
-  if (inverted.inside_alone > 0) print(", {} of them inside alone, where corners do not tell", grouped(inverted.inside_alone));
-  print("\n\n");
+  print("{}: {}, {}, {}\n\n", mesh, counted(vertices, "vertex", "vertices"), counted(elements, "element", "elements"),
+        sentence_of(inverted));
 }
 
 void print_summaries(const std::vector<MetricSummary>& summaries, const Geometry& geometry) {

@@ -28,7 +28,12 @@ struct MetricSummary {
 };
 
 [[nodiscard]] Json json_of(const MetricSummary& summary, bool with_worst);
-/// "coast.14: 4,934 vertices, 9,290 elements, 0 inverted"; "..., 3 inverted, 2 of them inside alone, where corners do not tell"
+/// A list of the elements that it names.
+[[nodiscard]] Json json_of_inverted(const InvertedCount& inverted);
+/// "0 inverted"; "3 inverted, 2 of them inside alone, where corners do not tell: element 17 at (1, 0.5, 1), element 18 at (2, 0.5, 1)", of
+/// many the first.
+[[nodiscard]] std::string sentence_of(const InvertedCount& inverted);
+/// "coast.14: 4,934 vertices, 9,290 elements, 0 inverted"
 void print_counts(const std::string& mesh, std::uint64_t vertices, std::uint64_t elements, const InvertedCount& inverted);
 /// The table of all metrics, then the worst elements of each.
 void print_summaries(const std::vector<MetricSummary>& summaries, const Geometry& geometry);

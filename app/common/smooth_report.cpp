@@ -4,6 +4,7 @@
 
 #include "app/common/console.h"
 #include "app/common/objective_report.h"
+#include "app/common/quality_report.h"
 #include "core/numeric/simd.h"
 #include "core/reference/domain.h"
 #include "core/run/mean_given_up.h"
@@ -29,12 +30,9 @@ std::string_view reason_name(StopReason reason) {
   return "unknown";
 }
 
-Json json_of(const Statistics& s) {
-  return {{"minimum", json_number(s.minimum)},
-          {"mean", json_number(s.mean)},
-          {"movable_minimum", json_number(s.movable_minimum)},
-          {"ceiling", json_number(s.ceiling)},
-          {"inverted", s.inverted}};
+Json json_of(const Statistics& s, std::uint64_t inside_alone) {
+  return {{"minimum", json_number(s.minimum)}, {"mean", json_number(s.mean)}, {"movable_minimum", json_number(s.movable_minimum)},
+          {"ceiling", json_number(s.ceiling)}, {"inverted", s.inverted},      {"inverted_inside_alone", inside_alone}};
 }
 
 /// Of joint moves, tried or in the run: what they reach, the bound, how many elements hold one another, and by how much those that hold
@@ -131,10 +129,15 @@ Json json_of(const SmoothReport& r) {
   object["last_rise"] = r.outcome.last_rise;
   object["written_iteration"] = r.after().iteration;
   object["left_inverted"] = nullptr;
-  if (r.left) object["left_inverted"] = {{"count", r.left->count}, {"element", r.left->element}, {"vertex", r.left->vertex}};
+  if (r.left)
+    object["left_inverted"] = {{"count", r.left->all.all},
+                               {"inside_alone", r.left->all.inside_alone},
+                               {"element", r.left->element},
+                               {"vertex", r.left->vertex},
+                               {"elements", json_of_inverted(r.left->all)}};
   object["held_by"] = r.held ? json_of(*r.held) : Json(nullptr);
-  object["before"] = json_of(r.before().statistics);
-  object["after"] = json_of(r.after().statistics);
+  object["before"] = json_of(r.before().statistics, r.inside_alone_before);
+  object["after"] = json_of(r.after().statistics, r.left ? r.left->all.inside_alone : 0);
   add_composite(object, r.run);
   object["seconds"] = r.seconds;
   object["vertices_per_second"] = json_number(r.visits_per_second());

@@ -27,8 +27,9 @@ struct SmoothReport {
   unsigned ranks = 0;               // 0: one process alone
   Outcome outcome{};
   double seconds = 0.0;
-  std::optional<LeftInverted> left{};  // of what is written
-  std::optional<HeldMinimum> held{};   // likewise
+  std::uint64_t inside_alone_before = 0;    // elements that only their inside inverted
+  std::optional<LeftInverted> left{};       // of what is written
+  std::optional<HeldMinimum> held{};        // likewise
   std::vector<std::string> warnings{};
   std::optional<Provenance> provenance{};
 

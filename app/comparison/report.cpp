@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "app/common/machine.h"
+#include "app/common/quality_report.h"
 #include "app/pages/page.h"
 #include "core/session/csv.h"
 
@@ -34,6 +35,19 @@ std::vector<std::string> endings(const Comparison& comparison) {
   for (const JudgedRun* run : every_run(comparison))
     if (run->outcome.best || run->outcome.phases != RunPhases{})
       lines.push_back(fmt::format("{}: {}{}{}", run->name, run->outcome.sentence(), run->held.empty() ? "" : ". ", run->held));
+  return lines;
+}
+
+/// Of the input and the runs those with elements that only their inside inverts, and where.
+std::vector<std::string> inverted_inside(const Comparison& comparison) {
+  std::vector<std::string> lines;
+  const auto look_at = [&](const std::string& name, std::span<const Vec3> positions, Index inverted) {
+    if (inverted == 0) return;
+    const InvertedCount found = count_inverted(comparison.input->quality_context(), positions);
+    if (found.inside_alone > 0) lines.push_back(fmt::format("{}: {}", name, sentence_of(found)));
+  };
+  look_at("input", comparison.input->mesh.positions, comparison.runs.front().before().inverted);
+  for (const JudgedRun& run : comparison.runs) look_at(run.name, run.positions, run.after.inverted);
   return lines;
 }
 
@@ -218,9 +232,10 @@ std::string text_of(const Comparison& comparison) {
       fmt::format("{}: {}, {}, {} free; qualities by {}\n\n", mesh.name, counted(mesh.vertex_count(), "vertex", "vertices"),
                   counted(mesh.elements.size(), "element", "elements"), grouped(comparison.free), info(comparison.judge).name);
   text += text_table(head, rows, alignment);
-  const std::vector<std::string> ends = endings(comparison);
-  if (!ends.empty()) text += '\n';
-  for (const std::string& line : ends) text += line + '\n';
+  std::vector<std::string> lines = inverted_inside(comparison);
+  std::ranges::move(endings(comparison), std::back_inserter(lines));
+  if (!lines.empty()) text += '\n';
+  for (const std::string& line : lines) text += line + '\n';
   if (!comparison.orders.empty())
     text += fmt::format("\n{}, the natural one included:\n", counted(comparison.orders.front().orders, "order", "orders"));
   for (const OrderSpread& spread : comparison.orders) text += "  " + spread_sentence(spread) + '\n';
@@ -288,6 +303,7 @@ std::string html_of(const Comparison& comparison, const ComparisonFacts& facts, 
     hints.emplace_back(column->doc);
   }
   page.table(head, hints, page_rows(comparison), 1);  // the input, as in the window
+  for (const std::string& line : inverted_inside(comparison)) page.paragraph(line + ".");
   for (const std::string& line : endings(comparison)) page.paragraph(line + ".");
   for (const LeftOut& left : comparison.left_out) page.paragraph(fmt::format("Left out: {}: {}", left.name, left.reason));
   page.heading("Convergence");

@@ -16,6 +16,7 @@
 #include "app/mpi/verbs.h"
 #include "core/base/error.h"
 #include "core/base/thread_pool.h"
+#include "mpi/smooth/shared_left_inverted.h"
 #include "mpi/smooth/shared_mesh.h"
 #include "mpi/smooth/shared_order.h"
 
@@ -94,14 +95,6 @@ class SharedColumn {
   std::vector<Index> ascending_;  // those that are counted here
 };
 
-InvertedCount count_inverted(const SharedMesh& mesh) {
-  InvertedCount inverted;
-  for (Index e = 0; e < mesh.input->mesh.elements.size(); ++e)
-    if (mesh.share->share().home[e] != 0) inverted.add(mesh.input->quality_context(), mesh.input->mesh.positions, e);
-  const World& world = mesh.share->world();
-  return {world.sum(inverted.all), world.sum(inverted.inside_alone)};
-}
-
 int quality(const World& world, const SharedQualityOptions& options) {
   std::vector<Metric> metrics;
   if (options.metric != "all") metrics = {parse_metric(options.metric)};
@@ -121,7 +114,7 @@ int quality(const World& world, const SharedQualityOptions& options) {
   for (const Metric metric : metrics) summaries.push_back(SharedColumn(mesh, metric, pool).summary(options.worst));
   if (options.metric != "all" && summaries.front().elements == 0)
     throw UsageError(fmt::format("{} is defined for no element of {}", options.metric, name));
-  const InvertedCount inverted = count_inverted(mesh);
+  const InvertedCount inverted = count_inverted(mesh.input->quality_context(), mesh.input->mesh.positions, *mesh.share);
   if (!world.is_first()) return 0;
   if (options.json) {
     Json list = Json::array();
@@ -132,6 +125,7 @@ int quality(const World& world, const SharedQualityOptions& options) {
                 {"elements", mesh.share->element_count()},
                 {"inverted", inverted.all},
                 {"inverted_inside_alone", inverted.inside_alone},
+                {"inverted_elements", json_of_inverted(inverted)},
                 {"metrics", std::move(list)},
                 {"warnings", warnings}});
     return 0;

@@ -182,6 +182,7 @@ int smooth(const World& world, const SharedSmoothOptions& options) {
   std::optional<LeftInverted> left = find_left_inverted(run, *mesh.share);
   if (left) warn(left->sentence());
 
+  const std::uint64_t inside_before = count_inverted(mesh.input->quality_context(), mesh.input->mesh.positions, *mesh.share).inside_alone;
   const std::uint64_t fixed_by_user = world.sum(std::uint64_t{mesh.named.size()});
   const SmoothReport report{.input = options.input,
                             .output = options.output,
@@ -196,6 +197,7 @@ int smooth(const World& world, const SharedSmoothOptions& options) {
                             .ranks = static_cast<unsigned>(world.size()),
                             .outcome = outcome,
                             .seconds = seconds,
+                            .inside_alone_before = inside_before,
                             .left = std::move(left),
                             .warnings = std::move(warnings)};
   const bool reached = !options.goal.until_converged || outcome.reason != StopReason::IterationLimit;

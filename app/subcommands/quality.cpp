@@ -76,26 +76,6 @@ Column judge(const InputMesh& input, Metric metric, ThreadPool& pool) {
   return column;
 }
 
-InvertedCount count_inverted(const InputMesh& input) {
-  InvertedCount inverted;
-  for (Index e = 0; e < input.mesh.elements.size(); ++e) inverted.add(input.quality_context(), input.mesh.positions, e);
-  return inverted;
-}
-
-Vec3 centroid(const InputMesh& input, Index element) {
-  const Plane& plane = input.geometry.plane;
-  const auto corners = input.mesh.elements.corners(element);
-  const Vec3 first = input.mesh.positions[corners[0]];
-  Vec3 sum;  // of a mesh that wraps: as seen from the first corner
-  for (const Index corner : corners) {
-    const Vec3 at = input.mesh.positions[corner];
-    sum = sum + (plane.period > 0.0 ? first + plane.difference(at, first) : at);
-  }
-  Vec3 middle = (1.0 / static_cast<double>(corners.size())) * sum;
-  if (plane.period > 0.0) middle.x = settled(middle.x, plane.west, plane.period, false);
-  return middle;
-}
-
 std::vector<Metric> wanted_metrics(const std::string& name, const std::string& target) {
   std::vector<Metric> metrics;
   if (name != "all")
@@ -124,7 +104,7 @@ MetricSummary summary_of(const InputMesh& input, const Column& column, std::size
   summary.mean = column.mean;
   summary.unacceptable = column.unacceptable;
   for (const Index e : worst_of(column, worst))
-    summary.worst.push_back({e, input.mesh.elements.kind(e), column.values[e], centroid(input, e)});
+    summary.worst.push_back({e, input.mesh.elements.kind(e), column.values[e], centroid(input.quality_context(), input.mesh.positions, e)});
   return summary;
 }
 
@@ -176,7 +156,7 @@ int quality(const QualityOptions& options) {
   if (!options.elements.empty()) write_file_atomically(options.elements, elements_csv(input->quality_context(), mesh.positions, metrics));
   std::vector<MetricSummary> summaries;
   for (const Column& column : columns) summaries.push_back(summary_of(*input, column, options.worst));
-  const InvertedCount inverted = count_inverted(*input);
+  const InvertedCount inverted = count_inverted(input->quality_context(), mesh.positions);
   const auto near = input->surface ? std::optional(nearness_of(*input, pool)) : std::nullopt;
   const double share = near ? near->deviation / input->geometry.size : 0.0;
   if (options.json) {
@@ -187,6 +167,7 @@ int quality(const QualityOptions& options) {
                 {"elements", mesh.elements.size()},
                 {"inverted", inverted.all},
                 {"inverted_inside_alone", inverted.inside_alone},
+                {"inverted_elements", json_of_inverted(inverted)},
                 {"metrics", std::move(list)},
                 {"groups", json_of_groups(mesh)},
                 {"warnings", warnings}};

@@ -209,6 +209,7 @@ int smooth(const SmoothOptions& options) {
                             .threads = pool->size(),
                             .outcome = outcome,
                             .seconds = seconds,
+                            .inside_alone_before = count_inverted(input->quality_context(), input->mesh.positions).inside_alone,
                             .left = std::move(left),
                             .held = std::move(held),
                             .warnings = std::move(warnings),

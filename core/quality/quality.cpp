@@ -58,10 +58,31 @@ std::optional<Vec3> inverted_inside(const QualityContext& context, PositionView 
   });
 }
 
-void InvertedCount::add(const QualityContext& context, PositionView positions, Index element) {
+Vec3 centroid(const QualityContext& context, PositionView positions, Index element) {
+  const Plane& plane = context.geometry.plane;
+  const auto corners = context.mesh.elements.corners(element);
+  const Vec3 first = positions[corners[0]];
+  Vec3 sum;
+  for (const Index corner : corners)
+    sum = sum + (plane.period > 0.0 ? first + plane.difference(positions[corner], first) : positions[corner]);
+  Vec3 middle = (1.0 / static_cast<double>(corners.size())) * sum;
+  if (plane.period > 0.0 && middle.x < plane.west) middle.x += plane.period;
+  if (plane.period > 0.0 && middle.x > plane.west + plane.period) middle.x -= plane.period;
+  return middle;
+}
+
+void InvertedCount::add(const QualityContext& context, PositionView positions, Index element, std::uint64_t number) {
   if (smallest_jacobian(context, positions, element) > 0.0) return;
+  const std::optional<Vec3> inside = inverted_inside(context, positions, element);
   ++all;
-  inside_alone += inverted_inside(context, positions, element) ? 1 : 0;
+  inside_alone += inside ? 1 : 0;
+  if (first.size() < kMostNamed) first.push_back({number, inside.has_value(), inside ? *inside : centroid(context, positions, element)});
+}
+
+InvertedCount count_inverted(const QualityContext& context, PositionView positions) {
+  InvertedCount inverted;
+  for (Index e = 0; e < context.mesh.elements.size(); ++e) inverted.add(context, positions, e, e);
+  return inverted;
 }
 
 void element_qualities(const QualityContext& context, std::span<const Vec3> positions, Metric metric, ThreadPool* pool,

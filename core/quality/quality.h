@@ -48,11 +48,23 @@ struct QualityContext {
 /// the element is valid, and where its corners tell that it is inverted.
 [[nodiscard]] std::optional<Vec3> inverted_inside(const QualityContext& context, PositionView positions, Index element);
 
+/// The mean of an element's corners; of a mesh that wraps as seen from the first one, in the file's range.
+[[nodiscard]] Vec3 centroid(const QualityContext& context, PositionView positions, Index element);
+
 /// Elements that are inverted, and those of them whose corners do not tell.
 struct InvertedCount {
+  struct Element {
+    std::uint64_t number = 0;
+    bool inside_alone = false;  // its corners do not tell
+    Vec3 at{};                  // then where; else the mean of its corners
+  };
+  static constexpr std::size_t kMostNamed = 1000;
   std::uint64_t all = 0, inside_alone = 0;
-  void add(const QualityContext& context, PositionView positions, Index element);
+  std::vector<Element> first{};  // of all the first so many
+  /// Counts an element where it is inverted. `number`: what it is called.
+  void add(const QualityContext& context, PositionView positions, Index element, std::uint64_t number);
 };
+[[nodiscard]] InvertedCount count_inverted(const QualityContext& context, PositionView positions);
 
 /// Quality of every element, out.size() == mesh.elements.size().
 void element_qualities(const QualityContext& context, std::span<const Vec3> positions, Metric metric, ThreadPool* pool,

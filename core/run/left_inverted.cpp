@@ -10,12 +10,12 @@
 namespace dmoscope {
 
 std::string LeftInverted::sentence() const {
-  std::string text = count == 1 ? "1 element stays inverted. " : fmt::format("{} elements stay inverted. ", count);
+  std::string text = all.all == 1 ? "1 element stays inverted. " : fmt::format("{} elements stay inverted. ", all.all);
   const auto words = [](Vec3 p) { return fmt::format("({:.10g}, {:.10g}, {:.10g})", p.x, p.y, p.z); };
   text += fmt::format("Look at element {}", element);
   if (inside) text += fmt::format(", which is inverted inside, at {}, where its corners do not tell,", words(*inside));
   text += fmt::format(" and at vertex {} at {}", vertex, words(place));
-  if (count > 1) text += fmt::format(", which is in {} of them", around);
+  if (all.all > 1) text += fmt::format(", which is in {} of them", around);
   return why_fixed.empty() ? text + "." : fmt::format("{}; {}.", text, why_fixed);
 }
 
@@ -29,13 +29,14 @@ std::optional<LeftInverted> find_left_inverted(const Run& run) {
   for (Index e = 0; e < input.mesh.elements.size(); ++e) {
     const double jacobian = smallest_jacobian(context, positions, e) / input.reference_measure[e];
     if (!(jacobian <= 0.0)) continue;
-    if (found.count++ == 0 || jacobian < least) {
+    found.all.add(context, positions, e, e);
+    if (found.all.all == 1 || jacobian < least) {
       least = jacobian;
       found.element = e;
     }
     for (const Index v : input.mesh.elements.corners(e)) ++around[v];
   }
-  if (found.count == 0) return std::nullopt;
+  if (found.all.all == 0) return std::nullopt;
   const auto rank = [&](Index v) { return std::tuple(around[v], run.fixed()[v]); };
   found.inside = inverted_inside(context, positions, found.element);
   found.vertex = 0;

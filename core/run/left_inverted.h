@@ -10,7 +10,7 @@
 namespace dmoscope {
 
 struct LeftInverted {
-  Index count = 0;               // inverted elements
+  InvertedCount all{};
   Index element = kNoIndex;      // the most inverted one: of least corner Jacobian over its reference measure
   std::optional<Vec3> inside{};  // where, if its corners do not tell
   Index vertex = kNoIndex;       // the vertex of the most inverted elements; a fixed one before a free one, then the lowest

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "core/base/host_device.h"
@@ -45,7 +46,8 @@ inline constexpr float kInvertedShade = -3e38F, kUndefinedShade = 3e38F;
 struct RankedElement {
   Index element = kNoIndex;
   double quality = 0.0;
-  bool inverted = false;  // a corner Jacobian is <= 0
+  bool inverted = false;         // smallest_jacobian() is <= 0
+  std::optional<Vec3> inside{};  // see inverted_inside()
 };
 
 /// All elements by one metric.

@@ -105,6 +105,8 @@ void judge_elements(Frame& frame, std::span<const Index> immovable, ThreadPool* 
   frame.shown_statistics = whole.tally.statistics();
   frame.now = whole.bins.histogram();
   frame.worst = whole.worst.take();
+  for (RankedElement& ranked : frame.worst)
+    if (ranked.inverted) ranked.inside = inverted_inside(frame.input->quality_context(), frame.positions, ranked.element);
 }
 
 InputSpread spread_of(const InputMesh& input, Metric metric, ThreadPool* pool) {

@@ -39,7 +39,7 @@ struct Frame {
   std::string device_trouble;                   // why there is none although the run lives on a device; empty when there is no such reason
   std::vector<Vec3> positions;
   std::vector<float> quality;                         // of the shown metric, one an element; NaN where it is not defined
-  std::vector<std::uint8_t> inverted;                 // one an element, 1 where a corner Jacobian is <= 0
+  std::vector<std::uint8_t> inverted;                 // one an element, 1 where smallest_jacobian() is <= 0
   Statistics shown_statistics;                        // of the shown metric
   Statistics statistics;                              // of the metric the run optimises
   Histogram before, now;                              // of the shown metric: at the input, and here

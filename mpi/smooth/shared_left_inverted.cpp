@@ -1,5 +1,6 @@
 #include "mpi/smooth/shared_left_inverted.h"
 
+#include <algorithm>
 #include <tuple>
 #include <vector>
 
@@ -26,12 +27,25 @@ Index as_index(WholeIndex number) { return number < kNoIndex ? static_cast<Index
 
 }  // namespace
 
+InvertedCount count_inverted(const QualityContext& context, PositionView positions, const RankShare& share) {
+  InvertedCount here;
+  for (Index e = 0; e < context.mesh.elements.size(); ++e)
+    if (share.share().home[e] != 0) here.add(context, positions, e, share.share().elements[e]);
+  const World& world = share.world();
+  InvertedCount all{world.sum(here.all), world.sum(here.inside_alone), world.gather(here.first)};
+  std::ranges::sort(all.first, {}, &InvertedCount::Element::number);
+  all.first.resize(std::min(all.first.size(), InvertedCount::kMostNamed));
+  world.broadcast(all.first, 0);
+  return all;
+}
+
 std::optional<LeftInverted> find_left_inverted(const Run& run, const RankShare& share) {
   const InputMesh& input = run.input();
   const QualityContext context = input.quality_context();
   const auto positions = run.positions();
   const World& world = share.world();
-  std::uint64_t count = 0;
+  InvertedCount all = count_inverted(context, positions, share);
+  if (all.all == 0) return std::nullopt;
   Element worst;
   std::vector<Index> around(positions.size());
   for (Index e = 0; e < input.mesh.elements.size(); ++e) {
@@ -39,12 +53,10 @@ std::optional<LeftInverted> find_left_inverted(const Run& run, const RankShare& 
     if (!(jacobian <= 0.0)) continue;
     for (const Index v : input.mesh.elements.corners(e)) ++around[v];
     if (share.share().home[e] == 0) continue;
-    if (count++ != 0 && !(jacobian < worst.jacobian)) continue;
+    if (worst.number != Element{}.number && !(jacobian < worst.jacobian)) continue;
     const std::optional<Vec3> inside = inverted_inside(context, positions, e);
     worst = {jacobian, share.share().elements[e], inside.has_value(), inside.value_or(Vec3{})};
   }
-  const std::uint64_t all = world.sum(count);
-  if (all == 0) return std::nullopt;
   Vertex first;
   Index here = kNoIndex;
   for (Index v = 0; v < around.size(); ++v) {
@@ -66,7 +78,7 @@ std::optional<LeftInverted> find_left_inverted(const Run& run, const RankShare& 
   world.broadcast(why, owner);
   const Vertex& vertex = firsts[static_cast<std::size_t>(owner)];
   LeftInverted found;
-  found.count = as_index(all);
+  found.all = std::move(all);
   found.element = as_index(worst.number);
   if (worst.inside_alone) found.inside = worst.inside;
   found.vertex = as_index(vertex.number);

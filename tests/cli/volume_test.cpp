@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -39,6 +40,31 @@ TEST(Volumes, ComeOutOfEveryFormatWithTheirElementsAndBetter) {
     EXPECT_EQ(after["elements"], whole["elements"]) << format;
     EXPECT_EQ(after["inverted"], 0) << format;
   }
+}
+
+TEST(Volumes, WhatOnlyItsInsideInvertsIsToldWithItsPlace) {
+  const Folder folder;
+  const std::string in =
+      folder.file("in.vtk",
+                  "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 double\n5 -6 -2 11 -6 -2 17 6 "
+                  "3 7 6 1 7 -2 15 5 5 5 4 4 11 2 6 8\nCELLS 1 9\n8 0 1 2 3 4 5 6 7\nCELL_TYPES 1\n12\n");
+  const Output smoothed = run({"smooth", in, "-o", folder / "out.vtk", "--iterations", "1", "--json"});
+  EXPECT_EQ(smoothed.code, 1);
+  const Json report = json_of(smoothed), &left = report["left_inverted"];
+  EXPECT_EQ(report["before"]["inverted_inside_alone"], 1);
+  EXPECT_EQ(report["after"]["inverted_inside_alone"], 1);
+  EXPECT_EQ(left["inside_alone"], 1);
+  ASSERT_EQ(left["elements"].size(), 1U);
+  EXPECT_EQ(left["elements"][0]["element"], 0);
+  EXPECT_EQ(left["elements"][0]["inside_alone"], true);
+  const auto at = left["elements"][0]["at"].get<std::vector<double>>();
+  EXPECT_EQ(json_of(run({"quality", in, "--json"}))["inverted_elements"], left["elements"]);
+  const std::string said = fmt::format("1 inverted, 1 of them inside alone, where corners do not tell: element 0 at ({:.10g}, ", at[0]);
+  EXPECT_THAT(run({"quality", in}).out, HasSubstr(said));
+  const Output compared = run({"compare", in, "--run", "dmo", "--iterations", "1", "--report", folder / "report.html"});
+  EXPECT_THAT(compared.out, HasSubstr("\ninput: " + said));
+  const std::string page = read_file(folder / "report.html");
+  for (const char* row : {"<p>input: ", "<p>dmo:mean-ratio: "}) EXPECT_NE(page.find(row + said), std::string::npos) << row;
 }
 
 TEST(Volumes, ElementsAreWrittenAsTheyWereWound) {

@@ -11,6 +11,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/volume_grids.h"
 #include "ui/state/actions.h"
+#include "ui/viewports/inverted_marks.h"
 
 namespace dmoscope::app {
 namespace {
@@ -39,6 +40,28 @@ TEST_F(VolumeWindow, IsSeenFromEverySideAndInside) {
   }
   good("show-all");
   EXPECT_EQ(state().inside, ClippingView{});
+}
+
+TEST_F(VolumeWindow, ThePlaceInsideIsMarkedForAllThatAreListed) {
+  Mesh mesh;
+  mesh.positions = {{5, -6, -2}, {11, -6, -2}, {17, 6, 3}, {7, 6, 1}, {7, -2, 15}, {5, 5, 5}, {4, 4, 11}, {2, 6, 8}};
+  mesh.elements.add(ElementKind::Hexahedron, std::array<Index, 8>{0, 1, 2, 3, 4, 5, 6, 7});
+  Progress progress;
+  write_mesh(folder_.path() / "inside.vtk", mesh, mesh.positions, progress);
+  good("open \"" + (folder_.path() / "inside.vtk").string() + "\"");
+  good("view-from +x");
+  const auto worst = session()->frame->worst;
+  ASSERT_EQ(worst.size(), 1U);
+  ASSERT_TRUE(worst[0].inside.has_value());
+  EXPECT_EQ(state().picked.kind, ui::Picked::Kind::None);
+  const auto marked = picture();
+  good("worst off");
+  EXPECT_NE(picture(), marked);
+  render::SpaceMarks marks;
+  ui::add_inverted_inside(marks, *session()->frame, {});
+  ASSERT_EQ(marks.dots.size(), 2U) << "casing and diamond";
+  EXPECT_EQ(marks.dots[1].point, *worst[0].inside);
+  EXPECT_EQ(marks.dots[1].shape, render::DotShape::Diamond);
 }
 
 TEST_F(VolumeWindow, ADragTurnsItAndAClickPicks) {

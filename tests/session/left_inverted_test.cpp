@@ -35,7 +35,7 @@ TEST_F(LeftInvertedTest, TheMostInvertedElementAndAFixedVertexAreNamed) {
   session_.open(fans({{5, 2, 0}, {2, 2, 0}, {-3, 2, 0}, {2, -1, 0}}), progress_);
   const auto found = find_left_inverted(session_.active());
   ASSERT_TRUE(found);
-  EXPECT_EQ(found->count, 3U);
+  EXPECT_EQ(found->all.all, 3U);
   EXPECT_EQ(found->element, 11U) << "3 beyond the left side of the third square";
   EXPECT_EQ(found->vertex, 2U) << "all have one inverted element: of these the first that is fixed, not the free one before it";
   EXPECT_EQ(found->around, 1U);
@@ -52,7 +52,7 @@ TEST_F(LeftInvertedTest, AVertexOfMoreOfThemComesBeforeAFixedOne) {
   session_.open(fans({{5, 5, 0}}), progress_);  // beyond a corner: both triangles there are inverted
   const auto found = find_left_inverted(session_.active());
   ASSERT_TRUE(found);
-  EXPECT_EQ(found->count, 2U);
+  EXPECT_EQ(found->all.all, 2U);
   EXPECT_EQ(found->around, 2U);
   EXPECT_EQ(found->vertex, 3U) << "the corner, which is fixed, before the middle, which is not, of as many";
   session_.open(fans({{5, 2, 0}}), progress_);

@@ -131,5 +131,41 @@ TEST(InsideAlone, IsUntangledByAllThatOptimise) {
   EXPECT_TRUE(sound_after(two_aims));
 }
 
+TEST(InsideAlone, IsTheFirstWithItsPlaceAmongThoseThatAreNamed) {
+  Mesh mesh;
+  mesh.positions = {{5, -6, -2}, {11, -6, -2}, {17, 6, 3}, {7, 6, 1},  {7, -2, 15}, {5, 5, 5},   {4, 4, 11},  {2, 6, 8},
+                    {30, 0, 0},  {34, 0, 0},   {34, 4, 0}, {30, 4, 0}, {30, 0, 4},  {34, 0, -4}, {34, 4, -4}, {30, 4, 4}};
+  for (Index first : {8U, 0U}) {  // the other is inverted at its corners
+    std::array<Index, 8> corners{};
+    for (Index& corner : corners) corner = first++;
+    mesh.elements.add(ElementKind::Hexahedron, corners);
+  }
+  const InvertedCount found = count_inverted(input(mesh)->quality_context(), mesh.positions);
+  EXPECT_EQ(found.all, 2U);
+  EXPECT_EQ(found.inside_alone, 1U);
+  ASSERT_EQ(found.first.size(), 2U);
+  EXPECT_EQ(found.first[0].number, 0U);
+  EXPECT_FALSE(found.first[0].inside_alone);
+  EXPECT_EQ(found.first[0].at, (Vec3{32, 2, 0}));
+  EXPECT_EQ(found.first[1].number, 1U);
+  EXPECT_TRUE(found.first[1].inside_alone);
+  // By the map from the unit cube, at places whose coordinates are sixteenths; its derivatives are differences, as it is linear in each.
+  const auto place = [&](double x, double y, double z) {
+    Vec3 sum;
+    for (Index i = 0; i < 8; ++i)
+      sum = sum + ((i % 4 == 1 || i % 4 == 2 ? x : 1.0 - x) * (i % 4 >= 2 ? y : 1.0 - y) * (i >= 4 ? z : 1.0 - z)) * mesh.positions[i];
+    return sum;
+  };
+  int met = 0;
+  for (int i = 0; i < 17 * 17 * 17; ++i) {
+    const double x = i % 17 / 16.0, y = i / 17 % 17 / 16.0, z = i / 289 / 16.0;
+    if (length(place(x, y, z) - found.first[1].at) > 1e-12) continue;
+    const Vec3 dx = place(1, y, z) - place(0, y, z), dy = place(x, 1, z) - place(x, 0, z), dz = place(x, y, 1) - place(x, y, 0);
+    EXPECT_LE(dot(dx, cross(dy, dz)), 0.0);
+    ++met;
+  }
+  EXPECT_EQ(met, 1);
+}
+
 }  // namespace
 }  // namespace dmoscope

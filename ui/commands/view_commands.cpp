@@ -108,10 +108,11 @@ void add_look_commands(CommandTable& table, ViewState& state) {
     require(words, 0, 1);
     state.vertices = switched(words, 0, state.vertices);
   });
-  table.add({"worst", "worst [on|off|toggle]", "ring around the worst element"}, [&state](Arguments words) {
-    require(words, 0, 1);
-    state.worst_marker = switched(words, 0, state.worst_marker);
-  });
+  table.add({"worst", "worst [on|off|toggle]", "ring around the worst element, and a diamond where a listed one is inverted inside alone"},
+            [&state](Arguments words) {
+              require(words, 0, 1);
+              state.worst_marker = switched(words, 0, state.worst_marker);
+            });
   table.add(
       {"features", "features [on|off|toggle]", "where vertices slide: boundary, interfaces and feature edges as lines, corners as squares"},
       [&state](Arguments words) {

@@ -207,7 +207,7 @@ void draw_vertex(PanelContext& context, const Frame& frame, Index vertex) {
   if (context.state.inspection.open && context.state.inspection.vertex == vertex) return;  // whose elements are listed above
   action_button(context, "inspect", "Look into its search");
   dim_text(context, fmt::format("star, {}", metric_phrase(frame.shown)));
-  for (const auto& [element, q, inverted] : facts.star) {
+  for (const auto& [element, q, inverted, inside] : facts.star) {
     ImGui::PushID(static_cast<int>(element));
     const ImVec2 cursor = ImGui::GetCursorScreenPos();
     if (ImGui::Selectable("##star")) context.send(fmt::format("pick element {}", element));
@@ -349,6 +349,10 @@ void draw_why(PanelContext& context, const Frame& frame, Index element, int row,
   ImGui::SetCursorScreenPos(back);
 }
 
+std::string inside_words(Vec3 at) {
+  return fmt::format("\ninverted inside alone, where the diamond is: at ({:.8g}, {:.8g}, {:.8g})", at.x, at.y, at.z);
+}
+
 /// Of the qualities in the list; nearly always that of usual ones, so that nothing moves from step to step.
 float widest_number(const Frame& frame) {
   float widest = ImGui::CalcTextSize("0.003610").x;
@@ -376,7 +380,7 @@ void draw_inspector(PanelContext& context) {
   const Metric optimised = run != nullptr ? run->parameters.metric : frame->shown;
   const Index inverted = frame->shown_statistics.inverted;  // whatever the metric
   value_row(context, "inverted", count(inverted), {}, inverted != 0 ? std::optional(context.palette.error) : std::nullopt,
-            "elements with a corner Jacobian of 0 or less");
+            "elements whose Jacobian is 0 or less, at a corner or inside");
   if (optimised == frame->shown) {
     draw_statistics(context, "Quality", frame->shown, frame->shown_statistics, run);
   } else {
@@ -423,12 +427,18 @@ void draw_worst(PanelContext& context) {
       const float number_left = at.x + width - number_width - context.px(4), why_left = number_left - why_width - 2 * gap;
       if (ImGui::IsItemVisible())  // as far as a click goes there
         context.items.record(fmt::format("worst:{}", k), {at.x, ImGui::GetItemRectMin().y, why_left, ImGui::GetItemRectMax().y});
-      next_item_tooltip(full_number(ranked.quality) + "\nclick to go there");
+      next_item_tooltip(full_number(ranked.quality) + (ranked.inside ? inside_words(*ranked.inside) : "") + "\nclick to go there");
       ImDrawList& list = *ImGui::GetWindowDrawList();
       const std::string rank = std::to_string(k + 1), number = short_number(ranked.quality);
       if (ranked_rows) list.AddText({at.x + ranks - ImGui::CalcTextSize(rank.c_str()).x, at.y}, colour(context.palette.dim), rank.c_str());
       const float id_left = ranked_rows ? at.x + ranks + context.px(10) : at.x;
-      list.AddText({id_left, at.y}, colour(context.palette.text), id_text(ranked.element, why_left - gap - id_left).c_str());
+      const float diamond = ranked.inside ? 0.8F * ImGui::GetTextLineHeight() : 0.0F;
+      const std::string id = id_text(ranked.element, why_left - gap - diamond - id_left);
+      list.AddText({id_left, at.y}, colour(context.palette.text), id.c_str());
+      if (ranked.inside) {
+        const ImVec2 middle{id_left + ImGui::CalcTextSize(id.c_str()).x + 0.6F * diamond, at.y + 0.5F * ImGui::GetTextLineHeight()};
+        list.AddNgonFilled(middle, 0.45F * diamond, colour(context.palette.error), 4);
+      }
       list.AddText({at.x + width - ImGui::CalcTextSize(number.c_str()).x - context.px(4), at.y},
                    colour(ranked.inverted ? context.palette.error : context.palette.text), number.c_str());
       draw_why(context, *frame, ranked.element, k, at, number_left - gap);

@@ -36,4 +36,14 @@ void add_inverted(render::Marks& marks, const MarkView& view, const Frame& frame
   }
 }
 
+void add_diamond(render::SpaceMarks& marks, Vec3 at, float diameter, render::Rgba colour, const render::Style& style) {
+  marks.dots.push_back({at, diameter + 5.0F, style.casing_colour, render::DotShape::Diamond});
+  marks.dots.push_back({at, diameter, colour, render::DotShape::Diamond});
+}
+
+void add_inverted_inside(render::SpaceMarks& marks, const Frame& frame, const render::Style& style) {
+  for (const RankedElement& ranked : frame.worst)
+    if (ranked.inside) add_diamond(marks, *ranked.inside, 8.0F, style.highlight_colour, style);
+}
+
 }  // namespace dmoscope::ui

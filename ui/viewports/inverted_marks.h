@@ -1,10 +1,12 @@
 #pragma once
-// Inverted elements that are too small to be seen in their own colour, marked at their place.
+// Inverted elements that are too small to be seen in their own colour, and those that only their inside inverts, marked at their place.
 
 #include <span>
 #include <vector>
 
 #include "core/view/view.h"
+#include "render/space_marks.h"
+#include "render/style.h"
 #include "ui/viewports/stepping_marks.h"
 
 namespace dmoscope::ui {
@@ -14,5 +16,10 @@ namespace dmoscope::ui {
 
 /// Diamonds where `elements` are smaller than these in the picture, no two in one place, so that what is around stays to be seen.
 void add_inverted(render::Marks& marks, const MarkView& view, const Frame& frame, std::span<const Index> elements);
+
+/// Where an element is inverted inside.
+void add_diamond(render::SpaceMarks& marks, Vec3 at, float diameter, render::Rgba colour, const render::Style& style);
+/// Of the frame's worst elements all that only their inside inverts.
+void add_inverted_inside(render::SpaceMarks& marks, const Frame& frame, const render::Style& style);
 
 }  // namespace dmoscope::ui

@@ -115,6 +115,7 @@ render::SpaceMarks PaneView::space_marks(const Scenery& scenery, Vec2<double> vi
   if (marks_worst(state, inspecting)) {
     marks.worst = frame()->worst.front().element;
     marks.worst_behind = !volume_->shows_cell(state.orbit, viewport, *marks.worst);
+    add_inverted_inside(marks, *frame(), scene_style(state));
   }
   if (inspecting) {
     render::Style of_quality = scene_style(state);
@@ -125,8 +126,7 @@ render::SpaceMarks PaneView::space_marks(const Scenery& scenery, Vec2<double> vi
   }
   if (const auto& inside = scenery.derived.facts.inverted_inside; inside && picked.kind == Picked::Kind::Element && !searching) {
     const render::Style style = scene_style(state);
-    marks.dots.push_back({*inside, 17.0F, style.casing_colour, render::DotShape::Diamond});
-    marks.dots.push_back({*inside, 12.0F, style.highlight_colour, render::DotShape::Diamond});
+    add_diamond(marks, *inside, 12.0F, style.highlight_colour, style);
   }
   if (!searching && !marks.cells.empty() && picked.kind == Picked::Kind::Element)
     add_space_target(marks, *frame(), metric_of_targets(), picked.id);

@@ -5,6 +5,7 @@
 
 #include "core/base/thread_pool.h"
 #include "core/input/input_mesh.h"
+#include "core/run/crossing_faces.h"
 #include "core/run/left_inverted.h"
 #include "core/run/missing_phase.h"
 #include "core/run/run.h"
@@ -63,6 +64,7 @@ Smoothed smooth(const Mesh& mesh, const SmoothOptions& options) {
     for (const dmoscope::IterationRecord& record : run.history().records()) result.history.push_back(iteration_of(record));
     result.iteration = run.moment().iteration;
     if (const auto left = find_left_inverted(run)) result.warnings.push_back(left->sentence());
+    if (const auto crossing = find_crossing_faces(run)) result.warnings.push_back(crossing->sentence());
     const auto positions = run.positions();
     result.mesh = moved_mesh(mesh, {positions.begin(), positions.end()});
     return result;

@@ -135,6 +135,8 @@ Json json_of(const SmoothReport& r) {
                                {"element", r.left->element},
                                {"vertex", r.left->vertex},
                                {"elements", json_of_inverted(r.left->all)}};
+  object["crossing_faces"] = nullptr;
+  if (r.crossing) object["crossing_faces"] = {{"before", r.crossing->before}, {"after", r.crossing->after}};
   object["held_by"] = r.held ? json_of(*r.held) : Json(nullptr);
   object["before"] = json_of(r.before().statistics, r.inside_alone_before);
   object["after"] = json_of(r.after().statistics, r.left ? r.left->all.inside_alone : 0);

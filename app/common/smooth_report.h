@@ -11,6 +11,7 @@
 #include "app/common/text.h"
 #include "core/inspect/held_minimum.h"
 #include "core/inspect/joint_hold.h"
+#include "core/run/crossing_faces.h"
 #include "core/run/left_inverted.h"
 #include "core/run/run.h"
 
@@ -29,6 +30,7 @@ struct SmoothReport {
   double seconds = 0.0;
   std::uint64_t inside_alone_before = 0;    // elements that only their inside inverted
   std::optional<LeftInverted> left{};       // of what is written
+  std::optional<CrossingFaces> crossing{};  // likewise
   std::optional<HeldMinimum> held{};        // likewise
   std::vector<std::string> warnings{};
   std::optional<Provenance> provenance{};

@@ -32,6 +32,7 @@
 #include "core/io/reading/source_file.h"
 #include "core/io/writing/atomic_file.h"
 #include "core/reference/domain.h"
+#include "core/run/crossing_faces.h"
 #include "core/run/left_inverted.h"
 #include "core/run/missing_phase.h"
 #include "core/run/recipe.h"
@@ -195,6 +196,8 @@ int smooth(const SmoothOptions& options) {
   }
   // From here on nothing changes what comes of the call.
   if (left) warn(left->sentence());
+  const std::optional<CrossingFaces> crossing = find_crossing_faces(run);
+  if (crossing) warn(crossing->sentence());
   std::optional<HeldMinimum> held;
   if (hints != Hints::Off) held = look_for_hints(run, left.has_value(), budget_of(hints, seconds), pool, progress, warn);
   const SmoothReport result{.input = options.input,
@@ -211,6 +214,7 @@ int smooth(const SmoothOptions& options) {
                             .seconds = seconds,
                             .inside_alone_before = count_inverted(input->quality_context(), input->mesh.positions).inside_alone,
                             .left = std::move(left),
+                            .crossing = crossing,
                             .held = std::move(held),
                             .warnings = std::move(warnings),
                             .provenance = std::move(provenance)};

@@ -8,6 +8,7 @@
 
 #include "core/base/unknown_value.h"
 #include "core/commands/command_rows.h"
+#include "core/run/crossing_faces.h"
 #include "core/run/left_inverted.h"
 #include "core/run/mean_given_up.h"
 #include "core/run/recipe.h"
@@ -40,6 +41,7 @@ void back(CommandContext& context, Arguments arguments) {
 void tell_ending(CommandContext& context, const Run& run, const Outcome& outcome) {
   if (outcome.inverted > 0)
     if (const auto left = find_left_inverted(run)) tell(context, left->sentence(), Message::Kind::Warning);
+  if (const auto crossing = find_crossing_faces(run)) tell(context, crossing->sentence(), Message::Kind::Warning);
   const std::string worse = worse_than_best(run.parameters(), outcome.best.value_or(best_iteration(run)), outcome.ended);
   if (!worse.empty()) tell(context, outcome.best ? worse : worse + " ('best' goes there)", Message::Kind::Warning);
 }

@@ -4,12 +4,28 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/reference/domain.h"
 
 namespace dmoscope {
 
+namespace {
+
+/// Whether there may be something to say of it.
+bool is_ending(const Run& run) {
+  if (!run.last_outcome()) return false;
+  return run.last_outcome()->inverted > 0 || (run.domain() && run.domain()->faces().any());
+}
+
+std::shared_ptr<const RunEnding> ending_of(const Run& run) {
+  RunEnding ending{.left = run.last_outcome()->inverted > 0 ? find_left_inverted(run) : std::nullopt, .crossing = find_crossing_faces(run)};
+  return ending.left || ending.crossing ? std::make_shared<const RunEnding>(std::move(ending)) : nullptr;
+}
+
+}  // namespace
+
 const Endings::Known* Endings::find_known(Session& session, std::size_t index) const {
   const Run& run = session.run(index);
-  if (!run.last_outcome() || run.last_outcome()->inverted == 0) return nullptr;
+  if (!is_ending(run)) return nullptr;
   const auto at = std::ranges::find_if(known_, [&](const Known& known) {
     return known.run.lock() == session.identity(index).lock() && known.path == run.path() && known.moment == run.moment();
   });
@@ -26,14 +42,12 @@ bool Endings::find(Session& session, const std::function<bool()>& go_on) {
   bool found = false;
   for (std::size_t i = 0; i < session.run_count(); ++i) {
     const Run& run = session.run(i);
-    if (!run.last_outcome() || run.last_outcome()->inverted == 0) continue;
+    if (!is_ending(run)) continue;
     if (const Known* known = find_known(session, i)) {
       all.push_back(*known);
     } else if (go_on()) {
-      const auto left = find_left_inverted(run);
-      if (!left) continue;
-      all.push_back({session.identity(i), run.path(), run.moment(), std::make_shared<const RunEnding>(RunEnding{*left}), false});
-      found = true;
+      all.push_back({session.identity(i), run.path(), run.moment(), ending_of(run), false});
+      found = found || all.back().ending;
     }
   }
   known_ = std::move(all);
@@ -44,14 +58,14 @@ bool Endings::find_hint(Session& session, const std::function<bool()>& go_on) {
   if (!session.has_input()) return false;
   const std::size_t active = session.active_index();
   const Known* there = find_known(session, active);
-  if (there == nullptr || there->tried || !go_on()) return false;
+  if (there == nullptr || !there->ending || !there->ending->left || there->tried || !go_on()) return false;
   Known& known = known_[static_cast<std::size_t>(there - known_.data())];
   known.tried = true;
   Progress unwatched;
   UntanglingLook look = untangling_hint(session.run(active), session.pool(), unwatched, go_on);
   known.tried = look.to_the_end;
   if (!look.to_the_end || !look.hint) return false;
-  known.ending = std::make_shared<const RunEnding>(RunEnding{known.ending->left, std::move(look.hint)});
+  known.ending = std::make_shared<const RunEnding>(RunEnding{known.ending->left, std::move(look.hint), known.ending->crossing});
   return true;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// What a person should know of runs that came to their end with elements inverted, worked out once for each end.
+// What a person should know of runs that came to their end with elements inverted, or with faces that cross each other, worked out once for
+// each end.
 
 #include <cstdint>
 #include <functional>
@@ -7,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/run/crossing_faces.h"
 #include "core/run/left_inverted.h"
 #include "core/run/untangling_hint.h"
 #include "core/session/session.h"
@@ -14,14 +16,15 @@
 namespace dmoscope {
 
 struct RunEnding {
-  LeftInverted left;
+  std::optional<LeftInverted> left{};
   std::optional<UntanglingHint> hint{};
+  std::optional<CrossingFaces> crossing{};
 };
 
 /// The endings of a session's runs.
 class Endings {
  public:
-  /// The ending of a run; null while the run has not ended, while this is not worked out yet, and where no element is inverted.
+  /// The ending of a run; null while the run has not ended, while this is not worked out yet, and where there is nothing to say.
   [[nodiscard]] std::shared_ptr<const RunEnding> of(Session& session, std::size_t run) const;
   /// Works out where to look, of those that are missing, asking `go_on` before each. Returns whether there are new ones. Throws
   /// DeviceError.

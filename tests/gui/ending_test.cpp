@@ -75,7 +75,7 @@ TEST_F(Ending, AMethodThatGetsFurtherIsOffered) {
   ASSERT_GT(session()->frame->statistics.inverted, 0U);
   const auto ending = run().ending;
   ASSERT_TRUE(ending && ending->hint);
-  EXPECT_LT(ending->hint->left, ending->left.all.all);
+  EXPECT_LT(ending->hint->left, ending->left->all.all);
   EXPECT_THAT(notice().sentences[1], HasSubstr(ending->hint->method + " leaves "));
   const std::string method = ending->hint->method;
   const std::uint64_t iterations = ending->hint->iterations;

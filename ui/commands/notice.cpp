@@ -10,8 +10,10 @@
 namespace dmoscope::ui {
 namespace {
 
-void tell_left_inverted(Notice& notice, const RunEnding& ending) {
-  const LeftInverted& left = ending.left;
+void tell_ending(Notice& notice, const RunEnding& ending) {
+  if (ending.crossing) notice.sentences.push_back(ending.crossing->sentence());
+  if (!ending.left) return;
+  const LeftInverted& left = *ending.left;
   notice.sentences.push_back(left.sentence());
   notice.offers.push_back({"notice:element", fmt::format("Show element {}", left.element), fmt::format("goto element {}", left.element),
                            "the most inverted one: picks it and moves the view there"});
@@ -65,7 +67,7 @@ Notice notice_of(const SessionView& session) {
   const RunView& run = session.runs[session.active];
   if (run.last_outcome.empty()) return notice;
   notice.key = fmt::format("{} {} {}", run.id, run.moment.iteration, run.last_outcome);
-  if (run.ending) tell_left_inverted(notice, *run.ending);
+  if (run.ending) tell_ending(notice, *run.ending);
   tell_worse(notice, run);
   tell_mean_given_up(notice, run);
   return notice;

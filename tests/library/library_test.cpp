@@ -184,7 +184,7 @@ TEST(Library, QualityIsWhatTheFormulaSays) {
     EXPECT_EQ(dmo::quality(arrays.mesh(), metric.name).size(), 2U) << metric.name;
     EXPECT_FALSE(metric.title.empty() || metric.formula.empty() || metric.doc.empty()) << metric.name;
   }
-  EXPECT_EQ(dmo::metrics().size(), 12U);
+  EXPECT_EQ(dmo::metrics().size(), 13U);
   EXPECT_THROW((void)dmo::quality(arrays.mesh(), "no-metric"), dmo::UsageError);
 }
 

@@ -209,6 +209,7 @@ ElementNumbers::Corner ElementNumbers::corner(std::size_t at) {
     corner.edges[i] = only_corners() ? raw_edge(ends[0], ends[i + 1]) : edge(ends[0], ends[i + 1]);
   if (only_corners()) corner.edges = targeted(ends[0], corner.edges);
   corner.jacobian = jacobian_of(corner.edges);
+  builder_.mark_positive(corner.jacobian);
   return corner;
 }
 
@@ -343,6 +344,7 @@ Number ElementNumbers::volume() {
     }
     for (std::size_t k = 0; k < 4; ++k) take(c[k], c[(k + 1) % 4], c[(k + 2) % 4], 1.0 / 12.0);
   }
+  builder_.mark_positive(sum);
   return sum;
 }
 

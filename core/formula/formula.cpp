@@ -14,6 +14,11 @@ struct Formula::Slot {
   std::optional<FormulaError> why_not;
 };
 
+struct Formula::Pieces {
+  std::once_flag once;
+  std::vector<FormulaPiece> all;
+};
+
 namespace {
 
 constexpr std::size_t kCorners = 9;  // of any element, and none
@@ -57,7 +62,8 @@ std::string one_line(std::string_view text) {
 Formula::Formula(std::string_view text)
     : syntax_(parse_formula(text)),
       text_(one_line(text)),
-      slots_(std::make_unique<Slot[]>(kFormulaSpaces * kElementKindCount * 2 * kCorners)) {
+      slots_(std::make_unique<Slot[]>(kFormulaSpaces * kElementKindCount * 2 * kCorners)),
+      pieces_(std::make_unique<Pieces[]>(kFormulaSpaces * kElementKindCount)) {
   examine();
 }
 
@@ -131,6 +137,15 @@ std::string Formula::why_not(ElementKind kind, FormulaSpace space) const {
   if (body_of(kind) == nullptr) return fmt::format("it says nothing of {}", info(kind).plural);
   const Slot& slot = lowered(kind, space, FormulaUse::Elements, kNoIndex);
   return slot.why_not ? slot.why_not->what() : std::string();
+}
+
+std::span<const FormulaPiece> Formula::pieces(ElementKind kind, FormulaSpace space) const {
+  Pieces& pieces = pieces_[static_cast<std::size_t>(space) * kElementKindCount + static_cast<std::size_t>(kind)];
+  std::call_once(pieces.once, [&] {
+    std::vector<std::string> fields = fields_;
+    pieces.all = lower_pieces(syntax_, *body_of(kind), kind, space, fields);
+  });
+  return pieces.all;
 }
 
 const FormulaProgram& Formula::program(ElementKind kind, FormulaSpace space, FormulaUse use, Index moving) const {

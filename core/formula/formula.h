@@ -5,6 +5,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,11 +42,14 @@ class Formula {
   /// Does it change when the mesh is moved?
   [[nodiscard]] bool uses_place() const noexcept { return uses_place_; }
 
+  /// The smooth numbers that it is the least of, for a kind of kinds(space). See lower_pieces().
+  [[nodiscard]] std::span<const FormulaPiece> pieces(ElementKind kind, FormulaSpace space) const;
   /// For a kind of kinds(space). See FormulaProgram.
   [[nodiscard]] const FormulaProgram& program(ElementKind kind, FormulaSpace space, FormulaUse use, Index moving) const;
 
  private:
   struct Slot;
+  struct Pieces;
   [[nodiscard]] Slot& slot(ElementKind kind, FormulaSpace space, FormulaUse use, Index moving) const;
   [[nodiscard]] const Slot& lowered(ElementKind kind, FormulaSpace space, FormulaUse use, Index moving) const;
   [[nodiscard]] const FormulaBody* body_of(ElementKind kind) const;
@@ -58,6 +62,7 @@ class Formula {
   bool uses_place_ = false;
   std::string scale_note_;
   std::unique_ptr<Slot[]> slots_;
+  std::unique_ptr<Pieces[]> pieces_;  // by space and kind
 };
 
 }  // namespace dmoscope

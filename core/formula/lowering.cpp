@@ -25,10 +25,22 @@ std::string words(Dimension dimension) {
   return fmt::format("a length to the power of {:.4g}", dimension.power);
 }
 
-LoweredFormula Lowering::run() {
+Value Lowering::metric_value() {
   const Value result = result_value();
   if (result.kind != ValueKind::OneNumber)
     throw FormulaError(node(body_.result).place, fmt::format("a metric is a number, and this is {}", words(result.kind)));
+  return result;
+}
+
+std::vector<FormulaPiece> Lowering::pieces() {
+  std::vector<FormulaPiece> all;
+  for (const Number piece : builder_.pieces_of(metric_value().number()))
+    all.push_back({builder_.finish(kind_, FormulaUse::Elements, kNoIndex, piece), builder_.corners_of(piece)});
+  return all;
+}
+
+LoweredFormula Lowering::run() {
+  const Value result = metric_value();
   if (!result.dimension.any && result.dimension.power != 0.0) {
     lowered_.power = result.dimension.power;
     lowered_.scale_free = false;
@@ -427,6 +439,11 @@ Number Lowering::over_lengths(const F& join, bool squared) {
 LoweredFormula lower(const FormulaSyntax& syntax, const FormulaBody& body, ElementKind kind, FormulaSpace space, FormulaUse use,
                      Index moving, std::vector<std::string>& fields) {
   return formula_lowering::Lowering(syntax, body, kind, space, use, moving, fields).run();
+}
+
+std::vector<FormulaPiece> lower_pieces(const FormulaSyntax& syntax, const FormulaBody& body, ElementKind kind, FormulaSpace space,
+                                       std::vector<std::string>& fields) {
+  return formula_lowering::Lowering(syntax, body, kind, space, FormulaUse::Elements, kNoIndex, fields).pieces();
 }
 
 }  // namespace dmoscope

@@ -24,10 +24,19 @@ struct LoweredFormula {
   bool uses_place = false;   // it changes when the mesh is moved
 };
 
+/// One of the smooth numbers that a formula is the least of.
+struct FormulaPiece {
+  FormulaProgram program;    // of Elements
+  std::uint8_t corners = 0;  // the element's corners that it depends on, a bit each
+};
+
 /// `fields`: names of the fields used, in the order of FormulaInput::index; new ones are added. `use`, `moving`: see FormulaProgram; where
 /// a formula is the least over the corners of a volume element, only those count that the moving one changes. Throws NotForKind, and
 /// FormulaError for what makes no sense at all.
 [[nodiscard]] LoweredFormula lower(const FormulaSyntax& syntax, const FormulaBody& body, ElementKind kind, FormulaSpace space,
                                    FormulaUse use, Index moving, std::vector<std::string>& fields);
+/// The formula as the least of pieces, in every element that is not inverted: see ProgramBuilder::pieces_of(). Throws as lower() does.
+[[nodiscard]] std::vector<FormulaPiece> lower_pieces(const FormulaSyntax& syntax, const FormulaBody& body, ElementKind kind,
+                                                     FormulaSpace space, std::vector<std::string>& fields);
 
 }  // namespace dmoscope

@@ -62,8 +62,11 @@ class Lowering {
         element_(builder_, kind, space) {}
 
   LoweredFormula run();
+  std::vector<FormulaPiece> pieces();
 
  private:
+  /// Of the whole body, which must be a number.
+  Value metric_value();
   /// What a place of the moving corner is worth.
   FormulaProgram of_places(Number quality);
   Number steeper(Number quality);

@@ -38,6 +38,14 @@ class ProgramBuilder {
   [[nodiscard]] Number select(Number condition, Number yes, Number no) { return apply(Operation::Select, condition, yes, no); }
   [[nodiscard]] Number less(Number a, Number b) { return apply(Operation::Less, a, b); }
 
+  /// Promises that the number is above 0 in every element that is not inverted.
+  void mark_positive(Number number);
+  /// Numbers whose least is this one in every element that is not inverted, as smooth as can be: the parts of a minimum, also where a
+  /// function that only rises is taken of it, or one that only falls of a maximum. Each once; the number alone where it has no such parts.
+  [[nodiscard]] std::vector<Number> pieces_of(Number number);
+  /// The element's corners that the number depends on, a bit each.
+  [[nodiscard]] std::uint8_t corners_of(Number number) const;
+
   /// The program whose result this is; see FormulaProgram.
   [[nodiscard]] FormulaProgram finish(ElementKind kind, FormulaUse use, Index moving, Number result,
                                       std::optional<Number> ceiling = {}) const;
@@ -56,7 +64,10 @@ class ProgramBuilder {
   [[nodiscard]] std::vector<bool> needed(Number result) const;
   [[nodiscard]] std::vector<bool> changing(Index corner) const;  // which numbers change with the corner
 
+  class Splitter;
+
   std::vector<Node> nodes_;
+  std::vector<Number> positive_;                          // see mark_positive()
   std::unordered_multimap<std::uint64_t, Number> known_;  // by what they are made of
 };
 

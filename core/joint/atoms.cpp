@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "core/joint/atom_pieces.h"
+#include "core/joint/defined_atoms.h"
+#include "core/joint/dual_atom.h"
 #include "core/joint/mean_ratio_atom.h"
-#include "core/numeric/second_dual.h"
-#include "core/numeric/semidefinite.h"
 
 namespace dmoscope {
 
@@ -40,16 +40,7 @@ constexpr std::array<std::array<std::uint8_t, 4>, 6> kEdgesFirst{
 constexpr std::array<std::array<std::uint8_t, 4>, 1> kAsItIs{{{0, 1, 2, 3}}};
 
 std::span<const CornerTable> volume_atoms(ElementKind kind, Of of) {
-  switch (kind) {
-    case ElementKind::Hexahedron:
-      return formulas::HexahedronCorners::kTable;
-    case ElementKind::Wedge:
-      return formulas::WedgeCorners::kTable;
-    case ElementKind::Pyramid:
-      return formulas::PyramidCorners::kTable;
-    default:
-      break;
-  }
+  if (kind != ElementKind::Tetrahedron) return corner_frames(kind);
   if (of == Of::Whole) return kAsItIs;
   if (of == Of::Corner) return kCornersFirst;
   return kEdgesFirst;
@@ -100,16 +91,9 @@ double inverse_quality(AtomShape shape, const AtomEdges<D>& edges, double /*refe
 template <int D, Metric M>
 void derive_inverse_quality(AtomShape shape, const AtomEdges<D>& edges, double /*reference*/, Curvature curvature,
                             AtomDerivatives<D>& result) {
-  constexpr std::size_t kCount = AtomDerivatives<D>::kCount;
-  using R = SecondDual<kCount>;
+  using R = SecondDual<AtomDerivatives<D>::kCount>;
   const R q = quality_of<M, R>(shape, vectors<R>(edges, [](double v, std::size_t i) { return R::variable(v, i); }));
-  const double f = 1.0 / q.value;
-  const R inverse = q.through(f, -f * f, 2.0 * f * f * f);
-  result.value = f;
-  result.gradient = inverse.first;
-  for (std::size_t i = 0; i < kCount; ++i)
-    for (std::size_t j = 0; j < kCount; ++j) result.hessian[i * kCount + j] = inverse.second_by(i, j);
-  if (curvature == Curvature::Convex) make_semidefinite<kCount>(result.hessian);
+  derive_inverse<D>(q, curvature, result);
 }
 
 template <int D, class F>
@@ -122,8 +106,24 @@ void with_metric_of(Metric metric, F f) {
 
 }  // namespace
 
+std::span<const CornerTable> corner_frames(ElementKind kind) {
+  static constexpr std::array<CornerTable, 4> kSquare{{{0, 1, 3, 3}, {1, 2, 0, 0}, {2, 3, 1, 1}, {3, 0, 2, 2}}};
+  switch (kind) {
+    case ElementKind::Quadrilateral:
+      return kSquare;
+    case ElementKind::Hexahedron:
+      return formulas::HexahedronCorners::kTable;
+    case ElementKind::Wedge:
+      return formulas::WedgeCorners::kTable;
+    case ElementKind::Pyramid:
+      return formulas::PyramidCorners::kTable;
+    default:
+      return kAsItIs;
+  }
+}
+
 std::string joint_obstacle(Metric metric, KindSet kinds) {
-  if (!is_built_in(metric)) return "they need a metric's derivatives, which formulas and targets do not give";
+  if (!is_built_in(metric)) return defined_joint_obstacle(metric, kinds);
   for (std::size_t k = 0; k < kElementKindCount; ++k) {
     const auto kind = static_cast<ElementKind>(k);
     if ((kinds & kind_set(kind)) == 0) continue;
@@ -171,6 +171,21 @@ AtomFunction<D>::AtomFunction(Metric metric, AtomMeasure measure) {
       derive_.fill(derive_inverse_quality<D, M>);
     });
   }
+}
+template <int D>
+AtomFunction<D>::AtomFunction(std::shared_ptr<const DefinedAtoms<D>> atoms) : defined_(std::move(atoms)) {}
+template <int D>
+double AtomFunction<D>::defined_value(const Atom<D>& atom, const AtomEdges<D>& edges, double reference) const {
+  return defined_->value(atom, edges, reference);
+}
+template <int D>
+void AtomFunction<D>::derive_defined(const Atom<D>& atom, const AtomEdges<D>& edges, double reference, Curvature curvature,
+                                     AtomDerivatives<D>& result) const {
+  defined_->derive(atom, edges, reference, curvature, result);
+}
+template <int D>
+double AtomFunction<D>::shift() const noexcept {
+  return defined_ ? defined_->shift() : 0.0;
 }
 template class AtomFunction<2>;
 template class AtomFunction<3>;

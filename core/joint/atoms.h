@@ -3,15 +3,17 @@
 //
 // An element's quality is the least of its atoms', and each atom's is a smooth function of the D edges that leave its first vertex: a
 // triangle or tetrahedron as a whole, each corner of any other element, and of a metric with kinks each corner or edge of a simplex
-// that could be the one that counts.
+// that could be the one that counts. Formulas and targets say themselves which pieces they are the least of (DefinedAtoms).
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/base/vec.h"
+#include "core/mesh/corner_tables.h"
 #include "core/mesh/mesh.h"
 #include "core/quality/metric.h"
 
@@ -27,13 +29,18 @@ struct Atom {
   std::array<Index, D + 1> vertices{};
   Index element = 0;
   AtomShape shape{};
+  std::uint8_t frame = 0;   // of a metric that is defined by a formula or a target: the row of corner_frames() that the vertices are
+  std::uint16_t piece = 0;  // likewise: which of the metric's pieces it is, or kGuardPiece
 };
+
+/// The corners of a kind that have an edge for each dimension, each with the ends of its edges, right-handed; of a simplex one says all.
+[[nodiscard]] std::span<const CornerTable> corner_frames(ElementKind kind);
 
 /// Can the metric be split into atoms on all these kinds of elements? Empty: it can. Else a sentence that says why not.
 [[nodiscard]] std::string joint_obstacle(Metric metric, KindSet kinds);
 [[nodiscard]] inline bool joint_supports(Metric metric, KindSet kinds) { return joint_obstacle(metric, kinds).empty(); }
 
-/// Appends the atoms of one element. The metric must be supported on its kind, whose dimension must be D.
+/// Appends the atoms of one element. The metric must be built in and supported on its kind, whose dimension must be D.
 template <int D>
 void append_atoms(const ElementTable& elements, Metric metric, Index element, std::vector<Atom<D>>& atoms);
 
@@ -61,28 +68,44 @@ struct AtomDerivatives {
   std::array<double, kCount * kCount> hessian{};  // row by row
 };
 
-/// The function to minimise, of atoms of any shape. The value at edges of any scale is the same, but of RelativeJacobian.
+template <int D>
+class DefinedAtoms;
+
+/// The function to minimise, of atoms of any shape. The value at edges of any scale is the same, but of RelativeJacobian and of metrics
+/// that are defined by formulas or targets.
 template <int D>
 class AtomFunction {
  public:
-  /// `metric`: must be defined in this dimension; of no account unless for InverseQuality.
+  /// `metric`: must be built in and defined in this dimension; of no account unless for InverseQuality.
   AtomFunction(Metric metric, AtomMeasure measure);
-  /// `reference`: > 0, for RelativeJacobian alone, in the unit of the edges to the power of D.
-  [[nodiscard]] double value(AtomShape shape, const AtomEdges<D>& edges, double reference) const {
-    return value_[static_cast<std::size_t>(shape)](shape, edges, reference);
+  /// InverseQuality of a metric that is defined by a formula or a target.
+  explicit AtomFunction(std::shared_ptr<const DefinedAtoms<D>> atoms);
+  /// `reference`: > 0, for RelativeJacobian in the unit of the edges to the power of D; for DefinedAtoms see there; else of no account.
+  [[nodiscard]] double value(const Atom<D>& atom, const AtomEdges<D>& edges, double reference) const {
+    if (defined_) return defined_value(atom, edges, reference);
+    return value_[static_cast<std::size_t>(atom.shape)](atom.shape, edges, reference);
   }
   /// Where the value is finite.
-  void derive(AtomShape shape, const AtomEdges<D>& edges, double reference, Curvature curvature, AtomDerivatives<D>& result) const {
-    derive_[static_cast<std::size_t>(shape)](shape, edges, reference, curvature, result);
+  void derive(const Atom<D>& atom, const AtomEdges<D>& edges, double reference, Curvature curvature, AtomDerivatives<D>& result) const {
+    if (defined_) return derive_defined(atom, edges, reference, curvature, result);
+    derive_[static_cast<std::size_t>(atom.shape)](atom.shape, edges, reference, curvature, result);
   }
+  /// The metric where InverseQuality is f.
+  [[nodiscard]] double quality_of(double f) const noexcept { return 1.0 / f - shift(); }
+  [[nodiscard]] const DefinedAtoms<D>* defined() const noexcept { return defined_.get(); }
   /// Whether the Hessian's diagonal says how stiff a vertex is: it never vanishes where the function is convex in each single vertex.
   [[nodiscard]] bool convex_by_vertex() const noexcept { return convex_by_vertex_; }
 
  private:
   using Value = double (*)(AtomShape, const AtomEdges<D>&, double);
   using Derive = void (*)(AtomShape, const AtomEdges<D>&, double, Curvature, AtomDerivatives<D>&);
+  [[nodiscard]] double defined_value(const Atom<D>& atom, const AtomEdges<D>& edges, double reference) const;
+  void derive_defined(const Atom<D>& atom, const AtomEdges<D>& edges, double reference, Curvature curvature,
+                      AtomDerivatives<D>& result) const;
+  [[nodiscard]] double shift() const noexcept;
   std::array<Value, kAtomShapeCount> value_{};
   std::array<Derive, kAtomShapeCount> derive_{};
+  std::shared_ptr<const DefinedAtoms<D>> defined_;  // null: of a built-in metric
   bool convex_by_vertex_ = false;
 };
 

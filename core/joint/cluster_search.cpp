@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/same_bits.h"
+#include "core/joint/defined_atoms.h"
 #include "core/quality/quality.h"
 
 namespace dmoscope {
@@ -41,7 +42,7 @@ ClusterSearch<D>::ClusterSearch(const JointMesh<D>& mesh, std::span<Vec3> positi
       state_(state),
       options_(options),
       progress_(progress),
-      function_(mesh.metric(), AtomMeasure::InverseQuality),
+      function_(mesh.function()),
       whole_at_most_(options.whole_at_most > 0 ? options.whole_at_most
                      : D == 2                  ? 80000
                                                : 3000),
@@ -227,7 +228,8 @@ void ClusterSearch<D>::solve(const std::vector<Index>& cluster, const InteriorPo
       places.clear();
       for (std::size_t i = 0; i < cluster.size(); ++i)
         places.push_back(mesh_.placed(positions_[cluster[i]], at.displacements[i], solved_.local.scale));
-      options_.on_step({newton_steps_ + at.steps, 1.0 / at.worst, 1.0 / (at.tau - at.gap()), cluster, places});
+      options_.on_step(
+          {newton_steps_ + at.steps, function_.quality_of(at.worst), function_.quality_of(at.tau - at.gap()), cluster, places});
     };
   solved_.solution = solve_joint<D>(solved_.local.problem, function_, options, callbacks, progress_);
   newton_steps_ += solved_.solution.last.steps;
@@ -331,13 +333,13 @@ std::string ClusterSearch<D>::why_not(const std::vector<Index>& cluster) const {
   return {};
 }
 
-/// The least quality of the cluster's atoms where the vertices stand now.
+/// 1 / the greatest f of the cluster's atoms where the vertices stand now.
 template <int D>
 double ClusterSearch<D>::reached() const {
   double most = 0.0;
   for (const Index a : solved_.local.atoms) {
     const Atom<D>& atom = mesh_.atoms()[a];
-    most = std::max(most, function_.value(atom.shape, mesh_.edges(atom, positions_), 1.0));
+    if (atom.piece != kGuardPiece) most = std::max(most, function_.value(atom, mesh_.edges(atom, positions_), 1.0));
   }
   return 1.0 / most;
 }
@@ -365,9 +367,10 @@ JointCluster ClusterSearch<D>::told(const std::vector<Index>& cluster) const {
   result.vertices = cluster;
   result.newton_steps = newton_steps_;
   result.solutions = solutions_;
-  result.bound = 1.0 / (solved_.solution.last.tau - solved_.solution.last.gap());
+  const double bound = solved_.solution.last.tau - solved_.solution.last.gap();
+  result.bound = function_.quality_of(bound);
   const double least = reached();
-  result.gap = std::max(0.0, (result.bound - least) / least);
+  result.gap = std::max(0.0, (1.0 / bound - least) / least);
 
   std::vector<Vec3> old(positions_.begin(), positions_.end());
   for (auto move = moved_from_.rbegin(); move != moved_from_.rend(); ++move) old[move->first] = move->second;
@@ -402,7 +405,7 @@ void ClusterSearch<D>::tell_forces(JointCluster& result) const {
     const double share = at.multipliers[i] / sum;
     if (result.active.empty() || result.active.back().element != atom.element) result.active.push_back({atom.element, 0.0});
     result.active.back().multiplier += share;
-    function_.derive(atom.shape, displaced_edges<D>(problem, i, at.displacements), 1.0, Curvature::Exact, derivatives);
+    function_.derive(atom, displaced_edges<D>(problem, i, at.displacements), problem.reference(i), Curvature::Exact, derivatives);
     // Of q = 1 / f at f = tau, where all that hold the cluster nearly are.
     const double factor = -share * solved_.local.scale / (at.tau * at.tau);
     std::array<std::array<double, D>, D + 1> forces{};

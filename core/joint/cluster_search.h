@@ -52,7 +52,7 @@ class ClusterSearch {
   JointState& state_;
   const JointOptions& options_;
   Progress& progress_;
-  AtomFunction<D> function_;
+  const AtomFunction<D>& function_;
   std::size_t whole_at_most_, cluster_at_most_, push_at_most_;
   std::vector<double> qualities_;                   // of all atoms, where they stood at the start
   std::vector<std::uint8_t> allowed_, inside_;      // of all vertices: may move, are in the cluster

@@ -70,7 +70,7 @@ InteriorPoint<D>::InteriorPoint(const JointProblem<D>& problem, const AtomFuncti
 
 template <int D>
 double InteriorPoint<D>::value(std::size_t atom, const std::vector<Place>& displacements) const {
-  return function_.value(problem_.atoms[atom].shape, displaced_edges<D>(problem_, atom, displacements), problem_.reference(atom));
+  return function_.value(problem_.atoms[atom], displaced_edges<D>(problem_, atom, displacements), problem_.reference(atom));
 }
 
 /// Of some atoms.
@@ -117,7 +117,7 @@ void InteriorPoint<D>::assemble(Curvature curvature) {
   derivatives_.resize(2 * std::min(count, size));
   const auto derive = [&](std::size_t from, std::size_t to) {
     for (std::size_t a = from; a < to; ++a)
-      function_.derive(problem_.atoms[a].shape, displaced_edges<D>(problem_, a, at_.displacements), problem_.reference(a), curvature,
+      function_.derive(problem_.atoms[a], displaced_edges<D>(problem_, a, at_.displacements), problem_.reference(a), curvature,
                        derivatives_[a % (2 * size)]);
   };
   derive(0, std::min(count, size));

@@ -17,9 +17,9 @@ template <int D>
 struct JointProblem {
   std::size_t free_vertices = 0;
   std::vector<std::array<double, D>> places;  // of all vertices, where only differences of the free ones' matter, and only roughly
-  std::vector<Atom<D>> atoms;                 // each has a free vertex; `element` is of no account
+  std::vector<Atom<D>> atoms;                 // each has a free vertex; `element` is that of the mesh
   std::vector<AtomEdges<D>> edges;            // of each atom, undisplaced; about as long as 1
-  std::vector<double> references;             // one an atom for AtomMeasure::RelativeJacobian; else empty
+  std::vector<double> references;             // one an atom where AtomFunction reads them; else empty
   [[nodiscard]] double reference(std::size_t atom) const { return references.empty() ? 1.0 : references[atom]; }
 };
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/base/error.h"
+#include "core/joint/defined_atoms.h"
 #include "core/quality/quality.h"
 #include "core/smooth/displace.h"
 
@@ -23,6 +24,12 @@ auto frame_of(const Geometry& geometry) {
     return Space{};
 }
 
+template <int D>
+AtomFunction<D> function_of(const InputMesh& input, Metric metric) {
+  if (is_built_in(metric)) return {metric, AtomMeasure::InverseQuality};
+  return AtomFunction<D>(std::make_shared<const DefinedAtoms<D>>(input, metric));
+}
+
 void sort_unique(std::vector<Index>& values) {
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
@@ -32,14 +39,17 @@ void sort_unique(std::vector<Index>& values) {
 
 template <int D>
 JointMesh<D>::JointMesh(const InputMesh& input, Metric metric, std::span<const std::uint8_t> fixed)
-    : input_(&input), metric_(metric), function_(metric, AtomMeasure::InverseQuality) {
+    : input_(&input), metric_(metric), function_(function_of<D>(input, metric)) {
   const ElementTable& elements = input.mesh.elements;
   const auto is_fixed = [fixed](Index v) { return fixed[v] != 0; };
   std::vector<Atom<D>> of_element;
   for (Index e = 0; e < elements.size(); ++e) {
     if (info(elements.kind(e)).dimension != D || std::ranges::all_of(elements.corners(e), is_fixed)) continue;
     of_element.clear();
-    append_atoms<D>(elements, metric, e, of_element);
+    if (function_.defined() != nullptr)
+      function_.defined()->append(elements, e, of_element);
+    else
+      append_atoms<D>(elements, metric, e, of_element);
     for (const Atom<D>& atom : of_element) (std::ranges::all_of(atom.vertices, is_fixed) ? held_ : atoms_).push_back(atom);
   }
   const std::size_t vertices = input.mesh.vertex_count();
@@ -70,7 +80,11 @@ AtomEdges<D> JointMesh<D>::edges(const Atom<D>& atom, std::span<const Vec3> posi
 
 template <int D>
 std::vector<double> JointMesh<D>::qualities(std::span<const Vec3> positions) const {
-  const auto quality = [&](const Atom<D>& atom) { return 1.0 / function_.value(atom.shape, edges(atom, positions), 1.0); };
+  const auto quality = [&](const Atom<D>& atom) {
+    const AtomEdges<D> at = edges(atom, positions);
+    if (atom.piece == kGuardPiece) return atom_jacobian<D>(atom.shape, at) > 0.0 ? kInfinity : 0.0;
+    return 1.0 / function_.value(atom, at, 1.0);
+  };
   std::vector<double> result;
   result.reserve(atoms_.size());
   for (const Atom<D>& atom : atoms_) result.push_back(quality(atom));
@@ -121,6 +135,7 @@ LocalProblem<D> JointMesh<D>::problem(std::span<const Index> free, std::span<con
   for (AtomEdges<D>& each : local.problem.edges)
     for (auto& edge : each)
       for (double& x : edge) x *= local.scale;
+  if (function_.defined() != nullptr) set_references(local);
   const auto frame = frame_of<D>(input_->geometry);
   for (const Index v : local.vertices) {
     const auto from_first = frame.offset(positions[v], positions[local.vertices[0]]);
@@ -130,6 +145,19 @@ LocalProblem<D> JointMesh<D>::problem(std::span<const Index> free, std::span<con
       local.problem.places.push_back({from_first.x, from_first.y, from_first.z});
   }
   return local;
+}
+
+/// See DefinedAtoms: the scale, and of guards their mean ratio in units of the worst atom's.
+template <int D>
+void JointMesh<D>::set_references(LocalProblem<D>& local) const {
+  JointProblem<D>& problem = local.problem;
+  problem.references.assign(problem.atoms.size(), local.scale);
+  double worst = 0.0;
+  for (std::size_t a = 0; a < problem.atoms.size(); ++a)
+    if (problem.atoms[a].piece != kGuardPiece) worst = std::max(worst, function_.value(problem.atoms[a], problem.edges[a], local.scale));
+  for (std::size_t a = 0; a < problem.atoms.size(); ++a)
+    if (problem.atoms[a].piece == kGuardPiece)
+      problem.references[a] = worst / function_.defined()->guard(problem.atoms[a], problem.edges[a]);
 }
 
 template <int D>

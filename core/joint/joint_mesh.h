@@ -44,10 +44,13 @@ class JointMesh {
   [[nodiscard]] std::span<const Index> free_vertices() const noexcept { return free_; }
   [[nodiscard]] const InputMesh& input() const noexcept { return *input_; }
   [[nodiscard]] Metric metric() const noexcept { return metric_; }
+  /// 1 / metric of the atoms.
+  [[nodiscard]] const AtomFunction<D>& function() const noexcept { return function_; }
 
   /// An atom's edges where the vertices stand.
   [[nodiscard]] AtomEdges<D> edges(const Atom<D>& atom, std::span<const Vec3> positions) const;
-  /// The metric of every atom; 0 where it is not positive; +infinity where a part of its element that cannot move is no better.
+  /// 1 / f of every atom, by function(); 0 where it is not positive; +infinity where a part of its element that cannot move is no better,
+  /// and of guards.
   [[nodiscard]] std::vector<double> qualities(std::span<const Vec3> positions) const;
   /// `free`: ascending. All other vertices stay.
   [[nodiscard]] LocalProblem<D> problem(std::span<const Index> free, std::span<const Vec3> positions) const;
@@ -65,6 +68,8 @@ class JointMesh {
   JudgedMove move(const LocalProblem<D>& local, std::span<const Offset> displacements, std::span<Vec3> positions, Metric metric) const;
 
  private:
+  void set_references(LocalProblem<D>& local) const;
+
   const InputMesh* input_;
   Metric metric_;
   AtomFunction<D> function_;

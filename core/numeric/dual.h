@@ -42,6 +42,8 @@ struct DualOf {
   }
   friend constexpr bool operator<(DualOf a, DualOf b) { return a.value < b.value; }
   friend constexpr bool operator>(DualOf a, DualOf b) { return a.value > b.value; }
+  friend constexpr bool operator<=(DualOf a, DualOf b) { return a.value <= b.value; }
+  friend constexpr bool operator==(DualOf a, DualOf b) { return a.value == b.value; }
 
   friend constexpr DualOf select(bool condition, DualOf yes, DualOf no) { return condition ? yes : no; }
   friend constexpr DualOf min(DualOf a, DualOf b) { return b < a ? b : a; }

@@ -64,6 +64,8 @@ struct SecondDual {
   }
   friend constexpr bool operator<(const SecondDual& a, const SecondDual& b) { return a.value < b.value; }
   friend constexpr bool operator>(const SecondDual& a, const SecondDual& b) { return a.value > b.value; }
+  friend constexpr bool operator<=(const SecondDual& a, const SecondDual& b) { return a.value <= b.value; }
+  friend constexpr bool operator==(const SecondDual& a, const SecondDual& b) { return a.value == b.value; }
 
   friend constexpr SecondDual select(bool condition, const SecondDual& yes, const SecondDual& no) { return condition ? yes : no; }
   friend constexpr SecondDual min(const SecondDual& a, const SecondDual& b) { return b < a ? b : a; }

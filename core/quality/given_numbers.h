@@ -29,9 +29,15 @@ struct GivenNumbers {
   }
 };
 
+/// What falls so many times as fast below 1, in any scalar.
+template <class R>
+[[nodiscard]] DMOSCOPE_ANYWHERE R steeper(const R& value, double steepness) {
+  return steepness == 1.0 ? value : R(1.0) - (R(1.0) - value) * R(steepness);
+}
+
 /// From what a program says of an element to its metric.
 [[nodiscard]] DMOSCOPE_ANYWHERE double settled_metric(double value, double steepness) {
-  const double steep = steepness == 1.0 ? value : 1.0 - (1.0 - value) * steepness;
+  const double steep = steeper(value, steepness);
   return steep == steep ? steep + 0.0 : -1.0;  // else something overflowed
 }
 

@@ -65,13 +65,11 @@ constexpr auto kMethods = std::to_array<MethodInfo>(
       .slides = true},
      {.name = "active-set",
       .doc = "Active-set ascent: along the steepest way on which none of the worst elements loses (Freitag, Jones and Plassmann 1995)",
-      .make = make_active_set_smoother,
-      .judges_freely = false},
+      .make = make_active_set_smoother},
      {.name = "joint",
       .doc = "Joint moves: a cluster of vertices together, by an interior point, until nothing can raise the worst element",
       .make = make_dmo_smoother,
       .untangles = true,
-      .judges_freely = false,
       .joint = true}});
 
 /// "dmo, laplace, smart-laplace and pattern-search".
@@ -121,8 +119,6 @@ void require_possible(const SmoothingTask& task) {
   require_defined(task.metric, *task.input);
   if (method.mean_ratio_only && task.metric != Metric::MeanRatio)
     throw UsageError(fmt::format("{} optimises only the mean ratio, not {}", method.name, info(task.metric).name));
-  if (!method.judges_freely && !is_built_in(task.metric))
-    throw UsageError(fmt::format("{} needs a metric's derivatives, which formulas and targets do not give; dmo needs none", method.name));
   if (method.planar_only && task.input->is_volume()) throw UsageError(fmt::format("{} is defined only for planar meshes", method.name));
   if (task.combination) require_possible(*task.combination, task);
   if (task.input->is_surface() && !method.slides)

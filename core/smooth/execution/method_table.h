@@ -23,7 +23,6 @@ struct MethodInfo {
   bool searches_grid = false;    // reads SearchParameters
   bool slides = false;           // it can move vertices along curves and on surfaces
   bool relaxes = false;          // reads MethodOptions::relaxation
-  bool judges_freely = true;     // by any metric that there may be, formulas and targets among them
   bool joint = false;            // an iteration moves a cluster of vertices together; visits of chosen ones are dmo's
   bool has_directions = false;   // reads MethodOptions::directions and seed
 };

@@ -4,8 +4,9 @@
 #include <vector>
 
 #include "core/numeric/dual.h"
+#include "core/smooth/defined_pieces.h"
+#include "core/smooth/methods/defined_rule.h"
 #include "core/smooth/star_pieces.h"
-#include "core/smooth/vertex_rule.h"
 
 namespace dmoscope {
 
@@ -28,7 +29,6 @@ struct Piece {
 template <class Frame>
 struct AscentScratch {
   using V = OffsetIn<Frame, double>;
-  StarIn<Frame, double> star;
   std::vector<Piece<V>> pieces;
   std::vector<V> active;  // gradients
 };
@@ -156,46 +156,77 @@ class Ascent {
   const Worth& worth_;
 };
 
+/// Raises the least quality; where an element is inverted the least Jacobian first, by as much as turns it. worth(p): of a sound star.
+template <class Frame, class Star, class Qualities, class Worth>
+OffsetIn<Frame, double> ascend(AscentScratch<Frame>& scratch, const Star& star, const Qualities& qualities, const Worth& worth) {
+  using V = OffsetIn<Frame, double>;
+  const auto jacobians = [&star](auto p, const auto& f) { for_jacobians(star, p, f); };
+  const auto least_jacobian = [&star](V p) {
+    double least = std::numeric_limits<double>::infinity();
+    for_jacobians(star, p, [&least](double j) { least = std::min(least, j); });
+    return least;
+  };
+  V place{};
+  if (!(least_jacobian(place) > 0.0))
+    place = Ascent<Frame, decltype(jacobians), decltype(least_jacobian)>(scratch, jacobians, least_jacobian).from(place);
+  if (!(least_jacobian(place) > 0.0)) return place;
+  return Ascent<Frame, Qualities, Worth>(scratch, qualities, worth).from(place);
+}
+
 template <Metric M, class Frame>
 class ActiveSet {
  public:
-  using Scratch = AscentScratch<Frame>;
+  struct Scratch {
+    StarIn<Frame, double> star;
+    AscentScratch<Frame> ascent;
+  };
   explicit ActiveSet(const SmoothingTask& task) : mesh_(*task.input) {}
 
   void begin(const Sweep& sweep) { mesh_.untangling = sweep.untangling; }
   std::optional<Vec3> target(PositionView positions, Index vertex, Scratch& scratch) const {
+    const auto& star = scratch.star;
     gather_star(MeshStar(mesh_.view, positions, vertex), scratch.star);
-    const V found = search(scratch);
-    if (found == V{}) return std::nullopt;
-    return mesh_.template moved_if_gaining<M>(positions, vertex, found, scratch.star.scale);
+    using View = StarViewIn<Frame, double>;
+    const auto qualities = [&star](auto p, const auto& f) { for_qualities<M>(star, p, f); };
+    const auto found = ascend<Frame>(scratch.ascent, star, qualities, Objective<M, false, double, Value::Metric, View>{View(star)});
+    if (found == OffsetIn<Frame, double>{}) return std::nullopt;
+    return mesh_.template moved_if_gaining<M>(positions, vertex, found, star.scale);
   }
 
  private:
-  using V = OffsetIn<Frame, double>;
+  RuleMesh<Frame> mesh_;
+};
 
-  /// Raises the least quality; in a star with inverted elements the least Jacobian first.
-  static V search(Scratch& scratch) {
-    const auto& star = scratch.star;
-    const auto jacobians = [&star](auto p, const auto& f) { for_jacobians(star, p, f); };
-    const auto least_jacobian = [&star](V p) {
-      double least = std::numeric_limits<double>::infinity();
-      for_jacobians(star, p, [&least](double j) { least = std::min(least, j); });
-      return least;
-    };
-    V place{};
-    if (!(least_jacobian(place) > 0.0)) place = Ascent(scratch, jacobians, least_jacobian).from(place);
-    if (!(least_jacobian(place) > 0.0)) return place;
-    using View = StarViewIn<Frame, double>;
-    const auto qualities = [&star](auto p, const auto& f) { for_qualities<M>(star, p, f); };
-    return Ascent(scratch, qualities, Objective<M, false, double, Value::Metric, View>{View(star)}).from(place);
+/// By a metric that is defined by a formula or a target.
+template <class Frame>
+class DefinedActiveSet {
+ public:
+  struct Scratch {
+    DefinedPieces<Frame> pieces;
+    AscentScratch<Frame> ascent;
+  };
+  explicit DefinedActiveSet(const SmoothingTask& task) : mesh_(*task.input, task.metric) {}
+
+  void begin(const Sweep& sweep) { mesh_.begin(sweep); }
+  std::optional<Vec3> target(PositionView positions, Index vertex, Scratch& scratch) const {
+    const DefinedStar<Frame> star(mesh_.star_judge(), positions, vertex);
+    scratch.pieces.gather(mesh_.star_judge(), positions, vertex, star.scale());
+    using V = OffsetIn<Frame, double>;
+    const auto qualities = [&](auto p, const auto& f) { scratch.pieces.for_qualities(p, f); };
+    const auto found = ascend<Frame>(scratch.ascent, star.star(), qualities, [&star](V p) { return star.least(p); });
+    if (found == V{}) return std::nullopt;
+    return mesh_.moved_if_gaining(positions, vertex, times(found, star.scale()));
   }
 
-  RuleMesh<Frame> mesh_;
+ private:
+  DefinedRuleMesh<Frame> mesh_;
 };
 
 }  // namespace
 
 std::unique_ptr<Smoother> make_active_set_smoother(const SmoothingTask& task) {
+  if (!is_built_in(task.metric))
+    return with_frame(*task.input, [&]<class Frame>() { return make_rule_smoother(task, DefinedActiveSet<Frame>(task)); });
   return with_metric_and_frame(*task.input, task.metric,
                                [&]<Metric M, class Frame>() { return make_rule_smoother(task, ActiveSet<M, Frame>(task)); });
 }

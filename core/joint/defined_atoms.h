@@ -1,0 +1,63 @@
+#pragma once
+// Atoms of a metric that is defined by a formula or a target: its smooth pieces, run on numbers that carry derivatives.
+
+#include <array>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/input/input_mesh.h"
+#include "core/joint/atoms.h"
+#include "core/quality/defined_judge.h"
+
+namespace dmoscope {
+
+/// The atom's piece is not of the metric: it keeps the vertices from inverting where the metric does not see that.
+inline constexpr std::uint16_t kGuardPiece = 0xffff;
+
+/// Immutable. The mesh must outlive it.
+template <int D>
+class DefinedAtoms {
+ public:
+  /// `metric`: see joint_obstacle(). What is minimised is 1 / (quality + shift), with a shift that makes all qualities of the input that
+  /// are not of inverted elements positive: 0 where they are.
+  DefinedAtoms(const InputMesh& input, Metric metric);
+
+  /// Appends the atoms of one element, whose dimension must be D.
+  void append(const ElementTable& elements, Index element, std::vector<Atom<D>>& atoms) const;
+  [[nodiscard]] double shift() const noexcept { return shift_; }
+
+  /// 1 / mean ratio of a guard.
+  [[nodiscard]] double guard(const Atom<D>& atom, const AtomEdges<D>& edges) const;
+
+  /// See AtomFunction. `reference`: the edges' length over that in the mesh; of a guard what it begins with, at a thousandth: the metric's
+  /// greatest f over its own guard().
+  [[nodiscard]] double value(const Atom<D>& atom, const AtomEdges<D>& edges, double reference) const;
+  void derive(const Atom<D>& atom, const AtomEdges<D>& edges, double reference, Curvature curvature, AtomDerivatives<D>& result) const;
+
+ private:
+  /// The pieces of the metric in elements of one kind, in one space.
+  struct OfKind {
+    std::span<const FormulaPiece> pieces;
+    std::vector<std::uint8_t> frames;   // by piece: the corner that its atom is at
+    std::vector<std::uint8_t> guarded;  // corners that have an atom of their own
+  };
+  [[nodiscard]] const OfKind& of(ElementKind kind, FormulaSpace space) const {
+    return kinds_[static_cast<std::size_t>(space) * kElementKindCount + static_cast<std::size_t>(kind)];
+  }
+  void find_pieces(ElementKind kind, FormulaSpace space);
+  /// The quality + shift in any scalar. variable(x, i): the i-th of the edges' coordinates.
+  template <class R, class Variable>
+  [[nodiscard]] R quality(const Atom<D>& atom, const AtomEdges<D>& edges, const Variable& variable) const;
+
+  const InputMesh* input_;
+  std::shared_ptr<const DefinedJudge> judge_;
+  double shift_ = 0.0;
+  std::array<OfKind, kFormulaSpaces * kElementKindCount> kinds_;
+};
+
+/// Why a metric that is defined by a formula or a target cannot be split into atoms on all these kinds; empty where it can.
+[[nodiscard]] std::string defined_joint_obstacle(Metric metric, KindSet kinds);
+
+}  // namespace dmoscope

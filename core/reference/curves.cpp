@@ -187,6 +187,12 @@ std::size_t Curves::segment_at(const Curve& curve, double place) {
 }
 
 Vec3 Curves::at(Index vertex, double place) const {
+  const Vec3 p = point_at(vertex, place);
+  if (!single_precision_) return p;
+  return {nearest_float(p.x), nearest_float(p.y), nearest_float(p.z)};
+}
+
+Vec3 Curves::point_at(Index vertex, double place) const {
   const Curve& curve = curve_of(vertex);
   if (curve.closed && place < 0.0) place += curve.length();
   if (curve.closed && place >= curve.length()) place -= curve.length();
@@ -194,9 +200,23 @@ Vec3 Curves::at(Index vertex, double place) const {
   const Vec3 a = point(curve, segment), b = point(curve, segment + 1), d = plane_.difference(b, a);
   const double whole = curve.lengths[segment + 1] - curve.lengths[segment];
   const double t = whole > 0.0 ? std::clamp((place - curve.lengths[segment]) / whole, 0.0, 1.0) : 0.0;
-  const Vec3 p = t <= 0.5 ? a + t * d : b - (1.0 - t) * d;  // the ends have the bits of the input
-  if (!single_precision_) return p;
-  return {nearest_float(p.x), nearest_float(p.y), nearest_float(p.z)};
+  return t <= 0.5 ? a + t * d : b - (1.0 - t) * d;  // the ends have the bits of the input
+}
+
+std::optional<Curves::Straight> Curves::straight(Index vertex, double place, bool forwards) const {
+  const Curve& curve = curve_of(vertex);
+  const double whole = curve.length();
+  if (curve.closed && forwards && place >= whole) place -= whole;
+  if (curve.closed && !forwards && place <= 0.0) place += whole;
+  if (forwards ? place >= whole : place <= 0.0) return std::nullopt;
+  // A place at a point belongs to the segment that leads away from it.
+  const auto& lengths = curve.lengths;
+  const auto bound =
+      forwards ? std::upper_bound(lengths.begin(), lengths.end(), place) : std::lower_bound(lengths.begin(), lengths.end(), place);
+  const auto segment = static_cast<std::size_t>(bound - lengths.begin()) - 1;
+  const Vec3 d = plane_.difference(point(curve, segment + 1), point(curve, segment));
+  const double size = (forwards ? 1.0 : -1.0) * dmoscope::length(d), end = lengths[segment + (forwards ? 1 : 0)];
+  return Straight{(1.0 / size) * d, forwards ? end - place : place - end, end};
 }
 
 std::optional<Curves::Neighbours> Curves::neighbours(Index vertex, double place, PositionView positions) const {

@@ -44,8 +44,20 @@ class Curves {
 
   /// Where on its curve a vertex that slides stands; nowhere for one that was put beside it.
   [[nodiscard]] std::optional<double> place(Index vertex, Vec3 position) const;
-  /// The point at a place of the vertex's curve.
+  /// The point at a place of the vertex's curve, as the file would hold it.
   [[nodiscard]] Vec3 at(Index vertex, double place) const;
+  /// The same in double, for what searches along the curve in steps finer than a float's.
+  [[nodiscard]] Vec3 point_at(Index vertex, double place) const;
+  /// After which length places start anew: 0 of a curve that is not closed.
+  [[nodiscard]] double period(Index vertex) const { return curve_of(vertex).closed ? curve_of(vertex).length() : 0.0; }
+  /// The straight way from a place to the next point of the curve.
+  struct Straight {
+    Vec3 way;         // of length 1
+    double distance;  // > 0
+    double end;       // the place of that point
+  };
+  /// `place`: from 0 to the curve's length. None at the end of an open curve.
+  [[nodiscard]] std::optional<Straight> straight(Index vertex, double place, bool forwards) const;
 
   /// The neighbours of a vertex along its curve, and where they stand beside its place. Sliding never leads past them.
   struct Neighbours {

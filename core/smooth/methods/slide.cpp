@@ -61,7 +61,6 @@ Slide<Frame>::Slide(const SmoothingTask& task, CompositeObjective composite, Sli
       mesh_(task.input->view<Frame>()),
       parameters_(task.search),
       choice_(choice),
-      max_deviation_(task.max_deviation),
       single_precision_(task.input->mesh.single_precision) {
   const CompositeObjective& aims = judge_.composite();
   if (task.search.precision != Precision::Double && is_for_kernels(aims)) {
@@ -72,6 +71,7 @@ Slide<Frame>::Slide(const SmoothingTask& task, CompositeObjective composite, Sli
   }
   flat_aims_ = search_for<Plane>(aims, parameters_);
   aims_ = search_for<Frame>(aims, parameters_);
+  if (domain_ != nullptr) bound_.emplace(*domain_, task.max_deviation);
   if (domain_ != nullptr && domain_->faces().any()) found_.resize(task.input->mesh.positions.size());
 }
 
@@ -166,14 +166,11 @@ bool Slide<Frame>::may_go(const Visit& visit, Vec3 target) const {
 
 template <class Frame>
 bool Slide<Frame>::keeps_near(const Visit& visit, const Stretch& stretch, double place, Vec3 target) const {
-  const auto& beside = stretch.beside;
-  const Curves& curves = domain_->curves();
   const auto deviation = [&](double at, Vec3 position) {
-    return std::max(curves.deviation(visit.vertex, beside.place_before, at, visit.positions[beside.before], position),
-                    curves.deviation(visit.vertex, at, beside.place_after, position, visit.positions[beside.after]));
+    return bound_->along_curve(visit.positions, visit.vertex, stretch.beside, at, position);
   };
   const double there = deviation(place, target);
-  return there <= max_deviation_ || there <= deviation(stretch.place, visit.here);
+  return there <= bound_->most() || there <= deviation(stretch.place, visit.here);
 }
 
 /// Where the vertex comes to stand at a place of its curve; nowhere if it may not.
@@ -208,18 +205,7 @@ std::optional<Vec3> Slide<Frame>::along_curve(const Visit& visit) const {
 /// Do the faces around keep near the input with the vertex at `target`? `here`, `there`: the facets beneath, of a vertex on a surface.
 template <class Frame>
 bool Slide<Frame>::fits(const Visit& visit, Vec3 target, const FacetPlace* here, const FacetPlace* there) const {
-  if (!domain_->faces().any()) return true;
-  Overlay overlay(*domain_, visit.scratch.room);
-  const Fit bound{max_deviation_, max_deviation_, kLeastCosine};
-  if (is_within(overlay.star(visit.positions, visit.vertex, target, there, bound), bound)) return true;
-  // No worse than it is now will do, too.
-  if (!visit.fit_now) visit.fit_now = overlay.star(visit.positions, visit.vertex, visit.here, here, kNoFit);
-  const Fit& now = *visit.fit_now;
-  if (now.deviation == kNoFit.deviation && !domain_->faces().are_own())
-    return overlay.keeps_what_lies(visit.positions, visit.vertex, visit.here, here, target, there, bound);
-  if (now.deviation == kNoFit.deviation || is_within(now, bound)) return false;
-  const Fit worst = worse(bound, now);
-  return is_within(overlay.star(visit.positions, visit.vertex, target, there, worst), worst);
+  return bound_->allows_faces(visit.positions, {visit.vertex, visit.here, target, here, there}, visit.scratch.room, visit.fit_now);
 }
 
 /// Where a vertex on a surface stands, and the plane that touches it there.

@@ -8,16 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "core/reference/deviation_bound.h"
 #include "core/reference/facet_walk.h"
-#include "core/reference/overlay.h"
 #include "core/smooth/methods/composite_dmo.h"
 
 namespace dmoscope {
-
-/// Of 60 degrees: how far a face may lean away from the facets beneath it.
-inline constexpr double kLeastCosine = 0.5;
-/// Facets that lean more than that away from the tangent plane end the way of a candidate.
-inline constexpr double kSteepest = 0.1;
 
 /// How a method chooses among the places to which a vertex may slide.
 struct SlideChoice {
@@ -93,7 +88,7 @@ class Slide {
   CompositeSearch<Frame> aims_;
   SearchParameters parameters_;
   SlideChoice choice_;
-  double max_deviation_;
+  std::optional<DeviationBound> bound_;  // none: nothing slides
   bool single_precision_;
   /// Where a vertex was last found on the surface. A place follows from the position, so no result depends on it; one visit at a time looks
   /// at it.

@@ -159,14 +159,11 @@ class Look {
                             now.size() != nullptr ? to_text(*now.size()) : std::string()};
     if (const double there = after_switches({&change, 1}); is_gain(best, there)) take(found, change, best = there);
   }
-  /// Joint moves, where a vertex may move: of sliding ones they hold the place.
+  /// Joint moves, where a vertex may move.
   void try_joint(HeldMinimum& found, double& best) const {
     if (!(found.quality > 0.0)) return;
-    std::vector<std::uint8_t> fixed(q_.fixed.begin(), q_.fixed.end());
-    if (q_.task.domain)
-      for (Index v = 0; v < fixed.size(); ++v)
-        if (q_.task.domain->slides(v)) fixed[v] = 1;
-    auto cluster = joint_hold(input_, q_.positions, fixed, q_.task.metric, q_.joint_at_most, pool_, asking_.progress, asking_.go_on);
+    auto cluster = joint_hold(input_, q_.positions, q_.fixed, {q_.task.domain, q_.task.max_deviation}, q_.task.metric, q_.joint_at_most,
+                              pool_, asking_.progress, asking_.go_on);
     if (!cluster) return;
     const bool same = is_as_bad(quality_of(q_.positions, cluster->worst_element), found.quality);
     if (same && is_gain(best, cluster->after)) {

@@ -1,6 +1,7 @@
 #include "core/inspect/joint_hold.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -11,7 +12,7 @@
 namespace dmoscope {
 
 std::optional<JointCluster> joint_hold(const InputMesh& input, std::span<const Vec3> positions, std::span<const std::uint8_t> fixed,
-                                       Metric metric, std::size_t at_most, ThreadPool* pool, Progress& progress,
+                                       JointSliding sliding, Metric metric, std::size_t at_most, ThreadPool* pool, Progress& progress,
                                        const std::function<bool()>& go_on) {
   if (!why_not_joint(input, metric).empty()) return std::nullopt;
   JointOptions options;
@@ -23,7 +24,7 @@ std::optional<JointCluster> joint_hold(const InputMesh& input, std::span<const V
     };
   std::vector<Vec3> copy(positions.begin(), positions.end());
   JointState state;
-  auto cluster = JointClusters(input, metric, fixed).raise_worst(copy, state, options, progress);
+  auto cluster = JointClusters(input, metric, fixed, std::move(sliding)).raise_worst(copy, state, options, progress);
   return cluster && cluster->worst_element != kNoIndex ? std::move(cluster) : std::nullopt;
 }
 

@@ -15,8 +15,9 @@ namespace dmoscope {
 /// require_joint), or where there is no such element. `fixed`: one entry a vertex. `at_most`: vertices of the cluster; 0: as many as in a
 /// run. `pool` may be null. Throws Cancelled, also once `go_on`, which is asked after every Newton step, says no.
 [[nodiscard]] std::optional<JointCluster> joint_hold(const InputMesh& input, std::span<const Vec3> positions,
-                                                     std::span<const std::uint8_t> fixed, Metric metric, std::size_t at_most,
-                                                     ThreadPool* pool, Progress& progress, const std::function<bool()>& go_on);
+                                                     std::span<const std::uint8_t> fixed, JointSliding sliding, Metric metric,
+                                                     std::size_t at_most, ThreadPool* pool, Progress& progress,
+                                                     const std::function<bool()>& go_on);
 
 /// Of a cluster that nothing raised: "Certified: no joint move raises it, to first order. 5 elements hold one another: 12 (40 %), 7
 /// (31 %), ..." or why that is not certain.

@@ -74,6 +74,7 @@ class AtomBlocks {
           }
         if (k == l)
           for (std::size_t r = 0; r < kD; ++r) block[r * kD + r] += shift[k];
+        if (problem_.path != nullptr) project(problem_.atoms[atom].vertices[k], problem_.atoms[atom].vertices[l], block);
         cholesky.add(slots_[atom][k * (k + 1) / 2 + l], block);
       }
     }
@@ -90,6 +91,34 @@ class AtomBlocks {
     }
   }
 
+  /// Takes a vector of D numbers a free vertex into the directions in which these may go.
+  void project(std::vector<double>& vector) const {
+    if (problem_.path == nullptr) return;
+    const auto ways = problem_.path->ways();
+    const auto bound = problem_.path->bound();
+    for (std::size_t v = 0; v < ways.size(); ++v) {
+      if (bound[v] == 0) continue;
+      std::array<double, kD> along{};
+      for (std::size_t i = 0; i < kD * kD; ++i) along[i / kD] += ways[v][i] * vector[v * kD + i % kD];
+      std::copy(along.begin(), along.end(), vector.begin() + static_cast<std::ptrdiff_t>(v * kD));
+    }
+  }
+
+  /// Makes vertices stiff in the directions in which they may not go. Nothing leads there: all else is projected.
+  void hold() {
+    if (problem_.path == nullptr) return;
+    const auto ways = problem_.path->ways();
+    const auto bound = problem_.path->bound();
+    for (Index v = 0; v < problem_.free_vertices; ++v) {
+      if (bound[v] == 0) continue;
+      auto& block = cholesky.diagonal(v);
+      double stiff = 0.0;
+      for (std::size_t r = 0; r < kD; ++r) stiff += block[r * kD + r];
+      if (!(stiff > 0.0)) stiff = 1.0;
+      for (std::size_t i = 0; i < kD * kD; ++i) block[i] += stiff * ((i % (kD + 1) == 0 ? 1.0 : 0.0) - ways[v][i]);
+    }
+  }
+
   /// Scales the matrix's diagonal, for what rounding could take from it.
   void scale_diagonal(double factor) {
     for (Index v = 0; v < problem_.free_vertices; ++v) {
@@ -101,6 +130,21 @@ class AtomBlocks {
   BlockCholesky<D> cholesky;
 
  private:
+  /// A block between two free vertices, in the directions in which these may go.
+  void project(Index row, Index column, typename BlockCholesky<D>::Block& block) const {
+    const auto ways = problem_.path->ways();
+    const auto bound = problem_.path->bound();
+    const auto times = [](const auto& a, const auto& b) {
+      typename BlockCholesky<D>::Block product{};
+      for (std::size_t r = 0; r < kD; ++r)
+        for (std::size_t i = 0; i < kD; ++i)
+          for (std::size_t c = 0; c < kD; ++c) product[r * kD + c] += a[r * kD + i] * b[i * kD + c];
+      return product;
+    };
+    if (bound[row] != 0) block = times(ways[row], block);
+    if (bound[column] != 0) block = times(block, ways[column]);
+  }
+
   /// Of an atom's free vertices k >= l, at k (k + 1) / 2 + l.
   using Slots = std::array<typename BlockCholesky<D>::Slot, kVertices*(kVertices + 1) / 2>;
   const JointProblem<D>& problem_;

@@ -35,9 +35,10 @@ void sort_and_unique(std::vector<Index>& values) {
 }  // namespace
 
 template <int D>
-ClusterSearch<D>::ClusterSearch(const JointMesh<D>& mesh, std::span<Vec3> positions, JointState& state, const JointOptions& options,
-                                Progress& progress)
+ClusterSearch<D>::ClusterSearch(const JointMesh<D>& mesh, const JointSliding& sliding, std::span<Vec3> positions, JointState& state,
+                                const JointOptions& options, Progress& progress)
     : mesh_(mesh),
+      domain_(sliding.domain.get()),
       positions_(positions),
       state_(state),
       options_(options),
@@ -51,7 +52,9 @@ ClusterSearch<D>::ClusterSearch(const JointMesh<D>& mesh, std::span<Vec3> positi
                                                    : 1500),
       push_at_most_(options.push_at_most > 0 ? options.push_at_most
                     : D == 2                 ? 100000
-                                             : 3000) {}
+                                             : 3000) {
+  if (domain_ != nullptr) limit_.emplace(*domain_, sliding.max_deviation);
+}
 
 template <int D>
 ClusterSearch<D>::~ClusterSearch() {
@@ -214,6 +217,10 @@ template <int D>
 void ClusterSearch<D>::solve(const std::vector<Index>& cluster, const InteriorPointOptions& options, bool may_leave) {
   solved_ = {};
   solved_.local = mesh_.problem(cluster, positions_);
+  if (domain_ != nullptr) {
+    solved_.path = std::make_unique<SlidingPath<D>>(mesh_, solved_.local, positions_, *domain_, *limit_);
+    solved_.local.problem.path = solved_.path->any() ? solved_.path.get() : nullptr;
+  }
   std::ranges::fill(inside_, std::uint8_t{0});
   for (const Index v : cluster) inside_[v] = 1;
   JointCallbacks<D> callbacks;
@@ -239,25 +246,40 @@ void ClusterSearch<D>::solve(const std::vector<Index>& cluster, const InteriorPo
 }
 
 /// Moves the mesh's vertices where that is better by the program's own judgement. Where elements would become inverted, which the search
-/// knows by their corners alone, half of the way, and so on.
+/// knows by their corners alone, or where vertices that slide may not go all of the way, half of it, and so on.
 template <int D>
 void ClusterSearch<D>::commit() {
   if (!(solved_.solution.best_worst < solved_.solution.start_worst)) return;
-  auto way = solved_.solution.best;
-  for (int i = 0; i <= kMostHalvings; ++i) {
-    const JudgedMove move = mesh_.move(solved_.local, way, positions_);
-    const bool inverts = move.inverted_after > move.inverted_before, better = move.after > move.before && !inverts;
-    for (std::size_t k = 0; k < move.moved_from.size(); ++k) {
-      const Index v = solved_.local.vertices[k];
-      if (better)
-        moved_from_.emplace_back(v, move.moved_from[k]);
-      else
-        positions_[v] = move.moved_from[k];
-    }
-    if (D == 2 || !inverts) return;
-    for (auto& displacement : way)
-      for (double& x : displacement) x *= 0.5;
+  double share = 1.0;
+  for (int i = 0; i <= kMostHalvings; ++i, share *= 0.5) {
+    bool inverts = false, stayed = false;
+    if (try_move(share, inverts, stayed)) return;
+    if (!stayed && (D == 2 || !inverts)) return;
   }
+}
+
+/// Goes a share of the way, if that is better. `stayed`: whether some that slide could not.
+template <int D>
+bool ClusterSearch<D>::try_move(double share, bool& inverts, bool& stayed) {
+  const std::span<const Index> free = solved_.local.free();
+  std::vector<Vec3> targets;
+  targets.reserve(free.size());
+  for (std::size_t k = 0; k < free.size(); ++k) {
+    auto way = solved_.solution.best[k];
+    for (double& x : way) x *= share;
+    targets.push_back(mesh_.placed(positions_[free[k]], way, solved_.local.scale));
+  }
+  if (solved_.local.problem.path != nullptr) stayed = solved_.path->settle(share, free, positions_, targets) > 0;
+  const JudgedMove move = mesh_.move_to(solved_.local, targets, positions_, mesh_.metric());
+  inverts = move.inverted_after > move.inverted_before;
+  const bool better = move.after > move.before && !inverts;
+  for (std::size_t k = 0; k < move.moved_from.size(); ++k) {
+    if (better)
+      moved_from_.emplace_back(free[k], move.moved_from[k]);
+    else
+      positions_[free[k]] = move.moved_from[k];
+  }
+  return better;
 }
 
 template <int D>
@@ -329,8 +351,27 @@ std::string ClusterSearch<D>::why_not(const std::vector<Index>& cluster) const {
     return fmt::format("{:.2g} % of what holds it lies on the rim of the {} vertices, and {}", 100.0 * solved_.rim_share, cluster.size(),
                        options_.cluster_at_most > 0 ? "no more are tried here" : "they are as many as may move together");
   const double bound = 1.0 / (solution.last.tau - solution.last.gap());
+  if (const std::size_t stopped = count_stopped(); stopped > 0)
+    return fmt::format("the bound of deviation holds {} of those that slide", stopped);
   if (!(bound - reached() <= 4.0 * options_.gap * bound)) return "the metric as judged did not rise as the solution did";
   return {};
+}
+
+/// How many vertices of what holds the cluster are drawn to where the bound of deviation does not let them go.
+template <int D>
+std::size_t ClusterSearch<D>::count_stopped() const {
+  if (solved_.local.problem.path == nullptr) return 0;
+  const std::vector<Index> stopped = solved_.path->stopped();
+  const JointIterate<D>& at = solved_.solution.last;
+  const auto count = static_cast<double>(at.multipliers.size());
+  std::vector<Index> found;
+  for (std::size_t i = 0; i < at.multipliers.size(); ++i) {
+    if (at.tau - at.values[i] > kNearTau * at.tau || at.multipliers[i] <= kNoticed / count) continue;
+    for (const Index v : mesh_.atoms()[solved_.local.atoms[i]].vertices)
+      if (std::ranges::binary_search(stopped, v)) found.push_back(v);
+  }
+  sort_and_unique(found);
+  return found.size();
 }
 
 /// 1 / the greatest f of the cluster's atoms where the vertices stand now.

@@ -1,12 +1,14 @@
 #pragma once
 // One call of JointClusters::raise_worst: finds the worst open atom, grows a cluster around it, solves it, and settles what came of it.
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "core/joint/joint_clusters.h"
 #include "core/joint/joint_mesh.h"
+#include "core/joint/sliding_path.h"
 
 namespace dmoscope {
 
@@ -14,7 +16,8 @@ namespace dmoscope {
 template <int D>
 class ClusterSearch {
  public:
-  ClusterSearch(const JointMesh<D>& mesh, std::span<Vec3> positions, JointState& state, const JointOptions& options, Progress& progress);
+  ClusterSearch(const JointMesh<D>& mesh, const JointSliding& sliding, std::span<Vec3> positions, JointState& state,
+                const JointOptions& options, Progress& progress);
   ~ClusterSearch();  // takes back what is not finished
   ClusterSearch(const ClusterSearch&) = delete;
   ClusterSearch& operator=(const ClusterSearch&) = delete;
@@ -27,6 +30,7 @@ class ClusterSearch {
     JointSolution<D> solution;
     std::vector<Index> rim;  // vertices of atoms that hold the cluster and have vertices outside it that could move; ascending
     double rim_share = 0.0;  // of the multipliers' sum
+    std::unique_ptr<SlidingPath<D>> path{};  // null where nothing slides
   };
 
   void begin();
@@ -39,15 +43,19 @@ class ClusterSearch {
   [[nodiscard]] JointCluster raise(Index worst);
   void solve(const std::vector<Index>& cluster, const InteriorPointOptions& options, bool may_leave);
   void commit();
+  [[nodiscard]] bool try_move(double share, bool& inverts, bool& stayed);
   void measure_rim(const JointIterate<D>& at);
   [[nodiscard]] std::vector<Index> enlarged(const std::vector<Index>& cluster, int growth, int rings) const;
   void settle(Index worst, bool certified);
   [[nodiscard]] double reached() const;
   [[nodiscard]] JointCluster told(const std::vector<Index>& cluster) const;
   void tell_forces(JointCluster& result) const;
+  [[nodiscard]] std::size_t count_stopped() const;
   [[nodiscard]] std::string why_not(const std::vector<Index>& cluster) const;
 
   const JointMesh<D>& mesh_;
+  const Domain* domain_;  // null: nothing slides
+  std::optional<DeviationBound> limit_;
   std::span<Vec3> positions_;
   JointState& state_;
   const JointOptions& options_;

@@ -36,6 +36,7 @@ class InteriorPoint {
   [[nodiscard]] std::size_t at_once() const { return pool_ != nullptr ? kAtOnce : kAloneAtOnce; }
   [[nodiscard]] double slack(std::size_t atom) const { return at_.tau - at_.values[atom]; }
   bool start();
+  void choose_ways();
   void assemble(Curvature curvature);
   void add_atom(std::size_t atom, const AtomDerivatives<D>& derivatives);
   using Damping = std::array<double, kVertices>;
@@ -60,13 +61,20 @@ class InteriorPoint {
   std::vector<Place> trial_;
   double ratio_sum_ = 0.0, barrier_sum_ = 0.0;  // of the multiplier / slack, of mu / slack
   double dtau_ = 0.0, slope_ = 0.0, alpha_ = 0.0;
+  std::vector<std::size_t> bound_atoms_;  // those with a vertex that slides
   double sigma_ = kFirstDamping;
   bool exact_ = true;
 };
 
 template <int D>
 InteriorPoint<D>::InteriorPoint(const JointProblem<D>& problem, const AtomFunction<D>& function, ThreadPool* pool)
-    : problem_(problem), function_(function), pool_(pool), system_(problem, pool) {}
+    : problem_(problem), function_(function), pool_(pool), system_(problem, pool) {
+  if (problem.path == nullptr) return;
+  const auto bound = problem.path->bound();
+  for (std::size_t a = 0; a < problem.atoms.size(); ++a)
+    if (std::ranges::any_of(problem.atoms[a].vertices, [&](Index v) { return v < problem.free_vertices && bound[v] != 0; }))
+      bound_atoms_.push_back(a);
+}
 
 template <int D>
 double InteriorPoint<D>::value(std::size_t atom, const std::vector<Place>& displacements) const {
@@ -105,6 +113,20 @@ bool InteriorPoint<D>::start() {
   return true;
 }
 
+/// Where vertices slide, the step's directions depend on which way they are drawn: at a corner of a curve one of its two sides counts.
+template <int D>
+void InteriorPoint<D>::choose_ways() {
+  if (problem_.path == nullptr) return;
+  std::vector<double> forces(problem_.free_vertices * kD, 0.0);
+  AtomDerivatives<D> derivatives;
+  for (const std::size_t a : bound_atoms_) {
+    function_.derive(problem_.atoms[a].shape, displaced_edges<D>(problem_, a, at_.displacements), problem_.reference(a), Curvature::Convex,
+                     derivatives);
+    system_.add_gradient(a, -at_.mu / slack(a), derivatives.gradient, forces);
+  }
+  problem_.path->choose(forces);
+}
+
 /// The Hessian of the Lagrangian and the barrier, K, and the sums that go with it, with damping.
 template <int D>
 void InteriorPoint<D>::assemble(Curvature curvature) {
@@ -134,6 +156,9 @@ void InteriorPoint<D>::assemble(Curvature curvature) {
     };
     for_chunks(parts > 1 ? pool_ : nullptr, 1 + parts, 1, work);
   }
+  system_.project(force_);
+  system_.project(tau_direction_);
+  system_.hold();
   system_.scale_diagonal(1.0 + kOntoDiagonal);
 }
 
@@ -226,6 +251,7 @@ bool InteriorPoint<D>::search_line() {
     const double tau = at_.tau + alpha_ * dtau_;
     for (std::size_t v = 0; v < trial_.size(); ++v)
       for (std::size_t r = 0; r < kD; ++r) trial_[v][r] = at_.displacements[v][r] + alpha_ * direction_[v * kD + r];
+    if (problem_.path != nullptr && !problem_.path->put_back(at_.displacements, trial_)) continue;
     ProductLog slacks;  // of new ones over old ones
     bool inside = true;
     for (std::size_t a = 0; a < new_values_.size() && inside; ++a) {
@@ -238,6 +264,7 @@ bool InteriorPoint<D>::search_line() {
     const double change = alpha_ * dtau_ / at_.mu - slacks.value();
     if (!(change <= 1e-4 * alpha_ * slope_ + 1e-12 * (1.0 + std::fabs(at_.tau / at_.mu)))) continue;
     step_multipliers();
+    if (problem_.path != nullptr) problem_.path->take();
     at_.tau = tau;
     at_.displacements.swap(trial_);
     at_.values.swap(new_values_);
@@ -282,6 +309,7 @@ JointSolution<D> InteriorPoint<D>::solve(const InteriorPointOptions& options, co
   int full_steps = 0;
   for (int attempt = 0; attempt < options.max_steps; ++attempt) {
     progress.check();
+    choose_ways();
     if (!factorise()) {
       solution.end = InteriorPointEnd::Stuck;
       break;
@@ -307,6 +335,7 @@ JointSolution<D> InteriorPoint<D>::solve(const InteriorPointOptions& options, co
     if (at_.worst < solution.best_worst) {
       solution.best_worst = at_.worst;
       solution.best = at_.displacements;
+      if (problem_.path != nullptr) problem_.path->keep_best();
     }
     if (callbacks.step) callbacks.step(at_);
     if (solution.best_worst <= options.enough) {
@@ -329,6 +358,7 @@ JointSolution<D> InteriorPoint<D>::solve(const InteriorPointOptions& options, co
     }
     at_.mu *= kFall;
   }
+  choose_ways();  // what holds them at the end
   solution.last = std::move(at_);
   return solution;
 }

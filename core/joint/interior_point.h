@@ -9,6 +9,7 @@
 #include "core/base/progress.h"
 #include "core/base/thread_pool.h"
 #include "core/joint/atoms.h"
+#include "core/joint/joint_ways.h"
 
 namespace dmoscope {
 
@@ -20,6 +21,7 @@ struct JointProblem {
   std::vector<Atom<D>> atoms;                 // each has a free vertex; `element` is that of the mesh
   std::vector<AtomEdges<D>> edges;            // of each atom, undisplaced; about as long as 1
   std::vector<double> references;             // one an atom where AtomFunction reads them; else empty
+  JointWays<D>* path = nullptr;               // of those that slide; null: all may go anywhere
   [[nodiscard]] double reference(std::size_t atom) const { return references.empty() ? 1.0 : references[atom]; }
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -27,7 +28,8 @@ class JointClusters::Base {
 template <int D>
 class JointClusters::Of final : public Base {
  public:
-  Of(const InputMesh& input, Metric metric, std::span<const std::uint8_t> fixed) : mesh_(input, metric, fixed) {}
+  Of(const InputMesh& input, Metric metric, std::span<const std::uint8_t> fixed, JointSliding sliding)
+      : mesh_(input, metric, fixed), sliding_(std::move(sliding)) {}
   std::optional<JointCluster> raise_worst(std::span<Vec3> positions, JointState& state, const JointOptions& options,
                                           Progress& progress) const override {
     JointState next = state;
@@ -36,7 +38,7 @@ class JointClusters::Of final : public Base {
       return untangled;
     }
     if (options.only_untangle) return std::nullopt;
-    ClusterSearch<D> search(mesh_, positions, next, options, progress);
+    ClusterSearch<D> search(mesh_, sliding_, positions, next, options, progress);
     std::optional<JointCluster> result = search.run();
     state = std::move(next);
     return result;
@@ -50,13 +52,16 @@ class JointClusters::Of final : public Base {
  private:
   std::optional<JointCluster> untangle(std::span<Vec3> positions, JointState& state, const JointOptions& options,
                                        Progress& progress) const {
-    if (mesh_.metric() == Metric::MeanRatio) return Untangler<D>(mesh_, Metric::MeanRatio, positions, state, options, progress).run();
+    const Domain* domain = sliding_.domain.get();
+    if (domain == nullptr && mesh_.metric() == Metric::MeanRatio)
+      return Untangler<D>(mesh_, Metric::MeanRatio, positions, state, options, progress).run();
     std::vector<std::uint8_t> fixed(positions.size(), 1);
-    for (const Index v : mesh_.free_vertices()) fixed[v] = 0;
+    for (const Index v : mesh_.free_vertices()) fixed[v] = domain != nullptr && domain->slides(v) ? 1 : 0;
     const JointMesh<D> by_mean_ratio(mesh_.input(), Metric::MeanRatio, fixed);
     return Untangler<D>(by_mean_ratio, mesh_.metric(), positions, state, options, progress).run();
   }
   JointMesh<D> mesh_;
+  JointSliding sliding_;
 };
 
 std::string why_not_joint(const InputMesh& input, Metric metric) {
@@ -73,12 +78,17 @@ void require_joint(const InputMesh& input, Metric metric) {
   if (const std::string why_not = why_not_joint(input, metric); !why_not.empty()) throw UsageError(why_not);
 }
 
-JointClusters::JointClusters(const InputMesh& input, Metric metric, std::span<const std::uint8_t> fixed) {
+JointClusters::JointClusters(const InputMesh& input, Metric metric, std::span<const std::uint8_t> fixed, JointSliding sliding) {
   require_joint(input, metric);
-  if (input.is_volume())
-    mesh_ = std::make_unique<Of<3>>(input, metric, fixed);
+  if (input.is_volume() && sliding.domain) {
+    std::vector<std::uint8_t> held(fixed.begin(), fixed.end());
+    for (Index v = 0; v < held.size(); ++v)
+      if (sliding.domain->slides(v)) held[v] = 1;
+    mesh_ = std::make_unique<Of<3>>(input, metric, held, JointSliding{});
+  } else if (input.is_volume())
+    mesh_ = std::make_unique<Of<3>>(input, metric, fixed, std::move(sliding));
   else
-    mesh_ = std::make_unique<Of<2>>(input, metric, fixed);
+    mesh_ = std::make_unique<Of<2>>(input, metric, fixed, std::move(sliding));
 }
 JointClusters::~JointClusters() = default;
 JointClusters::JointClusters(JointClusters&&) noexcept = default;

@@ -15,6 +15,7 @@
 #include "core/base/progress.h"
 #include "core/base/thread_pool.h"
 #include "core/input/input_mesh.h"
+#include "core/reference/domain.h"
 
 namespace dmoscope {
 
@@ -86,6 +87,12 @@ struct JointCluster {
   bool is_untangling = false;  // fewer elements are inverted; it has no bound, and nothing is active
 };
 
+/// Where vertices slide while they move jointly, and how far edges and faces may come to lie from the input, in mesh units.
+struct JointSliding {
+  std::shared_ptr<const Domain> domain{};  // null: nothing slides
+  double max_deviation = 0.0;
+};
+
 /// Why vertices of a mesh cannot be moved jointly: it is a curved surface, or see joint_obstacle(). Empty where they can.
 [[nodiscard]] std::string why_not_joint(const InputMesh& input, Metric metric);
 /// Throws UsageError with that.
@@ -95,14 +102,15 @@ void require_joint(const InputMesh& input, Metric metric);
 class JointClusters {
  public:
   /// `fixed`: one entry a vertex, non-zero where it may not move. Throws as require_joint() does.
-  JointClusters(const InputMesh& input, Metric metric, std::span<const std::uint8_t> fixed);
+  JointClusters(const InputMesh& input, Metric metric, std::span<const std::uint8_t> fixed, JointSliding sliding = {});
   ~JointClusters();
   JointClusters(JointClusters&&) noexcept;
   JointClusters& operator=(JointClusters&&) noexcept;
 
   /// Raises the worst open element with the vertices around it. `positions`: of the whole mesh, changed only where the least quality of the
   /// elements that change rises, judged by the program's metric in double, and no more of them are inverted. Where elements are inverted,
-  /// the first calls untangle: fewer are inverted then, and the least quality is no lower. The vertices of what is left inverted stay.
+  /// the first calls untangle: fewer are inverted then, and the least quality is no lower; what slides stays in these. The vertices of what
+  /// is left inverted stay.
   /// None: state.end says why there is nothing more to do. On Cancelled positions and state are as before.
   [[nodiscard]] std::optional<JointCluster> raise_worst(std::span<Vec3> positions, JointState& state, const JointOptions& options,
                                                         Progress& progress);

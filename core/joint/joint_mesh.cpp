@@ -161,6 +161,15 @@ void JointMesh<D>::set_references(LocalProblem<D>& local) const {
 }
 
 template <int D>
+typename JointMesh<D>::Offset JointMesh<D>::in_frame(Vec3 way) const {
+  const auto offset = frame_of<D>(input_->geometry).project(way);
+  if constexpr (D == 2)
+    return {offset.x, offset.y};
+  else
+    return {offset.x, offset.y, offset.z};
+}
+
+template <int D>
 Vec3 JointMesh<D>::lifted(const Offset& offset) const {
   if constexpr (D == 2)
     return input_->geometry.plane.lift({offset[0], offset[1]});
@@ -190,6 +199,16 @@ std::vector<Index> JointMesh<D>::elements_at(std::span<const Index> vertices) co
 template <int D>
 JudgedMove JointMesh<D>::move(const LocalProblem<D>& local, std::span<const Offset> displacements, std::span<Vec3> positions,
                               Metric metric) const {
+  std::vector<Vec3> targets;
+  targets.reserve(displacements.size());
+  for (std::size_t i = 0; i < displacements.size(); ++i)
+    targets.push_back(placed(positions[local.vertices[i]], displacements[i], local.scale));
+  return move_to(local, targets, positions, metric);
+}
+
+template <int D>
+JudgedMove JointMesh<D>::move_to(const LocalProblem<D>& local, std::span<const Vec3> targets, std::span<Vec3> positions,
+                                 Metric metric) const {
   const QualityContext context = input_->quality_context();
   const std::vector<Index> elements = elements_at(local.free());
   JudgedMove move;
@@ -199,10 +218,10 @@ JudgedMove JointMesh<D>::move(const LocalProblem<D>& local, std::span<const Offs
     before.push_back(element_quality(context, positions, metric, e));
     move.inverted_before += smallest_jacobian(context, positions, e) <= 0.0 ? 1 : 0;
   }
-  for (std::size_t i = 0; i < displacements.size(); ++i) {
+  for (std::size_t i = 0; i < targets.size(); ++i) {
     Vec3& position = positions[local.vertices[i]];
     move.moved_from.push_back(position);
-    position = placed(position, displacements[i], local.scale);
+    position = targets[i];
   }
   move.before = move.after = kInfinity;
   for (std::size_t i = 0; i < elements.size(); ++i) {

@@ -56,6 +56,10 @@ class JointMesh {
   [[nodiscard]] LocalProblem<D> problem(std::span<const Index> free, std::span<const Vec3> positions) const;
   /// Where a vertex comes to stand that the problem displaced.
   [[nodiscard]] Vec3 placed(Vec3 position, const Offset& displacement, double scale) const;
+  /// A way in space as one of the problem, in mesh units.
+  [[nodiscard]] Offset in_frame(Vec3 way) const;
+  /// The shortest way from `origin` to `at`.
+  [[nodiscard]] Vec3 difference(Vec3 at, Vec3 origin) const { return input_->geometry.plane.difference(at, origin); }
   /// A direction of the problem in space.
   [[nodiscard]] Vec3 lifted(const Offset& offset) const;
   /// Elements with one of the vertices, ascending.
@@ -66,6 +70,8 @@ class JointMesh {
   }
   /// Judged by another metric.
   JudgedMove move(const LocalProblem<D>& local, std::span<const Offset> displacements, std::span<Vec3> positions, Metric metric) const;
+  /// To `targets`, one a free vertex.
+  JudgedMove move_to(const LocalProblem<D>& local, std::span<const Vec3> targets, std::span<Vec3> positions, Metric metric) const;
 
  private:
   void set_references(LocalProblem<D>& local) const;

@@ -40,7 +40,7 @@ bool Run::joint_untangling_follows(std::uint64_t iteration) const {
   return untangles_jointly(history_.records(), iteration) && !joint_follows(iteration) && knows_joint_moves();
 }
 
-/// By vertex: those that joint moves leave where they are.
+/// By vertex: those that stay where vertices of inverted elements move together.
 std::vector<std::uint8_t> Run::held_jointly() const {
   std::vector<std::uint8_t> held(fixed_.begin(), fixed_.end());
   if (domain_)
@@ -73,7 +73,7 @@ void Run::untangle_jointly(Progress& progress) {
   record({.moment = {iteration}, .moved = last_moved_, .seconds = watch.seconds()});
 }
 
-/// Whether minimum_is_certified() may be asked. Where vertices slide it would hold them.
+/// Whether minimum_is_certified() may be asked. Where vertices slide it would hold them: a region knows no domain.
 bool Run::can_be_certified() const {
   const bool is_all = !method_info(parameters_.method).joint && !parameters_.then_joint && !parameters_.then_mean;
   return is_all && !parameters_.combination && !domain_ && knows_joint_moves();
@@ -95,7 +95,7 @@ bool Run::minimum_is_certified(double movable_minimum, Progress& progress) {
   const auto region = region_around(*input_, positions, fixed_, elements_that(*input_, is_worst), rings, kMostVertices);
   if (!region) return false;
   const InputMesh& part = *region->input;
-  const auto found = joint_hold(part, part.mesh.positions, region->fixed, parameters_.metric, kAtMost, pool_.get(), progress, {});
+  const auto found = joint_hold(part, part.mesh.positions, region->fixed, {}, parameters_.metric, kAtMost, pool_.get(), progress, {});
   if (!found || !found->certified || found->after - found->before > kNoGain * found->before) return false;
   return std::ranges::none_of(found->active, [&](const JointCluster::Active& each) { return region->touches_rim(each.element); });
 }

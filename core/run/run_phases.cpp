@@ -96,7 +96,9 @@ std::shared_ptr<const JointStanding> Run::joint_standing() const {
 }
 
 JointClusters& Run::joint_clusters() {
-  if (!joint_clusters_) joint_clusters_ = std::make_unique<JointClusters>(*input_, parameters_.metric, held_jointly());
+  if (!joint_clusters_)
+    joint_clusters_ = std::make_unique<JointClusters>(*input_, parameters_.metric, fixed_,
+                                                      JointSliding{domain_, parameters_.max_deviation * input_->geometry.size});
   return *joint_clusters_;
 }
 

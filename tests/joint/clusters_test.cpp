@@ -95,5 +95,25 @@ INSTANTIATE_TEST_SUITE_P(Wanted, JointClustersOfRealMeshes,
                                            Wanted{"quad/shashkov_quad.vtk", 0.22}, Wanted{"tet/cinolib_sphere.mesh", 0.467},
                                            Wanted{"tet/tire.vtk", 0.3655}));
 
+class JointClustersThatSlide : public ::testing::TestWithParam<Wanted> {};
+
+/// More than single vertices that slide reach (0.2552, 0.2602, 0.8609), and than joint moves with the boundary fixed (0.2643, 0.2272,
+/// 0.8165).
+TEST_P(JointClustersThatSlide, RaiseWhatNeitherAloneCan) {
+  const auto file = std::filesystem::path(DMOSCOPE_SHARED_DIR) / "meshes" / GetParam().file;
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
+  Progress progress;
+  RunParameters parameters;
+  parameters.boundary = BoundaryRule::Slide;
+  parameters.then_joint.emplace();
+  dmoscope::Run run = make_run(load_input(file, Need::Smoothing, progress), parameters);
+  run.until_converged({.patience = 5, .max_iterations = 2000}, progress);
+  EXPECT_GE(run.statistics().minimum, GetParam().minimum);
+  EXPECT_EQ(run.statistics().inverted, 0U);
+}
+INSTANTIATE_TEST_SUITE_P(Wanted, JointClustersThatSlide,
+                         ::testing::Values(Wanted{"tri/shashkov.vtk", 0.3227}, Wanted{"quad/shashkov_quad.vtk", 0.3241},
+                                           Wanted{"ocean/east.14", 0.8659}));
+
 }  // namespace
 }  // namespace dmoscope

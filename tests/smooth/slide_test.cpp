@@ -175,6 +175,120 @@ TEST(SlidingByOthers, KeepTheirPromisesAfterEveryIteration) {
   }
 }
 
+/// Of joint moves each cluster may move many that slide.
+TEST(SlidingTogether, KeepsItsPromisesAfterEveryCluster) {
+  std::size_t moved = 0;
+  for (const Specimen& specimen : specimens()) {
+    const auto mesh = input(specimen.mesh);
+    const auto edges = boundary_edges(mesh->mesh);
+    for (const double bound : {1e-3, 0.05}) {
+      RunParameters parameters = sliding_by(bound);
+      parameters.method = "joint";
+      dmoscope::Run run = make_run(mesh, parameters);
+      for (std::uint64_t iteration = 1; iteration <= (kSanitized ? 2 : 4); ++iteration) {
+        expect_promise_one(specimen, run, iteration);
+        expect_on_the_boundary(specimen, run, edges, bound);
+        expect_in_order(specimen, run);
+        if (::testing::Test::HasFatalFailure()) return;
+      }
+      moved += slid(run);
+    }
+  }
+  EXPECT_GT(moved, 500U);
+}
+
+/// A square whose best is known: all vertices where a lattice has them. Those of its sides are moved along these, those inside anyhow.
+TEST(SlidingTogether, FindsTheLattice) {
+  for (const double scale : {1e-9, 1.0, 1e6}) {
+    constexpr Index n = 6;
+    Mesh mesh = lattice(n, 0.0, 1, Cells::Quadrilaterals);
+    testing::Random random(7);
+    for (Vec3& p : mesh.positions) {
+      const double room = 0.3 / n;
+      if (p.x > 0.0 && p.x < 1.0) p.x += random(-room, room);
+      if (p.y > 0.0 && p.y < 1.0) p.y += random(-room, room);
+      p = scale * p;
+    }
+    const auto prepared = input(mesh);
+    RunParameters fixed, slides = sliding_by();
+    fixed.method = slides.method = "joint";
+    Progress progress;
+    dmoscope::Run held = make_run(prepared, fixed), free = make_run(prepared, slides);
+    held.until_converged({}, progress);
+    const Outcome outcome = free.until_converged({}, progress);
+    EXPECT_LT(held.statistics().minimum, 0.95) << scale;
+    EXPECT_GT(free.statistics().minimum, 0.9995) << scale;
+    EXPECT_EQ(outcome.reason, StopReason::Certified) << scale << ": " << outcome.sentence();
+  }
+}
+
+/// A boundary that turns by 15 degrees, where the best place of a vertex is the turn itself: sliding must end there, and know it.
+TEST(SlidingTogether, ACornerOfTheCurveHoldsAVertex) {
+  const double slope = std::tan(7.5 * M_PI / 180.0);
+  const auto on_roof = [slope](double x) { return Vec3{x, -slope * std::abs(x), 0}; };
+  // Beneath the ridge lies a triangle that would be better higher, and worse on either side.
+  Mesh mesh;
+  mesh.positions = {on_roof(-0.6), {-0.5, -0.3, 0}, {0.5, -0.3, 0}, on_roof(0.6), on_roof(0.0)};
+  testing::add(mesh, {0, 1, 4});
+  testing::add(mesh, {1, 2, 4});
+  testing::add(mesh, {2, 3, 4});
+  const auto prepared = input(mesh);
+  RunParameters parameters = sliding_by(1.0);
+  parameters.method = "joint";
+  const dmoscope::Run run = make_run(prepared, parameters);
+  ASSERT_TRUE(run.domain()->slides(4));
+  std::vector<Vec3> positions(mesh.positions);
+  const auto least = [&](Vec3 ridge) {
+    positions[4] = ridge;
+    return compute_statistics(prepared->quality_context(), positions, Metric::MeanRatio, run.immovable(), nullptr).minimum;
+  };
+  const double best = least(on_roof(0.0));
+  for (const double x : {-0.1, -0.01, -0.001, 0.001, 0.01, 0.1}) ASSERT_LT(least(on_roof(x)), best - 0.01 * std::abs(x)) << x;
+  for (const double begin : {-0.25, 0.0, 0.15}) {
+    JointClusters clusters(*prepared, Metric::MeanRatio, run.fixed(), {run.domain(), 1.0});
+    positions[4] = on_roof(begin);
+    JointState state;
+    Progress progress;
+    const auto cluster = clusters.raise_worst(positions, state, {}, progress);
+    ASSERT_TRUE(cluster) << begin;
+    EXPECT_NEAR(positions[4].x, 0.0, 1e-12) << begin;
+    EXPECT_TRUE(cluster->certified) << begin << ": " << cluster->why_not;
+  }
+}
+
+/// More than single vertices that slide reach, and more than joint moves with a boundary that stays.
+TEST(SlidingTogether, ReachesMoreThanEitherAlone) {
+  const Mesh mesh = bent(14, 0.4, 41, Cells::Triangles, [](Vec3 p) { return Vec3{p.x, p.y + 0.1 * std::sin(5 * p.x), 0}; });
+  const auto prepared = input(mesh);
+  Progress progress;
+  const auto reached = [&](BoundaryRule boundary, bool joint) {
+    RunParameters parameters = sliding_by();
+    parameters.boundary = boundary;
+    if (joint) parameters.then_joint.emplace();
+    dmoscope::Run run = make_run(prepared, parameters);
+    run.until_converged({.patience = 50}, progress);
+    return run.statistics().minimum;
+  };
+  const double both = reached(BoundaryRule::Slide, true);
+  EXPECT_GT(both, reached(BoundaryRule::Fixed, true) + 0.02);
+  EXPECT_GT(both, reached(BoundaryRule::Slide, false) + 0.0005);
+}
+
+TEST(SlidingTogether, SameBitsForAnyNumberOfThreads) {
+  const auto prepared = input(bent(14, 0.4, 41, Cells::Mixed, [](Vec3 p) { return Vec3{p.x, p.y + 0.1 * std::sin(5 * p.x), 0}; }));
+  RunParameters parameters = sliding_by();
+  parameters.method = "joint";
+  Progress progress;
+  std::vector<Vec3> first;
+  for (const unsigned threads : {1U, 2U, 3U}) {
+    dmoscope::Run run = make_run(prepared, parameters, threads);
+    run.iterate(4, progress);
+    if (first.empty()) first.assign(run.positions().begin(), run.positions().end());
+    EXPECT_GT(slid(run), 10U);
+    EXPECT_TRUE(same_bits(run.positions(), std::span<const Vec3>(first))) << threads;
+  }
+}
+
 /// On a straight side the mean of two neighbours is the middle between them.
 TEST(SlidingByOthers, LaplaceGoesToTheMiddle) {
   const Mesh start = lattice(4, 0.3, 9);
@@ -240,8 +354,12 @@ TEST(SlidingInside, InterfacesStayWhereTheyAre) {
     std::vector<Segment> inner;  // of the group's edges, those that are not the mesh's boundary
     for (const auto& edge : edges)
       if (mesh->topology.boundary()[edge.first] == 0 || mesh->topology.boundary()[edge.second] == 0) inner.push_back(edge);
-    for (const BoundaryRule boundary : {BoundaryRule::Fixed, BoundaryRule::Slide}) {
+    for (const auto& [boundary, method] : {std::pair{BoundaryRule::Fixed, "dmo"},
+                                           {BoundaryRule::Slide, "dmo"},
+                                           {BoundaryRule::Fixed, "joint"},
+                                           {BoundaryRule::Slide, "joint"}}) {
       RunParameters parameters;
+      parameters.method = method;
       parameters.interfaces = InterfaceRule::Slide;
       parameters.boundary = boundary;
       dmoscope::Run run = make_run(mesh, parameters);
@@ -338,7 +456,7 @@ TEST(SlidingRefusals, AreSaid) {
   Progress progress;
   RunParameters other = sliding_by();
   other.method = "active-set";
-  expect_refused(input(lattice(4, 0.1, 1)), other, "only dmo, laplace, smart-laplace and pattern-search slide");
+  expect_refused(input(lattice(4, 0.1, 1)), other, "only dmo, laplace, smart-laplace, pattern-search and joint slide");
   expect_refused(input(generate_mesh("globe", 300, 1, progress)), sliding_by(), "longitude");
 }
 

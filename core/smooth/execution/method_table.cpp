@@ -70,13 +70,14 @@ constexpr auto kMethods = std::to_array<MethodInfo>(
       .doc = "Joint moves: a cluster of vertices together, by an interior point, until nothing can raise the worst element",
       .make = make_dmo_smoother,
       .untangles = true,
+      .slides = true,
       .joint = true}});
 
-/// "dmo, laplace, smart-laplace and pattern-search".
-std::string those_that_slide() {
+/// "dmo, laplace, smart-laplace, pattern-search and joint"; the last one not on curved surfaces.
+std::string those_that_slide(bool on_curved_surfaces = false) {
   std::vector<std::string_view> names;
   for (const MethodInfo& method : kMethods)
-    if (method.slides) names.push_back(method.name);
+    if (method.slides && !(method.joint && on_curved_surfaces)) names.push_back(method.name);
   return fmt::format("{} and {}", fmt::join(names.begin(), names.end() - 1, ", "), names.back());
 }
 
@@ -122,7 +123,7 @@ void require_possible(const SmoothingTask& task) {
   if (method.planar_only && task.input->is_volume()) throw UsageError(fmt::format("{} is defined only for planar meshes", method.name));
   if (task.combination) require_possible(*task.combination, task);
   if (task.input->is_surface() && !method.slides)
-    throw UsageError(fmt::format("only {} smooth curved surfaces, not {}", those_that_slide(), method.name));
+    throw UsageError(fmt::format("only {} smooth curved surfaces, not {}", those_that_slide(true), method.name));
   if (task.slides) require_sliding(task);
   if (method.joint && task.then_joint) throw UsageError("joint moves cannot follow joint moves");
   if (method.joint || task.then_joint) {

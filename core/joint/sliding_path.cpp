@@ -1,0 +1,296 @@
+#include "core/joint/sliding_path.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dmoscope {
+
+namespace {
+
+constexpr double kSameWay = 1e-12;    // of cosines: two straight ways that go on without a corner
+constexpr double kNearCorner = 1e-9;  // as a share of a straight way: what ends nearer to its end than that ends there
+constexpr double kSmallStep = 1e-3;   // as a share of an edge: how far is looked for room
+constexpr double kDrawn = 1e-3;       // as a share of a vertex's force: what of it a stop must resist to be told
+constexpr int kHalvings = 8;
+
+template <std::size_t N>
+double inner(const std::array<double, N>& a, const std::array<double, N>& b) {
+  double sum = 0.0;
+  for (std::size_t r = 0; r < N; ++r) sum += a[r] * b[r];
+  return sum;
+}
+
+}  // namespace
+
+template <int D>
+SlidingPath<D>::SlidingPath(const JointMesh<D>& mesh, const LocalProblem<D>& local, std::span<const Vec3> positions, const Domain& domain,
+                            const DeviationBound& limit)
+    : mesh_(mesh), curves_(domain.curves()), limit_(limit), scale_(local.scale) {
+  const auto free = local.free();
+  Way all{};
+  for (std::size_t r = 0; r < kD; ++r) all[r * kD + r] = 1.0;
+  ways_.assign(free.size(), all);
+  bound_.assign(free.size(), 0);
+  for (Index i = 0; i < free.size(); ++i) {
+    if (!domain.slides(free[i])) continue;
+    any_ = true;
+    bound_[i] = 1;
+    ways_[i] = {};  // it stays where nothing better is known
+    if (domain.on_curve(free[i])) add_slider(i, free[i], positions[free[i]]);
+  }
+  std::erase_if(sliders_, [&](const Slider& s) { return !curves_.neighbours(s.vertex, s.begin_place, positions); });
+  std::vector<std::size_t> slider_of(positions.size(), kNone);
+  for (std::size_t s = 0; s < sliders_.size(); ++s) slider_of[sliders_[s].vertex] = s;
+  for (std::size_t s = 0; s < sliders_.size(); ++s) add_edges(s, positions, slider_of);
+}
+
+template <int D>
+void SlidingPath<D>::add_slider(Index free, Index vertex, Vec3 position) {
+  const auto place = curves_.place(vertex, position);
+  if (!place) return;
+  const Stand stand{*place, 0.0, position};
+  sliders_.push_back(
+      Slider{.free = free, .vertex = vertex, .begin = position, .begin_place = *place, .now = stand, .trial = stand, .best = stand});
+}
+
+/// Those behind it, and one before it where nobody else adds that.
+template <int D>
+void SlidingPath<D>::add_edges(std::size_t slider, std::span<const Vec3> positions, std::span<const std::size_t> slider_of) {
+  Slider& s = sliders_[slider];
+  const Curves::Neighbours beside = *curves_.neighbours(s.vertex, s.begin_place, positions);
+  const auto add = [&](Edge edge) {
+    edge.limit =
+        std::max(limit_.most(), curves_.deviation(s.vertex, edge.place_from, edge.place_from + edge.gap, edge.at_from, edge.at_to));
+    edges_.push_back(edge);
+    return edges_.size() - 1;
+  };
+  const std::size_t next = slider_of[beside.after];
+  s.after = add({.from = slider,
+                 .to = next,
+                 .place_from = s.begin_place,
+                 .gap = beside.place_after - s.begin_place,
+                 .at_from = s.begin,
+                 .at_to = positions[beside.after]});
+  if (next != kNone) sliders_[next].before = s.after;
+  if (slider_of[beside.before] == kNone)
+    s.before = add({.to = slider,
+                    .place_from = place_within(s.vertex, beside.place_before),
+                    .gap = s.begin_place - beside.place_before,
+                    .at_from = positions[beside.before],
+                    .at_to = s.begin});
+}
+
+template <int D>
+double SlidingPath<D>::place_within(Index vertex, double place) const {
+  const double period = curves_.period(vertex);
+  if (period > 0.0 && place < 0.0) return place + period;
+  return period > 0.0 && place >= period ? place - period : place;
+}
+
+// ---- where it may go ----
+
+template <int D>
+double SlidingPath<D>::deviation(const Edge& edge, Index vertex, const Stand& from, const Stand& to) const {
+  const double first = edge.from == kNone ? edge.place_from : place_within(vertex, from.place), gap = edge.gap + to.gone - from.gone;
+  return curves_.deviation(vertex, first, first + gap, edge.from == kNone ? edge.at_from : from.position,
+                           edge.to == kNone ? edge.at_to : to.position);
+}
+
+/// In the trial: are its ends in order still, and does it keep near the curve?
+template <int D>
+bool SlidingPath<D>::keeps(const Edge& edge) const {
+  const Stand stays{};
+  const Stand& from = edge.from == kNone ? stays : sliders_[edge.from].trial;
+  const Stand& to = edge.to == kNone ? stays : sliders_[edge.to].trial;
+  if (!(edge.gap + to.gone - from.gone > 0.0)) return false;
+  return deviation(edge, sliders_[edge.from == kNone ? edge.to : edge.from].vertex, from, to) <= edge.limit;
+}
+
+/// With one of its ends elsewhere.
+template <int D>
+bool SlidingPath<D>::edge_allows(const Edge& edge, std::size_t moved, const Stand& there) const {
+  const Stand stays{};
+  const Stand& from = edge.from == moved ? there : edge.from == kNone ? stays : sliders_[edge.from].now;
+  const Stand& to = edge.to == moved ? there : edge.to == kNone ? stays : sliders_[edge.to].now;
+  return deviation(edge, sliders_[moved].vertex, from, to) <= edge.limit;
+}
+
+/// Is there room for a small step?
+template <int D>
+bool SlidingPath<D>::is_open(const Slider& slider, bool forwards) const {
+  const std::size_t self = static_cast<std::size_t>(&slider - sliders_.data());
+  const Edge& ahead = edges_[forwards ? slider.after : slider.before];
+  const double gone_from = ahead.from == kNone ? 0.0 : sliders_[ahead.from].now.gone;
+  const double gone_to = ahead.to == kNone ? 0.0 : sliders_[ahead.to].now.gone;
+  const double step = kSmallStep * (ahead.gap + gone_to - gone_from);
+  const double place = place_within(slider.vertex, slider.now.place + (forwards ? step : -step));
+  const Stand there{place, slider.now.gone + (forwards ? step : -step), curves_.point_at(slider.vertex, place)};
+  return edge_allows(edges_[slider.before], self, there) && edge_allows(edges_[slider.after], self, there);
+}
+
+template <int D>
+void SlidingPath<D>::choose(std::span<const double> forces) {
+  for (Slider& s : sliders_) {
+    for (std::size_t r = 0; r < kD; ++r) s.force[r] = forces[s.free * kD + r];
+    const auto forwards = curves_.straight(s.vertex, s.now.place, true), backwards = curves_.straight(s.vertex, s.now.place, false);
+    Way& way = ways_[s.free] = {};
+    s.stopped = false;
+    s.way = {};
+    if (!forwards || !backwards) continue;
+    const Place ahead = mesh_.in_frame(forwards->way), behind = mesh_.in_frame(backwards->way);
+    const bool corner = dot(forwards->way, backwards->way) > kSameWay - 1.0;
+    const double drawn_ahead = inner(s.force, ahead), drawn_behind = inner(s.force, behind);
+    const bool open_ahead = is_open(s, true), open_behind = is_open(s, false);
+    const double noticed = kDrawn * std::sqrt(inner(s.force, s.force));
+    s.one_sided = corner || !open_ahead || !open_behind;
+    s.runs_forwards = !s.one_sided || (open_ahead && drawn_ahead > 0.0 && !(open_behind && drawn_behind > drawn_ahead));
+    s.stopped = (!open_ahead && drawn_ahead > noticed) || (!open_behind && drawn_behind > noticed);
+    if (!s.runs_forwards && !(open_behind && drawn_behind > 0.0)) continue;
+    s.way = s.runs_forwards ? ahead : behind;
+    const double square = inner(s.way, s.way);
+    for (std::size_t i = 0; i < kD * kD; ++i) way[i] = s.way[i / kD] * s.way[i % kD] / square;
+  }
+}
+
+// ---- trials ----
+
+/// At a corner of its curve: does its force draw it back from the next straight way, more than from the one on which it comes?
+template <int D>
+bool SlidingPath<D>::draws_back(const Slider& slider, Vec3 way, Vec3 next) const {
+  const double cosine = dot(way, next);
+  if (cosine > 1.0 - kSameWay) return false;
+  return inner(slider.force, mesh_.in_frame(next)) < cosine * inner(slider.force, mesh_.in_frame(way));
+}
+
+template <int D>
+void SlidingPath<D>::walk(Slider& slider, double length) const {
+  const bool forwards = length > 0.0;
+  double left = std::fabs(length);
+  slider.trial = slider.now;
+  while (left > 0.0) {
+    const auto straight = curves_.straight(slider.vertex, slider.trial.place, forwards);
+    if (!straight) break;
+    if (left < (1.0 - kNearCorner) * straight->distance) {
+      slider.trial.place += forwards ? left : -left;
+      left = 0.0;
+      break;
+    }
+    slider.trial.place = straight->end;
+    left = std::max(0.0, left - straight->distance);
+    const auto next = curves_.straight(slider.vertex, straight->end, forwards);
+    if (!next || draws_back(slider, straight->way, next->way)) break;
+  }
+  const double gone = std::fabs(length) - left;
+  slider.trial.gone += forwards ? gone : -gone;
+  if (gone > 0.0) slider.trial.position = curves_.point_at(slider.vertex, slider.trial.place);
+}
+
+template <int D>
+bool SlidingPath<D>::put_back(const std::vector<Place>& from, std::vector<Place>& trial) {
+  for (Slider& s : sliders_) {
+    Place step = trial[s.free];
+    for (std::size_t r = 0; r < kD; ++r) step[r] -= from[s.free][r];
+    const double square = inner(s.way, s.way);
+    s.asked = square > 0.0 ? inner(step, s.way) / (square * scale_) : 0.0;
+    if (s.one_sided) s.asked = std::max(s.asked, 0.0);
+    if (!s.runs_forwards) s.asked = -s.asked;
+    walk(s, s.asked);
+  }
+  shorten();
+  for (std::size_t v = 0; v < bound_.size(); ++v)
+    if (bound_[v] != 0) trial[v] = from[v];
+  for (const Slider& s : sliders_) {
+    trial[s.free] = mesh_.in_frame(mesh_.difference(s.trial.position, s.begin));
+    for (double& x : trial[s.free]) x *= scale_;
+  }
+  return true;
+}
+
+/// Shortens the way of those whose edges would leave the curve too far, or turn over.
+template <int D>
+void SlidingPath<D>::shorten() {
+  std::vector<std::uint8_t> marked(sliders_.size());
+  for (int round = 0;; ++round) {
+    std::ranges::fill(marked, std::uint8_t{0});
+    bool again = false;
+    for (const Edge& edge : edges_) {
+      if (keeps(edge)) continue;
+      for (const std::size_t end : {edge.from, edge.to})
+        if (end != kNone && sliders_[end].asked != 0.0) marked[end] = 1, again = true;
+    }
+    if (!again) return;
+    for (std::size_t i = 0; i < sliders_.size(); ++i) {
+      if (marked[i] == 0) continue;
+      sliders_[i].asked = round < kHalvings ? 0.5 * sliders_[i].asked : 0.0;
+      walk(sliders_[i], sliders_[i].asked);
+    }
+  }
+}
+
+template <int D>
+void SlidingPath<D>::take() {
+  for (Slider& s : sliders_) s.now = s.trial;
+}
+
+template <int D>
+void SlidingPath<D>::keep_best() {
+  for (Slider& s : sliders_) s.best = s.now;
+}
+
+// ---- what came of it ----
+
+template <int D>
+std::vector<Index> SlidingPath<D>::stopped() const {
+  std::vector<Index> vertices;
+  for (const Slider& s : sliders_)
+    if (s.stopped) vertices.push_back(s.vertex);
+  return vertices;
+}
+
+/// So far along its curve from where it began.
+template <int D>
+typename SlidingPath<D>::Stand SlidingPath<D>::stand_at(const Slider& slider, double gone) const {
+  double place = gone == slider.best.gone ? slider.best.place : slider.begin_place + gone;
+  const double period = curves_.period(slider.vertex);
+  if (period > 0.0) place -= period * std::floor(place / period);
+  return {place, gone, curves_.at(slider.vertex, place)};
+}
+
+/// What rounding put elsewhere must still be on the curve and between the neighbours, and the edges there near it.
+template <int D>
+bool SlidingPath<D>::may_stand(const Slider& slider, std::span<const Vec3> positions) const {
+  const auto place = curves_.place(slider.vertex, positions[slider.vertex]);
+  if (!place) return false;
+  const auto beside = curves_.neighbours(slider.vertex, *place, positions);
+  if (!beside) return false;
+  const Vec3 here = positions[slider.vertex];
+  return curves_.deviation(slider.vertex, beside->place_before, *place, positions[beside->before], here) <= edges_[slider.before].limit &&
+         curves_.deviation(slider.vertex, *place, beside->place_after, here, positions[beside->after]) <= edges_[slider.after].limit;
+}
+
+template <int D>
+std::size_t SlidingPath<D>::settle(double share, std::span<const Index> free, std::span<Vec3> positions, std::span<Vec3> targets) const {
+  std::vector<const Slider*> moved;
+  for (const Slider& s : sliders_) {
+    targets[s.free] = s.best.gone == 0.0 ? s.begin : stand_at(s, share * s.best.gone).position;
+    if (s.best.gone != 0.0) moved.push_back(&s);
+  }
+  for (std::size_t i = 0; i < free.size(); ++i) std::swap(positions[free[i]], targets[i]);
+  const std::size_t all = moved.size();
+  // One that goes back may be in the way of another.
+  for (bool again = true; again;) {
+    again = false;
+    std::erase_if(moved, [&](const Slider* s) {
+      if (may_stand(*s, positions)) return false;
+      positions[s->vertex] = s->begin;
+      return again = true;
+    });
+  }
+  for (std::size_t i = 0; i < free.size(); ++i) std::swap(positions[free[i]], targets[i]);
+  return all - moved.size();
+}
+
+template class SlidingPath<2>;
+template class SlidingPath<3>;
+
+}  // namespace dmoscope

@@ -1,0 +1,92 @@
+#pragma once
+// Vertices of a cluster that slide along curves of the input while it moves jointly.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/joint/joint_mesh.h"
+#include "core/joint/joint_ways.h"
+#include "core/reference/deviation_bound.h"
+
+namespace dmoscope {
+
+/// Vertices go along their curves, at most up to their neighbours, and only as far as the bound of deviation lets the edges beside them. At
+/// a corner of a curve where a force holds a vertex from both sides it stops; the next step takes the side to which its force points, if
+/// there is one. All must outlive it but `positions`, where the cluster stands.
+template <int D>
+class SlidingPath final : public JointWays<D> {
+ public:
+  using typename JointWays<D>::Place;
+  using typename JointWays<D>::Way;
+
+  SlidingPath(const JointMesh<D>& mesh, const LocalProblem<D>& local, std::span<const Vec3> positions, const Domain& domain,
+              const DeviationBound& limit);
+  /// Does a vertex of the cluster slide?
+  [[nodiscard]] bool any() const noexcept { return any_; }
+
+  [[nodiscard]] std::span<const Way> ways() const noexcept override { return ways_; }
+  [[nodiscard]] std::span<const std::uint8_t> bound() const noexcept override { return bound_; }
+  void choose(std::span<const double> forces) override;
+  [[nodiscard]] bool put_back(const std::vector<Place>& from, std::vector<Place>& trial) override;
+  void take() override;
+  void keep_best() override;
+
+  /// Sets the targets of the vertices that slide, a share of their way to the best place: as the file would hold them, and by the rules for
+  /// all that slide. Those that may not go there keep their place. Returns how many. `targets`: of the cluster's vertices `free`, known of
+  /// all others. `positions`: of the mesh, as it stands; the same again at the end.
+  [[nodiscard]] std::size_t settle(double share, std::span<const Index> free, std::span<Vec3> positions, std::span<Vec3> targets) const;
+  /// The mesh's vertices that the bound of deviation keeps from where their forces draw them, as choose() found them last; ascending.
+  [[nodiscard]] std::vector<Index> stopped() const;
+
+ private:
+  static constexpr std::size_t kD = D, kNone = static_cast<std::size_t>(-1);
+  /// Where a vertex stands on its curve, and how far it has come, forwards, since the begin.
+  struct Stand {
+    double place = 0.0, gone = 0.0;
+    Vec3 position{};
+  };
+  struct Slider {
+    Index free, vertex;  // its number in the problem, and in the mesh
+    Vec3 begin;
+    double begin_place;
+    Stand now, trial, best;
+    std::size_t before = kNone, after = kNone;  // edges
+    Place way{};                                // in which it goes
+    bool runs_forwards = true, one_sided = false, stopped = false;
+    Place force{};
+    double asked = 0.0;  // how far the trial would lead it
+  };
+  /// An edge along a curve; an end that is no slider stays.
+  struct Edge {
+    std::size_t from = kNone, to = kNone;
+    double place_from, gap;  // at the begin
+    Vec3 at_from, at_to;
+    double limit = 0.0;  // of its deviation
+  };
+
+  void add_slider(Index free, Index vertex, Vec3 position);
+  void add_edges(std::size_t slider, std::span<const Vec3> positions, std::span<const std::size_t> slider_of);
+  void shorten();
+  void walk(Slider& slider, double length) const;
+  [[nodiscard]] bool draws_back(const Slider& slider, Vec3 way, Vec3 next) const;
+  [[nodiscard]] double deviation(const Edge& edge, Index vertex, const Stand& from, const Stand& to) const;
+  [[nodiscard]] bool keeps(const Edge& edge) const;
+  [[nodiscard]] bool is_open(const Slider& slider, bool forwards) const;
+  [[nodiscard]] bool edge_allows(const Edge& edge, std::size_t moved, const Stand& there) const;
+  [[nodiscard]] Stand stand_at(const Slider& slider, double gone) const;
+  [[nodiscard]] bool may_stand(const Slider& slider, std::span<const Vec3> positions) const;
+  [[nodiscard]] double place_within(Index vertex, double place) const;
+
+  const JointMesh<D>& mesh_;
+  const Curves& curves_;
+  const DeviationBound& limit_;
+  double scale_;
+  bool any_ = false;
+  std::vector<Way> ways_;
+  std::vector<std::uint8_t> bound_;
+  std::vector<Slider> sliders_;
+  std::vector<Edge> edges_;
+};
+
+}  // namespace dmoscope

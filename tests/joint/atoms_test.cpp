@@ -38,7 +38,7 @@ double least_atom(const Mesh& mesh, Metric metric) {
   const AtomFunction<D> function(metric, AtomMeasure::InverseQuality);
   double most = 0.0;
   for (const Atom<D>& atom : testing::atoms_of<D>(mesh, metric))
-    most = std::max(most, function.value(atom.shape, testing::edges_of<D>(atom, mesh.positions), 1.0));
+    most = std::max(most, function.value(atom, testing::edges_of<D>(atom, mesh.positions), 1.0));
   return 1.0 / most;
 }
 
@@ -79,36 +79,12 @@ TEST(Atoms, WhatCannotBeSplitSaysWhy) {
   EXPECT_EQ(joint_obstacle(Metric::MeanRatio, 0x3f), "");
 }
 
-/// Gradient and Hessian against central differences of the value and of the gradient.
-template <int D>
-void expect_derivatives(const AtomFunction<D>& function, AtomShape shape, const AtomEdges<D>& edges, double reference) {
-  constexpr std::size_t kCount = AtomDerivatives<D>::kCount;
-  AtomDerivatives<D> at, above, below;
-  function.derive(shape, edges, reference, Curvature::Exact, at);
-  EXPECT_NEAR(at.value, function.value(shape, edges, reference), 1e-13 * (1.0 + std::fabs(at.value)));
-  constexpr double kStep = 1e-5;
-  double scale = 1.0;
-  for (const double h : at.hessian) scale = std::max(scale, std::fabs(h));
-  for (std::size_t i = 0; i < kCount; ++i) {
-    AtomEdges<D> moved = edges;
-    moved[i / D][i % D] = edges[i / D][i % D] + kStep;
-    function.derive(shape, moved, reference, Curvature::Exact, above);
-    moved[i / D][i % D] = edges[i / D][i % D] - kStep;
-    function.derive(shape, moved, reference, Curvature::Exact, below);
-    EXPECT_NEAR(at.gradient[i], (above.value - below.value) / (2.0 * kStep), 1e-7 * scale);
-    for (std::size_t j = 0; j < kCount; ++j) {
-      EXPECT_NEAR(at.hessian[i * kCount + j], (above.gradient[j] - below.gradient[j]) / (2.0 * kStep), 1e-6 * scale);
-      EXPECT_NEAR(at.hessian[i * kCount + j], at.hessian[j * kCount + i], 1e-12 * scale);
-    }
-  }
-}
-
 /// The least eigenvalue is not below 0: x' H x for many x.
 template <int D>
-void expect_semidefinite(const AtomFunction<D>& function, AtomShape shape, const AtomEdges<D>& edges, testing::Random& random) {
+void expect_semidefinite(const AtomFunction<D>& function, const Atom<D>& atom, const AtomEdges<D>& edges, testing::Random& random) {
   constexpr std::size_t kCount = AtomDerivatives<D>::kCount;
   AtomDerivatives<D> at;
-  function.derive(shape, edges, 1.0, Curvature::Convex, at);
+  function.derive(atom, edges, 1.0, Curvature::Convex, at);
   double scale = 1e-3;
   for (const double h : at.hessian) scale = std::max(scale, std::fabs(h));
   for (int i = 0; i < 20; ++i) {
@@ -127,11 +103,11 @@ void expect_derivatives_of(const Mesh& mesh, Metric metric, testing::Random& ran
       jacobian(metric, AtomMeasure::RelativeJacobian);
   for (const Atom<D>& atom : testing::atoms_of<D>(mesh, metric)) {
     const AtomEdges<D> edges = testing::edges_of<D>(atom, mesh.positions);
-    expect_derivatives<D>(power, atom.shape, edges, 1.0);
-    expect_derivatives<D>(jacobian, atom.shape, edges, 0.7);
-    if (quality.value(atom.shape, edges, 1.0) > 10.0) continue;
-    expect_derivatives<D>(quality, atom.shape, edges, 1.0);
-    expect_semidefinite<D>(quality, atom.shape, edges, random);
+    testing::expect_derivatives<D>(power, atom, edges, 1.0);
+    testing::expect_derivatives<D>(jacobian, atom, edges, 0.7);
+    if (quality.value(atom, edges, 1.0) > 10.0) continue;
+    testing::expect_derivatives<D>(quality, atom, edges, 1.0);
+    expect_semidefinite<D>(quality, atom, edges, random);
   }
 }
 

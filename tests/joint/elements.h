@@ -2,7 +2,10 @@
 // Random elements of every kind, for tests of their atoms.
 
 #include <array>
+#include <cmath>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 #include "core/joint/atoms.h"
 #include "core/quality/quality.h"
@@ -60,6 +63,30 @@ AtomEdges<D> edges_of(const Atom<D>& atom, std::span<const Vec3> positions) {
     if constexpr (D == 3) edges[j][2] = e.z;
   }
   return edges;
+}
+
+/// Gradient and Hessian against central differences of the value and of the gradient.
+template <int D>
+void expect_derivatives(const AtomFunction<D>& function, const Atom<D>& atom, const AtomEdges<D>& edges, double reference) {
+  constexpr std::size_t kCount = AtomDerivatives<D>::kCount;
+  AtomDerivatives<D> at, above, below;
+  function.derive(atom, edges, reference, Curvature::Exact, at);
+  EXPECT_NEAR(at.value, function.value(atom, edges, reference), 1e-13 * (1.0 + std::fabs(at.value)));
+  constexpr double kStep = 1e-5;
+  double scale = 1.0;
+  for (const double h : at.hessian) scale = std::max(scale, std::fabs(h));
+  for (std::size_t i = 0; i < kCount; ++i) {
+    AtomEdges<D> moved = edges;
+    moved[i / D][i % D] = edges[i / D][i % D] + kStep;
+    function.derive(atom, moved, reference, Curvature::Exact, above);
+    moved[i / D][i % D] = edges[i / D][i % D] - kStep;
+    function.derive(atom, moved, reference, Curvature::Exact, below);
+    EXPECT_NEAR(at.gradient[i], (above.value - below.value) / (2.0 * kStep), 1e-7 * scale);
+    for (std::size_t j = 0; j < kCount; ++j) {
+      EXPECT_NEAR(at.hessian[i * kCount + j], (above.gradient[j] - below.gradient[j]) / (2.0 * kStep), 1e-6 * scale);
+      EXPECT_NEAR(at.hessian[i * kCount + j], at.hessian[j * kCount + i], 1e-12 * scale);
+    }
+  }
 }
 
 inline Geometry geometry_of(ElementKind kind) {

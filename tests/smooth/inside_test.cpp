@@ -122,7 +122,7 @@ TEST(InsideAlone, IsUntangledByAllThatOptimise) {
     EXPECT_TRUE(sound_after({.method = name})) << name;
     if (method.mean_ratio_only) continue;
     EXPECT_TRUE(sound_after({.method = name, .metric = Metric::ScaledJacobian})) << name;
-    if (method.judges_freely && !method.joint) {
+    if (!method.joint) {
       EXPECT_TRUE(sound_after({.method = name, .metric = parse_metric("formula:min_corner(det/norm^3)")})) << name;
     }
   }

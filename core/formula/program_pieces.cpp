@@ -27,6 +27,7 @@ class ProgramBuilder::Splitter {
   explicit Splitter(ProgramBuilder& builder) : builder_(builder) {}
 
   [[nodiscard]] std::vector<Number> split(Number number, Of of) {
+    number = chosen(number);
     const Node node = builder_.nodes_[number];  // a copy: new numbers may move the others
     if (node.what != Node::What::Step) return {number};
     const Number a = node.operands[0], b = node.operands[1];
@@ -57,6 +58,19 @@ class ProgramBuilder::Splitter {
   [[nodiscard]] static std::vector<Number> joined(Number whole, std::vector<Number> a, const std::vector<Number>& b) {
     for (const Number one : b) keep_once(a, one);
     return a.size() > kMostPieces ? std::vector<Number>{whole} : a;
+  }
+
+  /// What a selection by the sign of a number chooses whose sign is known; any other number itself.
+  [[nodiscard]] Number chosen(Number number) const {
+    const Node& node = builder_.nodes_[number];
+    if (node.what != Node::What::Step || node.operation != Operation::Select) return number;
+    const Node& condition = builder_.nodes_[node.operands[0]];
+    if (condition.what != Node::What::Step || condition.operation != Operation::Less) return number;
+    const Number a = condition.operands[0], b = condition.operands[1];
+    const auto is_zero = [this](Number n) { return builder_.value_of(n) != nullptr && *builder_.value_of(n) == 0.0; };
+    if (is_zero(a) && sign(b) == Sign::Positive) return chosen(node.operands[1]);
+    if (is_zero(b) && sign(a) == Sign::Positive) return chosen(node.operands[2]);
+    return number;
   }
 
   /// Whether an operation only rises or only falls with each of its first two operands.
@@ -96,6 +110,7 @@ class ProgramBuilder::Splitter {
   }
 
   [[nodiscard]] Sign sign(Number number) const {
+    number = chosen(number);
     if (std::ranges::find(builder_.positive_, number) != builder_.positive_.end()) return Sign::Positive;
     const Node& node = builder_.nodes_[number];
     if (node.what == Node::What::Constant) return node.value < 0.0 ? Sign::Negative : Sign::Positive;

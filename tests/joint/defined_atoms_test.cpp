@@ -19,20 +19,24 @@ namespace {
 
 using ::testing::HasSubstr;
 
+struct Split {
+  const char* formula;
+  double ceiling = std::numeric_limits<double>::infinity();  // a part that no vertex changes: no atom says it
+};
 /// Formulas of all that splits: corners, edges, the least of numbers under functions that rise and fall, and what has no part.
-constexpr std::array kFormulas{"2*det/norm^2",
-                               "exp(-1/det)",
-                               "min(l12, l23)/max(l12, l23)",
-                               "1/max(norm^2/det, 1.5)",
-                               "sqrt(min(2*det/norm^2, 0.9)) - 0.1",
-                               "clamp(2*det/norm^2, 0.05, 0.8)",
-                               "log(2*det/norm^2) + 3",
-                               "(2*det/norm^2)^0.7",
-                               "det*(0.5 + cos(norm)^2)",
-                               "atan(det/norm^2)*1.2"};
+constexpr std::array kFormulas{Split{"2*det/norm^2"},
+                               Split{"exp(-1/det)"},
+                               Split{"min(l12, l23)/max(l12, l23)"},
+                               Split{"1/max(norm^2/det, 1.5)", 1.0 / 1.5},
+                               Split{"sqrt(min(2*det/norm^2, 0.81)) - 0.1", 0.8},
+                               Split{"clamp(2*det/norm^2, 0.05, 0.8)", 0.8},
+                               Split{"log(2*det/norm^2) + 3"},
+                               Split{"(2*det/norm^2)^0.7"},
+                               Split{"det*(0.5 + cos(norm)^2)"},
+                               Split{"atan(det/norm^2)*1.2"}};
 
 template <int D>
-void expect_least_and_derivatives(const Mesh& mesh, const std::string& name, testing::Random& random) {
+void expect_least_and_derivatives(const Mesh& mesh, const std::string& name, double ceiling, testing::Random& random) {
   const auto input = testing::input(mesh);
   const Metric metric = parse_metric(name);
   const auto atoms = std::make_shared<const DefinedAtoms<D>>(*input, metric);
@@ -51,7 +55,8 @@ void expect_least_and_derivatives(const Mesh& mesh, const std::string& name, tes
     if (f < 10.0 && f > 0.02) testing::expect_derivatives<D>(function, atom, edges, unit);
   }
   const double quality = element_quality(input->quality_context(), input->mesh.positions, metric, 0);
-  EXPECT_NEAR(function.quality_of(most), quality, 1e-11 * (1.0 + std::abs(quality))) << name << " of " << info(mesh.elements.kind(0)).name;
+  EXPECT_NEAR(std::min(function.quality_of(most), ceiling), quality, 1e-11 * (1.0 + std::abs(quality)))
+      << name << " of " << info(mesh.elements.kind(0)).name;
 }
 
 TEST(DefinedAtoms, TheirLeastIsTheMetricAndTheirDerivativesAreThoseOfTheirValues) {
@@ -59,17 +64,17 @@ TEST(DefinedAtoms, TheirLeastIsTheMetricAndTheirDerivativesAreThoseOfTheirValues
   int looked_at = 0;
   for (std::size_t k = 0; k < kElementKindCount; ++k) {
     const auto kind = static_cast<ElementKind>(k);
-    for (const char* formula : kFormulas) {
-      const std::string name = std::string("formula:") + formula;
+    for (const Split& split : kFormulas) {
+      const std::string name = std::string("formula:") + split.formula;
       if (!defined_joint_obstacle(parse_metric(name), kind_set(kind)).empty()) continue;
       for (int round = 0; round < 4; ++round) {
         const Mesh mesh = testing::random_element(kind, 0.2, random);
         if (testing::input(mesh)->report.inverted_elements.size() > 0) continue;
         ++looked_at;
         if (info(kind).dimension == 3)
-          expect_least_and_derivatives<3>(mesh, name, random);
+          expect_least_and_derivatives<3>(mesh, name, split.ceiling, random);
         else
-          expect_least_and_derivatives<2>(mesh, name, random);
+          expect_least_and_derivatives<2>(mesh, name, split.ceiling, random);
       }
     }
   }

@@ -219,6 +219,7 @@ void ClusterSearch<D>::solve(const std::vector<Index>& cluster, const InteriorPo
   solved_.local = mesh_.problem(cluster, positions_);
   if (domain_ != nullptr) {
     solved_.path = std::make_unique<SlidingPath<D>>(mesh_, solved_.local, positions_, *domain_, *limit_);
+    if (holds_) solved_.path->hold();
     solved_.local.problem.path = solved_.path->any() ? solved_.path.get() : nullptr;
   }
   std::ranges::fill(inside_, std::uint8_t{0});
@@ -326,6 +327,11 @@ JointCluster ClusterSearch<D>::raise(Index worst) {
     }
     cluster = std::move(larger);
   }
+  const InteriorPointEnd end = solved_.solution.end;
+  if (moved_from_.empty() && solved_.local.problem.path != nullptr && (end == InteriorPointEnd::Stuck || end == InteriorPointEnd::Steps)) {
+    holds_ = true;  // the others may move still
+    solve(cluster, options, false);
+  }
   JointCluster result = told(cluster);
   result.worst_element = mesh_.atoms()[worst].element;
   if (result.moved.empty()) {
@@ -345,6 +351,7 @@ JointCluster ClusterSearch<D>::raise(Index worst) {
 template <int D>
 std::string ClusterSearch<D>::why_not(const std::vector<Index>& cluster) const {
   const JointSolution<D>& solution = solved_.solution;
+  if (holds_) return "with those that slide no step was found that leads further";
   if (solution.end == InteriorPointEnd::Steps) return fmt::format("{} Newton steps did not suffice", options_.max_steps);
   if (solution.end != InteriorPointEnd::Gap) return "no step was found that leads further";
   if (!(solved_.rim_share < kClosedRim))
@@ -352,7 +359,8 @@ std::string ClusterSearch<D>::why_not(const std::vector<Index>& cluster) const {
                        options_.cluster_at_most > 0 ? "no more are tried here" : "they are as many as may move together");
   const double bound = 1.0 / (solution.last.tau - solution.last.gap());
   if (const std::size_t stopped = count_stopped(); stopped > 0)
-    return fmt::format("the bound of deviation holds {} of those that slide", stopped);
+    return fmt::format("{} holds {} of those that slide", D == 2 ? "the bound of deviation" : "the bound of deviation, or a feature edge,",
+                       stopped);
   if (!(bound - reached() <= 4.0 * options_.gap * bound)) return "the metric as judged did not rise as the solution did";
   return {};
 }

@@ -68,6 +68,7 @@ class ClusterSearch {
   std::vector<std::pair<Index, Vec3>> moved_from_;  // in the order of the moves
   Solved solved_;
   int newton_steps_ = 0, solutions_ = 0;
+  bool holds_ = false;  // whether what slides keeps its place
   bool finished_ = false;
 };
 

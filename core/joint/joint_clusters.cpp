@@ -80,12 +80,7 @@ void require_joint(const InputMesh& input, Metric metric) {
 
 JointClusters::JointClusters(const InputMesh& input, Metric metric, std::span<const std::uint8_t> fixed, JointSliding sliding) {
   require_joint(input, metric);
-  if (input.is_volume() && sliding.domain) {
-    std::vector<std::uint8_t> held(fixed.begin(), fixed.end());
-    for (Index v = 0; v < held.size(); ++v)
-      if (sliding.domain->slides(v)) held[v] = 1;
-    mesh_ = std::make_unique<Of<3>>(input, metric, held, JointSliding{});
-  } else if (input.is_volume())
+  if (input.is_volume())
     mesh_ = std::make_unique<Of<3>>(input, metric, fixed, std::move(sliding));
   else
     mesh_ = std::make_unique<Of<2>>(input, metric, fixed, std::move(sliding));

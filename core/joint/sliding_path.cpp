@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/rounding.h"
+
 namespace dmoscope {
 
 namespace {
@@ -10,6 +12,7 @@ namespace {
 constexpr double kSameWay = 1e-12;    // of cosines: two straight ways that go on without a corner
 constexpr double kNearCorner = 1e-9;  // as a share of a straight way: what ends nearer to its end than that ends there
 constexpr double kSmallStep = 1e-3;   // as a share of an edge: how far is looked for room
+constexpr double kOpenStep = 0.03;    // as a share of a facet's size: likewise on a surface, once something stopped a vertex
 constexpr double kDrawn = 1e-3;       // as a share of a vertex's force: what of it a stop must resist to be told
 constexpr int kHalvings = 8;
 
@@ -25,23 +28,52 @@ double inner(const std::array<double, N>& a, const std::array<double, N>& b) {
 template <int D>
 SlidingPath<D>::SlidingPath(const JointMesh<D>& mesh, const LocalProblem<D>& local, std::span<const Vec3> positions, const Domain& domain,
                             const DeviationBound& limit)
-    : mesh_(mesh), curves_(domain.curves()), limit_(limit), scale_(local.scale) {
+    : mesh_(mesh), domain_(domain), curves_(domain.curves()), limit_(limit), scale_(local.scale) {
   const auto free = local.free();
-  Way all{};
-  for (std::size_t r = 0; r < kD; ++r) all[r * kD + r] = 1.0;
-  ways_.assign(free.size(), all);
+  ways_.assign(free.size(), free_way());
   bound_.assign(free.size(), 0);
   for (Index i = 0; i < free.size(); ++i) {
     if (!domain.slides(free[i])) continue;
     any_ = true;
     bound_[i] = 1;
     ways_[i] = {};  // it stays where nothing better is known
-    if (domain.on_curve(free[i])) add_slider(i, free[i], positions[free[i]]);
+    if (domain.on_curve(free[i]))
+      add_slider(i, free[i], positions[free[i]]);
+    else
+      add_surface_slider(i, free[i], positions[free[i]]);
   }
   std::erase_if(sliders_, [&](const Slider& s) { return !curves_.neighbours(s.vertex, s.begin_place, positions); });
   std::vector<std::size_t> slider_of(positions.size(), kNone);
   for (std::size_t s = 0; s < sliders_.size(); ++s) slider_of[sliders_[s].vertex] = s;
   for (std::size_t s = 0; s < sliders_.size(); ++s) add_edges(s, positions, slider_of);
+  if (!domain.faces().any() || (sliders_.empty() && on_surface_.empty())) return;
+  faces_ = std::make_unique<FaceWatch>(domain, limit, positions);
+  of_vertex_.assign(positions.size(), kNoIndex);
+  Index number = 0;
+  for (const Slider& s : sliders_) {
+    faces_->add(s.vertex, std::nullopt);
+    of_vertex_[s.vertex] = number++;
+  }
+  for (const SurfaceSlider& s : on_surface_) {
+    faces_->add(s.vertex, s.begin.place);
+    of_vertex_[s.vertex] = number++;
+  }
+}
+
+template <int D>
+void SlidingPath<D>::add_surface_slider(Index free, Index vertex, Vec3 position) {
+  const auto place = domain_.faces().place(vertex, position);
+  if (!place) return;
+  const SurfaceSlider::Stand stand{*place, position};
+  on_surface_.push_back({.free = free, .vertex = vertex, .begin = stand, .now = stand, .trial = stand, .best = stand});
+}
+
+template <int D>
+void SlidingPath<D>::hold() {
+  sliders_.clear();
+  edges_.clear();
+  on_surface_.clear();
+  faces_.reset();
 }
 
 template <int D>
@@ -115,9 +147,15 @@ bool SlidingPath<D>::edge_allows(const Edge& edge, std::size_t moved, const Stan
   return deviation(edge, sliders_[moved].vertex, from, to) <= edge.limit;
 }
 
+/// Where the file would hold it: in one of floats that is beside a feature edge, and small faces reach across that then.
+template <int D>
+Vec3 SlidingPath<D>::as_stored(const Slider& slider, const Stand& stand) const {
+  return stand.gone == 0.0 ? slider.begin : curves_.at(slider.vertex, place_within(slider.vertex, stand.place));
+}
+
 /// Is there room for a small step?
 template <int D>
-bool SlidingPath<D>::is_open(const Slider& slider, bool forwards) const {
+bool SlidingPath<D>::is_open(const Slider& slider, bool forwards) {
   const std::size_t self = static_cast<std::size_t>(&slider - sliders_.data());
   const Edge& ahead = edges_[forwards ? slider.after : slider.before];
   const double gone_from = ahead.from == kNone ? 0.0 : sliders_[ahead.from].now.gone;
@@ -125,11 +163,59 @@ bool SlidingPath<D>::is_open(const Slider& slider, bool forwards) const {
   const double step = kSmallStep * (ahead.gap + gone_to - gone_from);
   const double place = place_within(slider.vertex, slider.now.place + (forwards ? step : -step));
   const Stand there{place, slider.now.gone + (forwards ? step : -step), curves_.point_at(slider.vertex, place)};
-  return edge_allows(edges_[slider.before], self, there) && edge_allows(edges_[slider.after], self, there);
+  return edge_allows(edges_[slider.before], self, there) && edge_allows(edges_[slider.after], self, there) &&
+         (!faces_ || faces_->allows(slider.vertex, curves_.at(slider.vertex, place), nullptr));
+}
+
+/// What blocked a vertex keeps it from that way as long as its force leads there, and no step of some length does. One that was blocked on
+/// another way, too, stays meanwhile.
+template <int D>
+void SlidingPath<D>::choose_on_surface(SurfaceSlider& slider, Vec3 force) {
+  const Facets& facets = domain_.faces().facets();
+  slider.normal = facets.normal(slider.now.place);
+  slider.stopped = false;
+  ways_[slider.free] = {};
+  if (slider.normal == Vec3{}) return;
+  const auto level = [&](Vec3 way) { return way - dot(way, slider.normal) * slider.normal; };
+  const auto forbid = [&](Vec3 direction) {
+    const std::array<double, 3> n{direction.x, direction.y, direction.z};
+    Way& way = ways_[slider.free];
+    for (std::size_t i = 0; i < kD * kD; ++i) way[i] -= n[i / kD] * n[i % kD];
+  };
+  const Vec3 drawn = level(force), way = slider.held ? drawn : level(slider.blocked);
+  const double size = length(way);
+  const auto is_open = [&] {
+    if (!(size > 0.0) || !(dot(drawn, way) > 0.0)) return true;
+    const double step = std::max(slider.blocked_step, kOpenStep * std::sqrt(facets.twice_area(slider.now.place.facet)));
+    const auto there = stand_on_surface(facets, slider.now, slider.normal, (step / size) * way);
+    return there && faces_->allows(slider.vertex, there->position, &there->place);
+  };
+  if (!(slider.blocked == Vec3{}) && is_open()) {
+    slider.blocked = {};
+    slider.held = false;
+  }
+  slider.stopped = !(slider.blocked == Vec3{}) && dot(drawn, way) > kDrawn * length(force) * size;
+  if (slider.held) return;
+  ways_[slider.free] = free_way();
+  forbid(slider.normal);
+  if (!(slider.blocked == Vec3{})) forbid(slider.blocked = (1.0 / size) * way);
+}
+
+template <int D>
+typename SlidingPath<D>::Way SlidingPath<D>::free_way() {
+  Way all{};
+  for (std::size_t r = 0; r < kD; ++r) all[r * kD + r] = 1.0;
+  return all;
 }
 
 template <int D>
 void SlidingPath<D>::choose(std::span<const double> forces) {
+  if (faces_) {
+    for (const Slider& s : sliders_) faces_->put(s.vertex, as_stored(s, s.now));
+    for (const SurfaceSlider& s : on_surface_) faces_->put(s.vertex, s.now.position);
+  }
+  if constexpr (D == 3)
+    for (SurfaceSlider& s : on_surface_) choose_on_surface(s, {forces[3 * s.free], forces[3 * s.free + 1], forces[3 * s.free + 2]});
   for (Slider& s : sliders_) {
     for (std::size_t r = 0; r < kD; ++r) s.force[r] = forces[s.free * kD + r];
     const auto forwards = curves_.straight(s.vertex, s.now.place, true), backwards = curves_.straight(s.vertex, s.now.place, false);
@@ -196,6 +282,12 @@ bool SlidingPath<D>::put_back(const std::vector<Place>& from, std::vector<Place>
     if (!s.runs_forwards) s.asked = -s.asked;
     walk(s, s.asked);
   }
+  for (SurfaceSlider& s : on_surface_) {
+    Place step = trial[s.free];
+    for (std::size_t r = 0; r < kD; ++r) step[r] -= from[s.free][r];
+    s.wished = s.asked = (1.0 / scale_) * mesh_.lifted(step);
+    walk_on_surface(domain_.faces().facets(), s);
+  }
   shorten();
   for (std::size_t v = 0; v < bound_.size(); ++v)
     if (bound_[v] != 0) trial[v] = from[v];
@@ -203,38 +295,93 @@ bool SlidingPath<D>::put_back(const std::vector<Place>& from, std::vector<Place>
     trial[s.free] = mesh_.in_frame(mesh_.difference(s.trial.position, s.begin));
     for (double& x : trial[s.free]) x *= scale_;
   }
+  for (const SurfaceSlider& s : on_surface_) {
+    trial[s.free] = mesh_.in_frame(mesh_.difference(s.trial.position, s.begin.position));
+    for (double& x : trial[s.free]) x *= scale_;
+  }
   return true;
 }
 
-/// Shortens the way of those whose edges would leave the curve too far, or turn over.
+/// Shortens the way of those whose edges or faces would leave the input too far, or turn over.
 template <int D>
 void SlidingPath<D>::shorten() {
-  std::vector<std::uint8_t> marked(sliders_.size());
+  if (faces_) unsure_.assign(sliders_.size() + on_surface_.size(), 1);
   for (int round = 0;; ++round) {
-    std::ranges::fill(marked, std::uint8_t{0});
-    bool again = false;
-    for (const Edge& edge : edges_) {
-      if (keeps(edge)) continue;
-      for (const std::size_t end : {edge.from, edge.to})
-        if (end != kNone && sliders_[end].asked != 0.0) marked[end] = 1, again = true;
-    }
-    if (!again) return;
-    for (std::size_t i = 0; i < sliders_.size(); ++i) {
-      if (marked[i] == 0) continue;
-      sliders_[i].asked = round < kHalvings ? 0.5 * sliders_[i].asked : 0.0;
+    const std::vector<std::uint8_t> marked = find_strayed();
+    if (std::ranges::find(marked, 1) == marked.end()) return;
+    shorten_marked(marked, round >= kHalvings);
+  }
+}
+
+/// By number of those that slide and could go less far: whether they must.
+template <int D>
+std::vector<std::uint8_t> SlidingPath<D>::find_strayed() {
+  std::vector<std::uint8_t> marked(sliders_.size() + on_surface_.size(), 0);
+  const auto mark = [&](std::size_t i) {
+    const bool goes = i < sliders_.size() ? sliders_[i].asked != 0.0 : !(on_surface_[i - sliders_.size()].asked == Vec3{});
+    if (goes) marked[i] = 1;
+  };
+  for (const Edge& edge : edges_) {
+    if (keeps(edge)) continue;
+    for (const std::size_t end : {edge.from, edge.to})
+      if (end != kNone) mark(end);
+  }
+  if (!faces_) return marked;
+  for (const Slider& s : sliders_) faces_->put(s.vertex, as_stored(s, s.trial));
+  for (const SurfaceSlider& s : on_surface_) faces_->put(s.vertex, s.trial.position);
+  const auto check = [&](std::size_t i, Index vertex, Vec3 begin, Vec3 there, const FacetPlace* beneath) {
+    if (unsure_[i] == 0) return;
+    unsure_[i] = 0;
+    if (there == begin || faces_->allows(vertex, there, beneath)) return;
+    unsure_[i] = 1;
+    for (const Index v : faces_->around(vertex))
+      if (of_vertex_[v] != kNoIndex) mark(of_vertex_[v]);
+  };
+  for (std::size_t i = 0; i < sliders_.size(); ++i) check(i, sliders_[i].vertex, sliders_[i].begin, sliders_[i].trial.position, nullptr);
+  for (std::size_t i = 0; i < on_surface_.size(); ++i) {
+    const SurfaceSlider& s = on_surface_[i];
+    check(sliders_.size() + i, s.vertex, s.begin.position, s.trial.position, &s.trial.place);
+  }
+  return marked;
+}
+
+/// By half, or all of it.
+template <int D>
+void SlidingPath<D>::shorten_marked(const std::vector<std::uint8_t>& marked, bool all) {
+  for (std::size_t i = 0; i < marked.size(); ++i) {
+    if (marked[i] == 0) continue;
+    if (i < sliders_.size()) {
+      sliders_[i].asked *= all ? 0.0 : 0.5;
       walk(sliders_[i], sliders_[i].asked);
+    } else {
+      SurfaceSlider& s = on_surface_[i - sliders_.size()];
+      s.asked = all ? Vec3{} : 0.5 * s.asked;
+      walk_on_surface(domain_.faces().facets(), s);
     }
+    if (!faces_) continue;
+    const Index vertex = i < sliders_.size() ? sliders_[i].vertex : on_surface_[i - sliders_.size()].vertex;
+    for (const Index v : faces_->around(vertex))
+      if (of_vertex_[v] != kNoIndex) unsure_[of_vertex_[v]] = 1;
   }
 }
 
 template <int D>
 void SlidingPath<D>::take() {
   for (Slider& s : sliders_) s.now = s.trial;
+  for (SurfaceSlider& s : on_surface_) {
+    s.now = s.trial;
+    const double wished = length(s.wished);
+    if (!(length(s.asked) < 0.5 * wished)) continue;
+    s.held = !(s.blocked == Vec3{});
+    s.blocked = (1.0 / wished) * s.wished;
+    s.blocked_step = 0.5 * wished;
+  }
 }
 
 template <int D>
 void SlidingPath<D>::keep_best() {
   for (Slider& s : sliders_) s.best = s.now;
+  for (SurfaceSlider& s : on_surface_) s.best = s.now;
 }
 
 // ---- what came of it ----
@@ -244,6 +391,9 @@ std::vector<Index> SlidingPath<D>::stopped() const {
   std::vector<Index> vertices;
   for (const Slider& s : sliders_)
     if (s.stopped) vertices.push_back(s.vertex);
+  for (const SurfaceSlider& s : on_surface_)
+    if (s.stopped) vertices.push_back(s.vertex);
+  std::ranges::sort(vertices);
   return vertices;
 }
 
@@ -269,25 +419,64 @@ bool SlidingPath<D>::may_stand(const Slider& slider, std::span<const Vec3> posit
 }
 
 template <int D>
-std::size_t SlidingPath<D>::settle(double share, std::span<const Index> free, std::span<Vec3> positions, std::span<Vec3> targets) const {
-  std::vector<const Slider*> moved;
+bool SlidingPath<D>::may_stand(const SurfaceSlider& slider, Vec3 position) {
+  const auto place = domain_.faces().place(slider.vertex, position);
+  return place && faces_->allows(slider.vertex, position, &*place);
+}
+
+/// A share of the way on a surface; none where that leads nowhere.
+template <int D>
+std::optional<Vec3> SlidingPath<D>::target(const SurfaceSlider& slider, double share) const {
+  Vec3 there = slider.best.position;
+  if (share < 1.0) {
+    const Facets& facets = domain_.faces().facets();
+    const Vec3 normal = facets.normal(slider.begin.place);
+    if (normal == Vec3{}) return std::nullopt;
+    const auto stand = stand_on_surface(facets, slider.begin, normal, share * (there - slider.begin.position));
+    if (!stand) return std::nullopt;
+    there = stand->position;
+  }
+  if (!mesh_.input().mesh.single_precision) return there;
+  return Vec3{nearest_float(there.x), nearest_float(there.y), nearest_float(there.z)};
+}
+
+template <int D>
+std::size_t SlidingPath<D>::settle(double share, std::span<const Index> free, std::span<Vec3> positions, std::span<Vec3> targets) {
+  std::vector<const Slider*> on_curves;
+  std::vector<const SurfaceSlider*> on_surfaces;
+  std::size_t stayed = 0;
   for (const Slider& s : sliders_) {
     targets[s.free] = s.best.gone == 0.0 ? s.begin : stand_at(s, share * s.best.gone).position;
-    if (s.best.gone != 0.0) moved.push_back(&s);
+    if (s.best.gone != 0.0) on_curves.push_back(&s);
+  }
+  for (const SurfaceSlider& s : on_surface_) {
+    const bool moves = !(s.best.position == s.begin.position);
+    const auto there = moves ? target(s, share) : std::nullopt;
+    targets[s.free] = there.value_or(s.begin.position);
+    if (there) on_surfaces.push_back(&s);
+    stayed += moves && !there ? 1 : 0;
   }
   for (std::size_t i = 0; i < free.size(); ++i) std::swap(positions[free[i]], targets[i]);
-  const std::size_t all = moved.size();
+  if (faces_)
+    for (const Index v : free) faces_->put(v, positions[v]);
+  const auto back = [&](Index vertex, Vec3 begin) {
+    positions[vertex] = begin;
+    if (faces_) faces_->put(vertex, begin);
+    ++stayed;
+    return true;
+  };
   // One that goes back may be in the way of another.
-  for (bool again = true; again;) {
-    again = false;
-    std::erase_if(moved, [&](const Slider* s) {
-      if (may_stand(*s, positions)) return false;
-      positions[s->vertex] = s->begin;
-      return again = true;
+  for (std::size_t before = stayed + 1; before != stayed;) {
+    before = stayed;
+    std::erase_if(on_curves, [&](const Slider* s) {
+      const bool may = may_stand(*s, positions) && (!faces_ || faces_->allows(s->vertex, positions[s->vertex], nullptr));
+      return !may && back(s->vertex, s->begin);
     });
+    std::erase_if(on_surfaces,
+                  [&](const SurfaceSlider* s) { return !may_stand(*s, positions[s->vertex]) && back(s->vertex, s->begin.position); });
   }
   for (std::size_t i = 0; i < free.size(); ++i) std::swap(positions[free[i]], targets[i]);
-  return all - moved.size();
+  return stayed;
 }
 
 template class SlidingPath<2>;

@@ -1,19 +1,23 @@
 #pragma once
-// Vertices of a cluster that slide along curves of the input while it moves jointly.
+// Vertices of a cluster that slide along curves and on surfaces of the input while it moves jointly.
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "core/joint/face_watch.h"
 #include "core/joint/joint_mesh.h"
 #include "core/joint/joint_ways.h"
+#include "core/joint/surface_sliders.h"
 #include "core/reference/deviation_bound.h"
 
 namespace dmoscope {
 
 /// Vertices go along their curves, at most up to their neighbours, and only as far as the bound of deviation lets the edges beside them. At
 /// a corner of a curve where a force holds a vertex from both sides it stops; the next step takes the side to which its force points, if
-/// there is one. All must outlive it but `positions`, where the cluster stands.
+/// there is one. On a surface a vertex goes in the plane that touches it, and then down to it, across no feature edge, and the faces around
+/// keep near the input as the edges do. All must outlive it but `positions`, where the cluster stands.
 template <int D>
 class SlidingPath final : public JointWays<D> {
  public:
@@ -25,6 +29,9 @@ class SlidingPath final : public JointWays<D> {
   /// Does a vertex of the cluster slide?
   [[nodiscard]] bool any() const noexcept { return any_; }
 
+  /// All that slides keeps its place from now on. Before the search begins.
+  void hold();
+
   [[nodiscard]] std::span<const Way> ways() const noexcept override { return ways_; }
   [[nodiscard]] std::span<const std::uint8_t> bound() const noexcept override { return bound_; }
   void choose(std::span<const double> forces) override;
@@ -35,8 +42,9 @@ class SlidingPath final : public JointWays<D> {
   /// Sets the targets of the vertices that slide, a share of their way to the best place: as the file would hold them, and by the rules for
   /// all that slide. Those that may not go there keep their place. Returns how many. `targets`: of the cluster's vertices `free`, known of
   /// all others. `positions`: of the mesh, as it stands; the same again at the end.
-  [[nodiscard]] std::size_t settle(double share, std::span<const Index> free, std::span<Vec3> positions, std::span<Vec3> targets) const;
-  /// The mesh's vertices that the bound of deviation keeps from where their forces draw them, as choose() found them last; ascending.
+  [[nodiscard]] std::size_t settle(double share, std::span<const Index> free, std::span<Vec3> positions, std::span<Vec3> targets);
+  /// The mesh's vertices that the bound of deviation, or on a surface a feature edge, keeps from where their forces draw them, as choose()
+  /// found them last; ascending.
   [[nodiscard]] std::vector<Index> stopped() const;
 
  private:
@@ -67,18 +75,27 @@ class SlidingPath final : public JointWays<D> {
 
   void add_slider(Index free, Index vertex, Vec3 position);
   void add_edges(std::size_t slider, std::span<const Vec3> positions, std::span<const std::size_t> slider_of);
+  [[nodiscard]] static Way free_way();
+  void add_surface_slider(Index free, Index vertex, Vec3 position);
+  void choose_on_surface(SurfaceSlider& slider, Vec3 force);
   void shorten();
+  [[nodiscard]] std::vector<std::uint8_t> find_strayed();
+  void shorten_marked(const std::vector<std::uint8_t>& marked, bool all);
   void walk(Slider& slider, double length) const;
   [[nodiscard]] bool draws_back(const Slider& slider, Vec3 way, Vec3 next) const;
   [[nodiscard]] double deviation(const Edge& edge, Index vertex, const Stand& from, const Stand& to) const;
   [[nodiscard]] bool keeps(const Edge& edge) const;
-  [[nodiscard]] bool is_open(const Slider& slider, bool forwards) const;
+  [[nodiscard]] bool is_open(const Slider& slider, bool forwards);
   [[nodiscard]] bool edge_allows(const Edge& edge, std::size_t moved, const Stand& there) const;
   [[nodiscard]] Stand stand_at(const Slider& slider, double gone) const;
   [[nodiscard]] bool may_stand(const Slider& slider, std::span<const Vec3> positions) const;
+  [[nodiscard]] Vec3 as_stored(const Slider& slider, const Stand& stand) const;
+  [[nodiscard]] bool may_stand(const SurfaceSlider& slider, Vec3 position);
+  [[nodiscard]] std::optional<Vec3> target(const SurfaceSlider& slider, double share) const;
   [[nodiscard]] double place_within(Index vertex, double place) const;
 
   const JointMesh<D>& mesh_;
+  const Domain& domain_;
   const Curves& curves_;
   const DeviationBound& limit_;
   double scale_;
@@ -87,6 +104,10 @@ class SlidingPath final : public JointWays<D> {
   std::vector<std::uint8_t> bound_;
   std::vector<Slider> sliders_;
   std::vector<Edge> edges_;
+  std::vector<SurfaceSlider> on_surface_;
+  std::unique_ptr<FaceWatch> faces_;  // null: there are none
+  std::vector<std::uint8_t> unsure_;  // by that number, in a trial: whether its faces must be looked at
+  std::vector<Index> of_vertex_;      // by vertex, where there are faces: its number among those that slide, first those on curves
 };
 
 }  // namespace dmoscope

@@ -123,6 +123,41 @@ TEST_P(SlidingInSpace, KeepsItsPromisesAfterEveryIteration) {
   EXPECT_GT(moved, kSanitized ? 100U : 400U);
 }
 
+/// Of joint moves each cluster may move many that slide.
+TEST(SlidingInSpaceTogether, KeepsItsPromisesAfterEveryCluster) {
+  EXPECT_GT(expect_kept_by("joint", volume_specimens(), kSanitized ? 5 : 1, kSanitized ? 1 : 2), kSanitized ? 5U : 100U);
+}
+
+/// A box of hexahedra, crowded on its faces and edges: its best is known, and only if they slide it is reached.
+TEST(SlidingInSpaceTogether, FindsTheLattice) {
+  constexpr Index n = 3;
+  Mesh mesh;
+  testing::Random random(5);
+  const auto at = [](Index i, Index j, Index k) { return (k * (n + 1) + j) * (n + 1) + i; };
+  for (Index k = 0; k <= n; ++k)
+    for (Index j = 0; j <= n; ++j)
+      for (Index i = 0; i <= n; ++i) {
+        const auto shaken = [&](Index x) { return (x + (x > 0 && x < n ? random(-0.25, 0.25) : 0.0)) / n; };
+        mesh.positions.push_back({shaken(i), shaken(j), shaken(k)});
+      }
+  for (Index k = 0; k < n; ++k)
+    for (Index j = 0; j < n; ++j)
+      for (Index i = 0; i < n; ++i)
+        mesh.elements.add(ElementKind::Hexahedron,
+                          std::array{at(i, j, k), at(i + 1, j, k), at(i + 1, j + 1, k), at(i, j + 1, k), at(i, j, k + 1),
+                                     at(i + 1, j, k + 1), at(i + 1, j + 1, k + 1), at(i, j + 1, k + 1)});
+  const auto prepared = input(mesh);
+  RunParameters fixed, slides = sliding_by();
+  fixed.method = slides.method = "joint";
+  Progress progress;
+  dmoscope::Run held = make_run(prepared, fixed), free = make_run(prepared, slides);
+  held.until_converged({}, progress);
+  const Outcome outcome = free.until_converged({}, progress);
+  EXPECT_LT(held.statistics().minimum, 0.9);
+  EXPECT_GT(free.statistics().minimum, 0.9995);
+  EXPECT_EQ(outcome.reason, StopReason::Certified) << outcome.sentence();
+}
+
 TEST(SlidingInSpaceByOthers, KeepTheirPromisesAfterEveryIteration) {
   for (const char* method : {"smart-laplace", "pattern-search", "laplace"})
     EXPECT_GT(expect_kept_by(method, volume_specimens(), kSanitized ? 5 : 2, kSanitized ? 1 : 2), kSanitized ? 5U : 50U) << method;

@@ -112,7 +112,7 @@ double reached(const std::shared_ptr<const InputMesh>& mesh, Metric metric, cons
 void expect_as_far(const std::shared_ptr<const InputMesh>& mesh, Metric metric) {
   const Metric formula = parse_metric(std::string("formula:") + std::string(formula_of(metric)));
   const double built_in = reached(mesh, metric), typed = reached(mesh, formula);
-  EXPECT_NEAR(typed, built_in, 1e-3 * built_in) << info(metric).name;
+  EXPECT_NEAR(typed, built_in, 1e-4) << info(metric).name;
 }
 
 TEST(JointFormulas, GetAsFarAsTheMetric) {

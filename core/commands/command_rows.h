@@ -10,11 +10,15 @@
 
 namespace dmoscope {
 
-struct CommandRow {
-  CommandInfo info;
+struct CommandAction {
+  std::size_t least, most;  // words after the command's name
   std::function<void(CommandContext&, Arguments)> handler;
   bool remembered = true;  // what it changes can be undone
   CommandReach reach = CommandReach::Session;
+};
+struct CommandRow {
+  CommandInfo info;
+  CommandAction action;
 };
 
 /// Meshes and files; parameters of the active run; kinds of its vertices and edges; its second aims; its steps; runs and the session; all

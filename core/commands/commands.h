@@ -2,9 +2,11 @@
 // The command language: one table of commands behind every button, key, palette entry, script line and test.
 
 #include <functional>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/base/words.h"
@@ -20,11 +22,18 @@ struct CommandInfo {
 /// "unknown command 'stpe'; did you mean step?": there are too many to list; the help lists them.
 [[nodiscard]] std::string unknown_command(std::string_view word, std::span<const CommandInfo> known);
 
+inline constexpr std::size_t kAnyWords = std::numeric_limits<std::size_t>::max();
+/// How many words may stand behind a command's name.
+struct WordCount {
+  std::size_t least = 0, most = kAnyWords;
+};
+
 /// Commands and what they do. Each module that has commands fills its own table.
 class CommandTable {
  public:
   using Handler = std::function<void(Arguments)>;
-  void add(CommandInfo info, Handler handler);
+  void add(CommandInfo info, WordCount words, Handler handler);
+  void add(CommandInfo info, Handler handler) { add(std::move(info), {}, std::move(handler)); }
   [[nodiscard]] const std::vector<CommandInfo>& commands() const noexcept { return infos_; }
   [[nodiscard]] bool knows(std::string_view name) const;
   /// Runs one line; an empty one (or a comment) does nothing. Throws UsageError for an unknown command or wrong arguments
@@ -33,7 +42,7 @@ class CommandTable {
 
  private:
   std::vector<CommandInfo> infos_;
-  std::vector<Handler> handlers_;
+  std::vector<std::pair<WordCount, Handler>> handlers_;  // of infos_
 };
 
 }  // namespace dmoscope

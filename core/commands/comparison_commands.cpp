@@ -41,7 +41,6 @@ void iterate_each(CommandContext& context, std::uint64_t iterations) {
 }
 
 void each(CommandContext& context, Arguments arguments) {
-  require(arguments, 1, 4);
   (void)context.session.active();
   const std::string& what = arguments[0];
   const bool to_best = what == "until-converged" && arguments.size() > 1 && arguments[1] == "best";
@@ -155,7 +154,6 @@ std::vector<RunParameters> orders(const RunParameters& like, std::uint64_t count
 }
 
 void compare(CommandContext& context, Arguments arguments) {
-  require(arguments, 1, 3);
   const Run& active = context.session.active();
   const RunParameters like = active.parameters();
   const bool of_orders = arguments[0] == "orders";
@@ -184,14 +182,10 @@ void compare(CommandContext& context, Arguments arguments) {
 std::span<const CommandRow> comparison_commands() {
   static const std::vector<CommandRow> table{
       {{"each", "each step|run|back|until-converged [best]|seek|reset [N [MAX]]", "Does that with every run, iterations by turns."},
-       each,
-       true,
-       CommandReach::Paths},
+       {1, 4, each, true, CommandReach::Paths}},
       {{"compare", "compare methods|metrics [ITERATIONS] | compare orders N [ITERATIONS]",
         "Adds runs like the active one by every method, for every metric, or in N shuffled orders, and takes all to the same iteration."},
-       compare,
-       true,
-       CommandReach::Paths},
+       {1, 3, compare, true, CommandReach::Paths}},
   };
   return table;
 }

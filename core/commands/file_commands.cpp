@@ -26,26 +26,22 @@ void tell_report(CommandContext& context) {
 }
 
 void open(CommandContext& context, Arguments arguments) {
-  require(arguments, 1, 1);
   context.session.open(std::filesystem::path(arguments[0]), context.progress);
   tell_report(context);
 }
 
 void open_beside(CommandContext& context, Arguments arguments) {
-  require(arguments, 1, 1);
   context.session.open_beside(std::filesystem::path(arguments[0]), context.progress);
   tell_report(context);
 }
 
-void reload(CommandContext& context, Arguments arguments) {
-  require(arguments, 0, 0);
+void reload(CommandContext& context, Arguments) {
   const std::string note = context.session.reload(context.progress);
   tell_report(context);
   if (!note.empty()) tell(context, note, Message::Kind::Warning);
 }
 
 void surface(CommandContext& context, Arguments arguments) {
-  require(arguments, 1, 1);
   const std::string note = context.session.slide_on_surface(arguments[0] == "own" ? "" : arguments[0], context.progress);
   tell_report(context);
   tell_sliding(context);
@@ -57,7 +53,6 @@ void surface(CommandContext& context, Arguments arguments) {
 }
 
 void generate(CommandContext& context, Arguments arguments) {
-  require(arguments, 1, 3);
   std::string words = arguments[0];
   for (const std::string& word : arguments.subspan(1)) words += ' ' + word;
   context.session.generate(words, context.progress);
@@ -74,14 +69,12 @@ void write_active(CommandContext& context, const std::string& file, const std::s
 }
 
 void export_mesh(CommandContext& context, Arguments arguments) {
-  require(arguments, 1, 1);
   (void)context.session.active();
   context.session.require_not_read(arguments[0], "export");
   write_active(context, arguments[0], fmt::format("wrote {}", arguments[0]));
 }
 
 void export_over(CommandContext& context, Arguments arguments) {
-  require(arguments, 1, 1);
   const InputMesh& input = context.session.active().input();
   if (input.path.empty() || !same_mesh(arguments[0], input.path))
     throw UsageError(fmt::format("{} is not the file that the mesh was read from: 'export' writes to another one", arguments[0]));
@@ -106,7 +99,6 @@ void export_over(CommandContext& context, Arguments arguments) {
 }
 
 void write_stats(CommandContext& context, Arguments arguments) {
-  require(arguments, 1, 1);
   std::vector<std::string> titles;
   std::vector<const std::vector<IterationRecord>*> records;
   (void)context.session.active();
@@ -132,7 +124,6 @@ void write_stats(CommandContext& context, Arguments arguments) {
 }
 
 void write_elements(CommandContext& context, Arguments arguments) {
-  require(arguments, 1, 1);
   const Run& run = context.session.active();
   context.session.require_not_read(arguments[0], "elements");
   std::vector<Metric> metrics;
@@ -144,7 +135,6 @@ void write_elements(CommandContext& context, Arguments arguments) {
 }
 
 void save_session(CommandContext& context, Arguments arguments) {
-  require(arguments, 1, 2);
   context.session.require_not_read(arguments[0], "save-state");
   save_state(arguments[0], context.session, arguments.size() > 1 ? arguments[1] : "", context.progress);
   context.session.note_saved(arguments[0]);
@@ -162,14 +152,12 @@ std::string runs_as_saved(const Session& session) {
 }
 
 void open_session(CommandContext& context, Arguments arguments) {
-  require(arguments, 1, 1);
   open_saved(context, arguments[0]);
   context.session.note_saved(arguments[0]);
   tell(context, runs_as_saved(context.session));
 }
 
 void recover(CommandContext& context, Arguments arguments) {
-  require(arguments, 1, 1);
   open_saved(context, arguments[0]);
   context.recovered.emplace_back(arguments[0]);
   tell(context, fmt::format("recovered {}, iteration {}; save it to keep it", runs_as_saved(context.session),
@@ -180,21 +168,21 @@ void recover(CommandContext& context, Arguments arguments) {
 
 std::span<const CommandRow> file_commands() {
   static const std::vector<CommandRow> table{
-      {{"open", "open FILE", "Opens a mesh and starts a run on it."}, open},
-      {{"open-beside", "open-beside FILE", "Opens a mesh beside those that are open, and starts a run on it."}, open_beside},
-      {{"reload", "reload", "Reads the active mesh's file again; its runs keep their parameters and start anew."}, reload},
+      {{"open", "open FILE", "Opens a mesh and starts a run on it."}, {1, 1, open}},
+      {{"open-beside", "open-beside FILE", "Opens a mesh beside those that are open, and starts a run on it."}, {1, 1, open_beside}},
+      {{"reload", "reload", "Reads the active mesh's file again; its runs keep their parameters and start anew."}, {0, 0, reload}},
       {{"surface", "surface FILE|own",
         "Lets vertices slide on the surface of another mesh, or on their own mesh's again; its runs keep their parameters and start anew."},
-       surface},
-      {{"generate", "generate KIND [SIZE [SEED]]", "Makes a sample mesh and starts a run on it."}, generate},
-      {{"export", "export FILE", "Writes the active run's mesh; the extension chooses the format."}, export_mesh},
+       {1, 1, surface}},
+      {{"generate", "generate KIND [SIZE [SEED]]", "Makes a sample mesh and starts a run on it."}, {1, 3, generate}},
+      {{"export", "export FILE", "Writes the active run's mesh; the extension chooses the format."}, {1, 1, export_mesh}},
       {{"export-over", "export-over FILE", "Writes it over the file that it was read from, and keeps a copy of that beside it."},
-       export_over},
-      {{"save-state", "save-state FILE [VIEW-JSON]", "Saves mesh, runs and where they stand; the view goes along."}, save_session},
-      {{"open-state", "open-state FILE", "Opens what save-state saved."}, open_session},
-      {{"recover", "recover FILE", "Opens what was saved by itself; it counts as not saved."}, recover},
-      {{"stats", "stats FILE.csv", "Writes the statistics of every iteration of every run."}, write_stats},
-      {{"elements", "elements FILE.csv", "Writes every element's quality by every metric."}, write_elements},
+       {1, 1, export_over}},
+      {{"save-state", "save-state FILE [VIEW-JSON]", "Saves mesh, runs and where they stand; the view goes along."}, {1, 2, save_session}},
+      {{"open-state", "open-state FILE", "Opens what save-state saved."}, {1, 1, open_session}},
+      {{"recover", "recover FILE", "Opens what was saved by itself; it counts as not saved."}, {1, 1, recover}},
+      {{"stats", "stats FILE.csv", "Writes the statistics of every iteration of every run."}, {1, 1, write_stats}},
+      {{"elements", "elements FILE.csv", "Writes every element's quality by every metric."}, {1, 1, write_elements}},
   };
   return table;
 }

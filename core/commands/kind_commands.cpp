@@ -29,7 +29,6 @@ void change_kinds(CommandContext& context, const Kinds& said, const std::functio
 void say_corner(CommandContext& context, Arguments arguments, Saying saying) {
   if (arguments.empty() && saying == Saying::Automatic)
     return change_kinds(context, {}, [](Kinds& kinds) { kinds.corners.clear(), kinds.no_corners.clear(); });
-  require(arguments, 1, arguments.size());
   const std::vector<Index> vertices = vertices_named(context.session.input()->mesh, arguments);
   change_kinds(context, only_corners(vertices, saying), [&](Kinds& kinds) { say_corners(kinds, vertices, saying); });
 }
@@ -37,7 +36,6 @@ void say_corner(CommandContext& context, Arguments arguments, Saying saying) {
 void say_feature(CommandContext& context, Arguments arguments, Saying saying) {
   if (arguments.empty() && saying == Saying::Automatic)
     return change_kinds(context, {}, [](Kinds& kinds) { kinds.features.clear(), kinds.no_features.clear(); });
-  require(arguments, 1, arguments.size());
   const Run& run = context.session.active();
   const std::vector<EdgeEnds> edges = edges_named(run.input(), run.parameters().standing(), run.domain().get(), arguments);
   change_kinds(context, only_features(edges, saying), [&](Kinds& kinds) { say_features(kinds, edges, saying); });
@@ -50,7 +48,8 @@ std::span<const CommandRow> kind_commands() {
     std::vector<CommandRow> rows;
     const auto add = [&rows](const char* name, Saying saying, const char* words, const char* doc, auto handler) {
       rows.push_back({{name, fmt::format("{} {}", name, words), doc},
-                      [=](CommandContext& context, Arguments arguments) { handler(context, arguments, saying); }});
+                      {saying == Saying::Automatic ? 0U : 1U, kAnyWords,
+                       [=](CommandContext& context, Arguments arguments) { handler(context, arguments, saying); }}});
     };
     constexpr const char *kVertices = "VERTEX|A-B|group:NAME|FIELD=VALUE|box:X0,Y0,X1,Y1...",
                          *kAnyVertices = "[VERTEX|A-B|group:NAME|FIELD=VALUE|box:X0,Y0,X1,Y1...]";

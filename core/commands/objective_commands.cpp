@@ -20,7 +20,6 @@ void tell_note(CommandContext& context) {
 }
 
 void combine(CommandContext& context, Arguments arguments) {
-  require(arguments, 1, 2);
   if (arguments[0] == "off") {
     require(arguments, 1, 1);
     change_run(context, [](RunParameters& p) { p.combination.reset(); });
@@ -34,7 +33,6 @@ void combine(CommandContext& context, Arguments arguments) {
 }
 
 void set_size_point(CommandContext& context, Arguments arguments) {
-  require(arguments, 2, 3);
   const double z = arguments.size() > 2 ? to_number(arguments[2]) : 0.0;
   const Vec3 point{to_number(arguments[0]), to_number(arguments[1]), z};
   const auto& combination = context.session.active().parameters().combination;
@@ -45,7 +43,6 @@ void set_size_point(CommandContext& context, Arguments arguments) {
 }
 
 void then(CommandContext& context, Arguments arguments) {
-  require(arguments, 1, 2);
   PhaseBegin begin;
   if (arguments.size() > 1) begin.patience = to_count(arguments[1], 1);
   RunParameters tried;  // a wrong word is told before anything is done
@@ -60,7 +57,6 @@ void then(CommandContext& context, Arguments arguments) {
 
 /// Of the active run's metric, and of the second one of a combination.
 void set_target(CommandContext& context, Arguments arguments) {
-  require(arguments, 1, 1);
   const Target target = parse_target(arguments[0]);
   const bool follows = context.session.shown() == context.session.active().parameters().metric;
   change_run(context, [&](RunParameters& p) { aim_at(p, target); });
@@ -76,14 +72,14 @@ std::span<const CommandRow> objective_commands() {
       {{"target", "target SHAPE",
         "What elements are wished to be: ideal, input[:ROUNDS], field[:NAME], aspect:RATIO:DEGREES (or X:Y:Z), GROUP:SHAPE+..., such as "
         "layers:input."},
-       set_target},
+       {1, 1, set_target}},
       {{"combine", "combine FIRST:THRESHOLD:SECOND [SIZE]|off",
         "Raises the metric FIRST up to THRESHOLD, beyond it SECOND: a metric, or density by SIZE (h1:X,Y, h2:X,Y, constant, field:NAME)."},
-       combine},
-      {{"size-point", "size-point X Y [Z]", "Moves the point of the size function h1 or h2."}, set_size_point},
+       {1, 2, combine}},
+      {{"size-point", "size-point X Y [Z]", "Moves the point of the size function h1 or h2."}, {2, 3, set_size_point}},
       {{"then", "then mean|joint|joint,mean [PATIENCE]|nothing",
         "What follows once the minimum has converged: joint moves, which raise it further; the rise of the mean, with it as floor."},
-       then},
+       {1, 2, then}},
   };
   return table;
 }

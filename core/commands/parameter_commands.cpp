@@ -19,14 +19,12 @@ void tell_sliding(CommandContext& context) {
 namespace {
 
 void set_metric(CommandContext& context, Arguments arguments) {
-  require(arguments, 1, 1);
   const Metric metric = parse_metric(arguments[0]);
   const bool follows = context.session.shown() == context.session.active().parameters().metric;
   change_run(context, [&](RunParameters& p) { p.metric = metric; });
   if (follows) context.session.show(metric);  // what is shown follows what is optimised until it was chosen apart
 }
 void show_metric(CommandContext& context, Arguments arguments) {
-  require(arguments, 1, 1);
   if (arguments[0] == "next") {
     context.session.show_next();
   } else {
@@ -34,7 +32,6 @@ void show_metric(CommandContext& context, Arguments arguments) {
   }
 }
 void set_method(CommandContext& context, Arguments arguments) {
-  require(arguments, 1, 1);
   const RunParameters& now = context.session.active().parameters();
   const bool drops = now.combination && method_info(arguments[0]).name != now.method;
   change_run(context, [&](RunParameters& p) {
@@ -45,7 +42,6 @@ void set_method(CommandContext& context, Arguments arguments) {
 }
 /// Sets a parameter of the table.
 void set(const ParameterInfo& row, CommandContext& context, Arguments arguments) {
-  require(arguments, 1, 1);
   RunParameters checked;
   row.from_text(checked, arguments[0]);  // what is no such value changes nothing
   change_run(context, [&](RunParameters& p) { row.from_text(p, arguments[0]); });
@@ -69,16 +65,15 @@ void add_parameters(std::vector<CommandRow>& table) {
   for (const ParameterInfo& row : parameter_table()) {
     if (!row.in_session) continue;
     CommandRow command{{std::string(row.name), fmt::format("{} {}", row.name, row.type), row.help() + "."},
-                       [&row](CommandContext& context, Arguments arguments) { set(row, context, arguments); }};
-    if (row.name == "backend") command.handler = set_backend;
-    if (row.name == "boundary") command.handler = set_boundary;
-    if (row.name == "interfaces") command.handler = set_interfaces;
+                       {1, 1, [&row](CommandContext& context, Arguments arguments) { set(row, context, arguments); }}};
+    if (row.name == "backend") command.action.handler = set_backend;
+    if (row.name == "boundary") command.action.handler = set_boundary;
+    if (row.name == "interfaces") command.action.handler = set_interfaces;
     table.push_back(std::move(command));
   }
 }
 
 void fix(CommandContext& context, Arguments arguments) {
-  require(arguments, 1, arguments.size());
   const std::vector<Index> vertices = vertices_named(context.session.input()->mesh, arguments);
   change_run(context, [&](RunParameters& p) { p.fixed.insert(p.fixed.end(), vertices.begin(), vertices.end()); });
 }
@@ -94,20 +89,18 @@ void unfix(CommandContext& context, Arguments arguments) {
 std::span<const CommandRow> parameter_commands() {
   static const std::vector<CommandRow> table = [] {
     std::vector<CommandRow> rows{
-        {{"metric", "metric NAME", "Chooses the metric that is optimised."}, set_metric},
+        {{"metric", "metric NAME", "Chooses the metric that is optimised."}, {1, 1, set_metric}},
         {{"show", "show NAME|next", "Chooses the metric that is shown, or the next one; also while a run goes."},
-         show_metric,
-         true,
-         CommandReach::Look},
-        {{"method", "method NAME", "Chooses the smoothing method."}, set_method},
+         {1, 1, show_metric, true, CommandReach::Look}},
+        {{"method", "method NAME", "Chooses the smoothing method."}, {1, 1, set_method}},
     };
     add_parameters(rows);
     rows.push_back({{"fix", "fix VERTEX|A-B|group:NAME|FIELD=VALUE|box:X0,Y0,X1,Y1...",
                      "Fixes vertices besides the boundary: by number, by a group's name, by data of the file, or in a box."},
-                    fix});
+                    {1, kAnyWords, fix}});
     rows.push_back(
         {{"unfix", "unfix [VERTEX|A-B|group:NAME|FIELD=VALUE|box:X0,Y0,X1,Y1...]", "Frees what was fixed by hand: all, or these vertices."},
-         unfix});
+         {0, kAnyWords, unfix}});
     return rows;
   }();
   return table;

@@ -15,7 +15,6 @@ namespace dmoscope {
 namespace {
 
 void add_run(CommandContext& context, Arguments arguments) {
-  require(arguments, 1, 1);
   RunParameters parameters = context.session.active().parameters();
   const std::size_t colon = arguments[0].find(':');
   parameters.method = arguments[0].substr(0, colon);
@@ -23,32 +22,18 @@ void add_run(CommandContext& context, Arguments arguments) {
   if (colon != std::string::npos) parameters.metric = parse_metric(arguments[0].substr(colon + 1));
   context.session.add_run(std::move(parameters));
 }
-void select_run(CommandContext& context, Arguments arguments) {
-  require(arguments, 1, 1);
-  context.session.select(to_count(arguments[0], 1) - 1);
-}
-void remove_run(CommandContext& context, Arguments arguments) {
-  require(arguments, 1, 1);
-  context.session.remove_run(to_count(arguments[0], 1) - 1);
-}
-void rename_run(CommandContext& context, Arguments arguments) {
-  require(arguments, 2, 2);
-  context.session.rename_run(to_count(arguments[0], 1) - 1, arguments[1]);
-}
+void select_run(CommandContext& context, Arguments arguments) { context.session.select(to_count(arguments[0], 1) - 1); }
+void remove_run(CommandContext& context, Arguments arguments) { context.session.remove_run(to_count(arguments[0], 1) - 1); }
+void rename_run(CommandContext& context, Arguments arguments) { context.session.rename_run(to_count(arguments[0], 1) - 1, arguments[1]); }
 void set_threads(CommandContext& context, Arguments arguments) {
-  require(arguments, 1, 1);
   const std::uint64_t threads = to_count(arguments[0]);
   require_thread_count(threads);
   context.session.set_threads(static_cast<unsigned>(threads));
 }
 void set_most_memory(CommandContext& context, Arguments arguments) {
-  require(arguments, 1, 1);
   context.session.set_most_memory(arguments[0] == "off" ? 0 : parse_byte_size(arguments[0]));
 }
-void set_history(CommandContext& context, Arguments arguments) {
-  require(arguments, 1, 1);
-  context.session.set_history_budget(to_count(arguments[0]) << 20U);
-}
+void set_history(CommandContext& context, Arguments arguments) { context.session.set_history_budget(to_count(arguments[0]) << 20U); }
 
 double quantity(Run& run, const std::string& name) {
   if (name == "iteration") return static_cast<double>(run.moment().iteration);
@@ -63,7 +48,6 @@ double quantity(Run& run, const std::string& name) {
 }
 
 void expect(CommandContext& context, Arguments arguments) {
-  require(arguments, 3, 3);
   const double value = quantity(context.session.active(), arguments[0]);
   const double bound = to_number(arguments[2]);
   const std::string& relation = arguments[1];
@@ -93,54 +77,41 @@ void say(CommandContext& context, Arguments arguments) {
 }
 
 /// Says what holds the active run's minimum, and what would free it.
-void tell_hold(CommandContext& context, Arguments arguments) {
-  require(arguments, 0, 0);
+void tell_hold(CommandContext& context, Arguments) {
   Session& session = context.session;
   (void)session.active();
   const auto found = session.holds().find(session, session.active_index(), context.progress);
   tell(context, found ? found->sentence() : "no element has a quality by this metric");
 }
 void set_percentiles(CommandContext& context, Arguments arguments) {
-  require(arguments, 1, 1);
   if (arguments[0] != "on" && arguments[0] != "off") throw WrongArguments(fmt::format("'{}' is neither on nor off", arguments[0]));
   context.session.set_percentiles(arguments[0] == "on");
 }
-void undo(CommandContext& context, Arguments arguments) {
-  require(arguments, 0, 0);
-  tell(context, fmt::format("undid: {}", context.session.undo(context.progress)));
-}
-void redo(CommandContext& context, Arguments arguments) {
-  require(arguments, 0, 0);
-  tell(context, fmt::format("redid: {}", context.session.redo(context.progress)));
-}
+void undo(CommandContext& context, Arguments) { tell(context, fmt::format("undid: {}", context.session.undo(context.progress))); }
+void redo(CommandContext& context, Arguments) { tell(context, fmt::format("redid: {}", context.session.redo(context.progress))); }
 
 }  // namespace
 
 std::span<const CommandRow> run_commands() {
   static const std::vector<CommandRow> table{
-      {{"add-run", "add-run METHOD[:METRIC]", "Adds a run beside the others."}, add_run},
-      {{"select-run", "select-run K", "Makes run K (from 1) the active one."}, select_run},
-      {{"remove-run", "remove-run K", "Removes run K."}, remove_run},
-      {{"rename-run", "rename-run K NAME", "Calls run K so in titles, legends and tables; \"\": by what it does again."}, rename_run},
-      {{"undo", "undo", "Undoes the last command that changed mesh or runs."}, undo, false},
-      {{"redo", "redo", "Does again what was undone."}, redo, false},
-      {{"threads", "threads N", "Threads to smooth with; 0: all."}, set_threads},
-      {{"history", "history MIB", "Memory for positions of past iterations, all runs together."}, set_history},
+      {{"add-run", "add-run METHOD[:METRIC]", "Adds a run beside the others."}, {1, 1, add_run}},
+      {{"select-run", "select-run K", "Makes run K (from 1) the active one."}, {1, 1, select_run}},
+      {{"remove-run", "remove-run K", "Removes run K."}, {1, 1, remove_run}},
+      {{"rename-run", "rename-run K NAME", "Calls run K so in titles, legends and tables; \"\": by what it does again."},
+       {2, 2, rename_run}},
+      {{"undo", "undo", "Undoes the last command that changed mesh or runs."}, {0, 0, undo, false}},
+      {{"redo", "redo", "Does again what was undone."}, {0, 0, redo, false}},
+      {{"threads", "threads N", "Threads to smooth with; 0: all."}, {1, 1, set_threads}},
+      {{"history", "history MIB", "Memory for positions of past iterations, all runs together."}, {1, 1, set_history}},
       {{"max-memory", "max-memory SIZE|off", "How much a compressed file may unpack to (800M, 2G); off: 256M or 100 times its size."},
-       set_most_memory},
+       {1, 1, set_most_memory}},
       {{"percentiles", "percentiles on|off", "Works out the 1st, 5th and 50th percentile of every iteration that is kept."},
-       set_percentiles,
-       true,
-       CommandReach::Look},
+       {1, 1, set_percentiles, true, CommandReach::Look}},
       {{"held-by", "held-by", "Says what holds the minimum: why the worst element stays as it is, and which switch would free it."},
-       tell_hold,
-       false,
-       CommandReach::Paths},
+       {0, 0, tell_hold, false, CommandReach::Paths}},
       {{"expect", "expect minimum|movable|mean|inverted|iteration|moved <|<=|==|>=|> VALUE", "Fails when it does not hold."},
-       expect,
-       true,
-       CommandReach::Paths},
-      {{"say", "say TEXT", "Writes a line to the log."}, say, true, CommandReach::Paths},
+       {3, 3, expect, true, CommandReach::Paths}},
+      {{"say", "say TEXT", "Writes a line to the log."}, {0, kAnyWords, say, true, CommandReach::Paths}},
   };
   return table;
 }

@@ -107,7 +107,7 @@ const std::vector<CommandInfo>& session_commands() {
 CommandReach reach_of(std::string_view line) {
   static const std::map<std::string, CommandReach, std::less<>> reaches = [] {
     std::map<std::string, CommandReach, std::less<>> all;
-    for_command_rows([&](const CommandRow& command) { all.emplace(command.info.name, command.reach); });
+    for_command_rows([&](const CommandRow& command) { all.emplace(command.info.name, command.action.reach); });
     return all;
   }();
   constexpr std::string_view kSpace = " \t";
@@ -118,18 +118,16 @@ CommandReach reach_of(std::string_view line) {
 
 void add_session_commands(CommandTable& table, CommandContext& context) {
   for_command_rows([&](const CommandRow& command) {
-    if (command.reach == CommandReach::Look) {  // a run may be in the midst of its visits
-      table.add(command.info, [&context, command](Arguments arguments) { command.handler(context, arguments); });
-      return;
-    }
-    table.add(command.info, [&context, command](Arguments arguments) {
-      const auto carry_out = [&] {
-        command.handler(context, arguments);
+    table.add(command.info, {command.action.least, command.action.most}, [&context, command](Arguments arguments) {
+      const auto& [least, most, handler, remembered, reach] = command.action;
+      if (reach == CommandReach::Look) return handler(context, arguments);  // a run may be in the midst of its visits
+      const auto carry_out = [&context, &act = handler, arguments] {
+        act(context, arguments);
         if (context.session.has_input())
           context.session.active().sync_to_host();  // a device that fails later takes nothing of what was asked for
       };
-      if (command.remembered) {
-        remembering(context.session, label_of(command.info.name, arguments), command.reach == CommandReach::Paths, carry_out);
+      if (remembered) {
+        remembering(context.session, label_of(command.info.name, arguments), reach == CommandReach::Paths, carry_out);
       } else {
         carry_out();
       }

@@ -25,13 +25,11 @@ StepUnit to_unit(const std::string& word) {
 }
 
 void step(CommandContext& context, Arguments arguments) {
-  require(arguments, 1, 2);
   const StepUnit unit = to_unit(arguments[0]);
   const std::uint64_t count = arguments.size() > 1 ? to_count(arguments[1]) : 1;
   for (std::uint64_t i = 0; i < count; ++i) context.session.active().step(unit, context.progress);
 }
 void back(CommandContext& context, Arguments arguments) {
-  require(arguments, 1, 2);
   const StepUnit unit = to_unit(arguments[0]);
   const std::uint64_t count = arguments.size() > 1 ? to_count(arguments[1]) : 1;
   for (std::uint64_t i = 0; i < count && context.session.active().back(unit, context.progress); ++i) {
@@ -46,7 +44,6 @@ void tell_ending(CommandContext& context, const Run& run, const Outcome& outcome
   if (!worse.empty()) tell(context, outcome.best ? worse : worse + " ('best' goes there)", Message::Kind::Warning);
 }
 void run(CommandContext& context, Arguments arguments) {
-  require(arguments, 1, 1);
   Run& active = context.session.active();
   tell_ending(context, active, active.iterate(to_count(arguments[0]), context.progress));
 }
@@ -69,7 +66,6 @@ void until_converged(CommandContext& context, Arguments arguments) {
   if (!fell.empty()) tell(context, fell + " ('then mean')");
 }
 void raise_mean(CommandContext& context, Arguments arguments) {
-  require(arguments, 0, 2);
   PhaseBegin phase;
   if (!arguments.empty()) phase.patience = to_count(arguments[0], 1);
   if (!context.session.active().parameters().then_mean) {
@@ -81,7 +77,6 @@ void raise_mean(CommandContext& context, Arguments arguments) {
   until_converged(context, words);
 }
 void make_good(CommandContext& context, Arguments arguments) {
-  require(arguments, 0, 1);
   RunParameters wanted = context.session.active().parameters();
   const std::string without =
       follow_recipe(recipe(arguments.empty() ? recipe_table().front().name : arguments[0]), context.session.active().input(), wanted);
@@ -96,8 +91,7 @@ void make_good(CommandContext& context, Arguments arguments) {
   }
   until_converged(context, std::array<std::string, 1>{"best"});
 }
-void best(CommandContext& context, Arguments arguments) {
-  require(arguments, 0, 0);
+void best(CommandContext& context, Arguments) {
   Run& active = context.session.active();
   const std::uint64_t iteration = best_iteration(active);
   active.seek({iteration}, context.progress);
@@ -123,7 +117,6 @@ std::vector<Index> free_among(CommandContext& context, const Run& run, const std
 }
 
 void visit(CommandContext& context, Arguments arguments) {
-  require(arguments, 1, arguments.size());
   Run& run = context.session.active();
   const std::vector<Index> vertices = free_among(context, run, to_vertices(arguments, run.input().mesh));
   const std::uint64_t moved = run.visit_vertices(vertices, context.progress);
@@ -131,12 +124,10 @@ void visit(CommandContext& context, Arguments arguments) {
                                      : fmt::format("{} of {} vertices moved", moved, vertices.size()));
 }
 void seek(CommandContext& context, Arguments arguments) {
-  require(arguments, 1, 3);
   const auto part = [&](std::size_t i) { return arguments.size() > i ? to_count(arguments[i]) : 0; };
   context.session.active().seek({part(0), part(1), part(2)}, context.progress);
 }
-void reset(CommandContext& context, Arguments arguments) {
-  require(arguments, 0, 0);
+void reset(CommandContext& context, Arguments) {
   Run& active = context.session.active();
   const std::size_t edits = active.edits().all().size();
   active.reset(context.progress);
@@ -148,32 +139,26 @@ void reset(CommandContext& context, Arguments arguments) {
 std::span<const CommandRow> stepping_commands() {
   constexpr auto kPaths = CommandReach::Paths;
   static const std::vector<CommandRow> table{
-      {{"step", "step vertex|class|iteration [COUNT]", "Steps forwards."}, step, true, kPaths},
-      {{"back", "back vertex|class|iteration [COUNT]", "Steps back."}, back, true, kPaths},
-      {{"run", "run ITERATIONS", "Runs that many iterations."}, run, true, kPaths},
+      {{"step", "step vertex|class|iteration [COUNT]", "Steps forwards."}, {1, 2, step, true, kPaths}},
+      {{"back", "back vertex|class|iteration [COUNT]", "Steps back."}, {1, 2, back, true, kPaths}},
+      {{"run", "run ITERATIONS", "Runs that many iterations."}, {1, 1, run, true, kPaths}},
       {{"until-converged", "until-converged [best] [PATIENCE [MAX]]",
         "Runs until nothing moves or no minimum rises any more; with best, goes back to the best iteration then."},
-       until_converged,
-       true,
-       kPaths},
+       {0, 3, until_converged, true, kPaths}},
       {{"raise-mean", "raise-mean [PATIENCE [MAX]]",
         "Then mean and until-converged in one: as a new run beside the active one, where that has moved without a second phase."},
-       raise_mean},
+       {0, 2, raise_mean}},
       {{"make-good", "make-good [RECIPE]",
         "Follows a recipe until it has converged: best (recommended), minimum, mean or paper. As a new run beside the active one, where "
         "that has moved otherwise."},
-       make_good},
-      {{"visit", "visit VERTEX|A-B...", "Visits these vertices now, out of their turn."}, visit, true, kPaths},
-      {{"seek", "seek ITERATION [VISITS [EDITS]]", "Goes to any iteration, or into its midst."}, seek, true, kPaths},
+       {0, 1, make_good}},
+      {{"visit", "visit VERTEX|A-B...", "Visits these vertices now, out of their turn."}, {1, kAnyWords, visit, true, kPaths}},
+      {{"seek", "seek ITERATION [VISITS [EDITS]]", "Goes to any iteration, or into its midst."}, {1, 3, seek, true, kPaths}},
       {{"look-at", "look-at ITERATION [VISITS [EDITS]]", "Goes there as seek does, but for a look: undo knows nothing of it."},
-       seek,
-       false,
-       kPaths},
+       {1, 3, seek, false, kPaths}},
       {{"best", "best", "Goes to the best iteration that the run passed through: by inverted elements, minimum and mean."},
-       best,
-       true,
-       kPaths},
-      {{"reset", "reset", "Goes back to the input; visits of chosen vertices are forgotten."}, reset, true, kPaths},
+       {0, 0, best, true, kPaths}},
+      {{"reset", "reset", "Goes back to the input; visits of chosen vertices are forgotten."}, {0, 0, reset, true, kPaths}},
   };
   return table;
 }

@@ -40,9 +40,9 @@ class Menus : public HeadlessTest {
     const auto view = window_->app().engine().view();
     std::string text = ui::view_json(state());
     text += fmt::format("\ndialog {}, theme {}, scale {}, full screen {}, shown {}, plays {}, watches {}, b {}",
-                        static_cast<int>(state().dialog), ui::theme_name(state().theme), state().scale, state().full_screen,
-                        static_cast<int>(state().timeline.shown), static_cast<int>(state().timeline.play.kind), state().watch_file,
-                        state().timeline.b.frame != nullptr);
+                        static_cast<int>(state().dialog), ui::kThemes[static_cast<std::size_t>(state().theme)].first, state().scale,
+                        state().full_screen, static_cast<int>(state().timeline.shown), static_cast<int>(state().timeline.play.kind),
+                        state().watch_file, state().timeline.b.frame != nullptr);
     text +=
         fmt::format("\n{}, run {} of {}, shown {}", view->input->mesh.name, view->active, view->runs.size(), static_cast<int>(view->shown));
     for (const RunView& one : view->runs) text += fmt::format("\n{} {} {}", one.title, one.moment.iteration, one.moment.visits);

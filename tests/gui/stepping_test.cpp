@@ -10,7 +10,7 @@
 #include "render/context.h"
 #include "tests/gui/headless_test.h"
 #include "tests/support/meshes.h"
-#include "ui/commands/selection_commands.h"
+#include "ui/commands/command_words.h"
 #include "ui/viewports/stepping_marks.h"
 #include "ui/viewports/stepping_view.h"
 

@@ -1,5 +1,3 @@
-#include "ui/commands/clipping_commands.h"
-
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -45,7 +43,6 @@ ClipPlane across_next_axis(const ClipPlane& plane, const render::OrbitCamera& se
 }
 
 void set_clip(ViewState& state, const CommandHost& host, Arguments words) {
-  require(words, 1, 1);
   ClipPlane& clip = state.inside.clip;
   const std::string& word = words[0];
   if (word == "off" || (word == "toggle" && clip.on)) {
@@ -66,9 +63,8 @@ void add_clip_commands(CommandTable& table, ViewState& state, const CommandHost&
   table.add({"clip", "clip PLANE|on|off|toggle|flip|next",
              "takes away what of a volume mesh lies beyond a plane: x, y, z, -x, -y, -z, with :FRACTION of the mesh or half-way, or "
              "NX,NY,NZ:OFFSET; next: across the next axis, the side towards the eye"},
-            [&state, &host](Arguments words) { set_clip(state, host, words); });
-  table.add({"clip-mode", "clip-mode crinkle|cut|toggle", "whole cells stay, or they are cut through"}, [&state](Arguments words) {
-    require(words, 1, 1);
+            {1, 1}, [&state, &host](Arguments words) { set_clip(state, host, words); });
+  table.add({"clip-mode", "clip-mode crinkle|cut|toggle", "whole cells stay, or they are cut through"}, {1, 1}, [&state](Arguments words) {
     using Mode = ClipPlane::Mode;
     Mode& mode = state.inside.clip.mode;
     mode = words[0] == "toggle" ? (mode == Mode::Cut ? Mode::Crinkle : Mode::Cut) : parse_clip_mode(words[0]);
@@ -77,19 +73,17 @@ void add_clip_commands(CommandTable& table, ViewState& state, const CommandHost&
 
 void add_peel_commands(CommandTable& table, ViewState& state) {
   ClippingView& view = state.inside;
-  table.add({"peel", "peel N|more|less", "takes so many layers of cells off the boundary of a volume mesh"}, [&view](Arguments words) {
-    require(words, 1, 1);
-    constexpr std::uint64_t kMost = kNoIndex - 1;
-    const std::uint64_t now = view.peel;
-    const std::uint64_t wanted = words[0] == "more"   ? now + 1
-                                 : words[0] == "less" ? now - std::min<std::uint64_t>(now, 1)
-                                                      : to_count(words[0]);
-    view.peel = static_cast<Index>(std::min(wanted, kMost));
-  });
-  table.add({"peel-quality", "peel-quality Q|off", "takes cells of a higher quality away"}, [&view](Arguments words) {
-    require(words, 1, 1);
-    view.peel_quality = words[0] == "off" ? std::nullopt : std::optional(to_quality(words[0]));
-  });
+  table.add({"peel", "peel N|more|less", "takes so many layers of cells off the boundary of a volume mesh"}, {1, 1},
+            [&view](Arguments words) {
+              constexpr std::uint64_t kMost = kNoIndex - 1;
+              const std::uint64_t now = view.peel;
+              const std::uint64_t wanted = words[0] == "more"   ? now + 1
+                                           : words[0] == "less" ? now - std::min<std::uint64_t>(now, 1)
+                                                                : to_count(words[0]);
+              view.peel = static_cast<Index>(std::min(wanted, kMost));
+            });
+  table.add({"peel-quality", "peel-quality Q|off", "takes cells of a higher quality away"}, {1, 1},
+            [&view](Arguments words) { view.peel_quality = words[0] == "off" ? std::nullopt : std::optional(to_quality(words[0])); });
   table.add({"keep-quality", "keep-quality LOW HIGH|off", "only cells of a quality in this range are seen"}, [&view](Arguments words) {
     if (words.size() == 1 && words[0] == "off") {
       view.isolate.reset();
@@ -100,34 +94,26 @@ void add_peel_commands(CommandTable& table, ViewState& state) {
     if (!(range.first <= range.second)) throw UsageError("the lower quality comes first");
     view.isolate = range;
   });
-  table.add({"worst-cells", "worst-cells N|off|toggle", "only the N worst cells (50) are seen, in a faint boundary of the rest"},
+  table.add({"worst-cells", "worst-cells N|off|toggle", "only the N worst cells (50) are seen, in a faint boundary of the rest"}, {1, 1},
             [&view](Arguments words) {
-              require(words, 1, 1);
               constexpr std::size_t kUsual = 50;
               const bool toggle = words[0] == "toggle";
               view.worst = words[0] == "off" ? 0 : toggle ? (view.worst > 0 ? 0 : kUsual) : to_count(words[0]);
               view.ghost = view.worst > 0;
             });
-  table.add({"ghost-rest", "ghost-rest [on|off|toggle]", "the boundary of what was taken away is seen faintly"}, [&view](Arguments words) {
-    require(words, 0, 1);
-    view.ghost = switched(words, 0, view.ghost);
-  });
-  table.add({"shrink", "shrink FACTOR|toggle", "draws every cell of a volume mesh so large, 1 is its own size"}, [&view](Arguments words) {
-    require(words, 1, 1);
-    constexpr double kUsual = 0.8;
-    const double factor = words[0] == "toggle" ? (view.shrink < 1.0 ? 1.0 : kUsual) : to_number(words[0]);
-    if (!(factor > 0.0 && factor <= 1.0)) throw UsageError("the factor must be greater than 0 and at most 1");
-    view.shrink = factor;
-  });
-  table.add({"show-all", "show-all", "all cells of a volume mesh are seen again"}, [&view](Arguments words) {
-    require(words, 0, 0);
-    view = {};
-  });
+  add_option_commands(table, state, {"ghost-rest"});
+  table.add({"shrink", "shrink FACTOR|toggle", "draws every cell of a volume mesh so large, 1 is its own size"}, {1, 1},
+            [&view](Arguments words) {
+              constexpr double kUsual = 0.8;
+              const double factor = words[0] == "toggle" ? (view.shrink < 1.0 ? 1.0 : kUsual) : to_number(words[0]);
+              if (!(factor > 0.0 && factor <= 1.0)) throw UsageError("the factor must be greater than 0 and at most 1");
+              view.shrink = factor;
+            });
+  table.add({"show-all", "show-all", "all cells of a volume mesh are seen again"}, {0, 0}, [&view](Arguments) { view = {}; });
 }
 
 /// "CX CY CZ HEIGHT RX RY RZ UX UY UZ"
 void set_orbit(ViewState& state, Arguments words) {
-  require(words, 10, 10);
   const auto at = [&words](std::size_t k) { return Vec3{to_number(words[k]), to_number(words[k + 1]), to_number(words[k + 2])}; };
   render::OrbitCamera orbit = state.orbit;
   orbit.centre = at(0);
@@ -143,34 +129,24 @@ void add_orbit_commands(CommandTable& table, ViewState& state) {
   table.add({"orbit", "orbit X Y Z HEIGHT RX RY RZ UX UY UZ",
              "looks at that point of a volume mesh, so much of it from the lower to the upper border, with these directions to the right "
              "and up"},
-            [&state](Arguments words) { set_orbit(state, words); });
-  table.add({"view-from", "view-from iso|+x|-x|+y|-y|+z|-z", "looks at all of a volume mesh from there"}, [&state](Arguments words) {
-    require(words, 1, 1);
-    state.orbit.look_from(render::view_preset_from_name(words[0]));
-    state.requests.fit = true;
-  });
-  table.add({"turn", "turn DX DY", "turns a volume mesh as a drag of so many pixels does"}, [&state](Arguments words) {
-    require(words, 2, 2);
+            {10, 10}, [&state](Arguments words) { set_orbit(state, words); });
+  table.add({"view-from", "view-from iso|+x|-x|+y|-y|+z|-z", "looks at all of a volume mesh from there"}, {1, 1},
+            [&state](Arguments words) {
+              state.orbit.look_from(render::view_preset_from_name(words[0]));
+              state.requests.fit = true;
+            });
+  table.add({"turn", "turn DX DY", "turns a volume mesh as a drag of so many pixels does"}, {2, 2}, [&state](Arguments words) {
     state.orbit.turn({to_number(words[0]), to_number(words[1])}, state.viewport);
   });
-  table.add({"roll", "roll X Y TO-X TO-Y", "turns it as a ball that is dragged from one pixel to another"}, [&state](Arguments words) {
-    require(words, 4, 4);
-    state.orbit.roll({to_number(words[0]), to_number(words[1])}, {to_number(words[2]), to_number(words[3])}, state.viewport);
-  });
-  table.add({"orbit-about", "orbit-about X Y Z", "moves this point of a volume mesh to the middle, to turn about it"},
+  table.add({"roll", "roll X Y TO-X TO-Y", "turns it as a ball that is dragged from one pixel to another"}, {4, 4},
             [&state](Arguments words) {
-              require(words, 3, 3);
+              state.orbit.roll({to_number(words[0]), to_number(words[1])}, {to_number(words[2]), to_number(words[3])}, state.viewport);
+            });
+  table.add({"orbit-about", "orbit-about X Y Z", "moves this point of a volume mesh to the middle, to turn about it"}, {3, 3},
+            [&state](Arguments words) {
               state.orbit.orbit_about({to_number(words[0]), to_number(words[1]), to_number(words[2])});
             });
-  table.add({"perspective", "perspective [on|off|toggle]", "what is farther away looks smaller"}, [&state](Arguments words) {
-    require(words, 0, 1);
-    state.orbit.perspective = switched(words, 0, state.orbit.perspective);
-  });
-  table.add({"trackball", "trackball [on|off|toggle]", "a drag rolls a volume mesh as a ball instead of turning it upright"},
-            [&state](Arguments words) {
-              require(words, 0, 1);
-              state.trackball = switched(words, 0, state.trackball);
-            });
+  add_option_commands(table, state, {"perspective", "trackball"});
 }
 
 }  // namespace

@@ -1,5 +1,3 @@
-#include "ui/commands/colouring_commands.h"
-
 #include <algorithm>
 #include <tuple>
 
@@ -45,7 +43,6 @@ std::pair<double, double> parse_range(Arguments words) {
 }
 
 void set_range(ViewState& state, Arguments words) {
-  require(words, 1, 3);
   if (words[0] == info(RangeMode::Percentile).name) {
     if (words.size() > 1) {
       const auto [low, high] = parse_range(words.subspan(1));
@@ -73,8 +70,7 @@ void set_range(ViewState& state, Arguments words) {
 }
 
 void add_colour_commands(CommandTable& table, ViewState& state, const CommandHost& host) {
-  table.add({"colormap", "colormap NAME|next", "colours of quality"}, [&state](Arguments words) {
-    require(words, 1, 1);
+  table.add({"colormap", "colormap NAME|next", "colours of quality"}, {1, 1}, [&state](Arguments words) {
     const auto maps = render::colour_map_table();
     if (words[0] == "next") {
       const auto at = std::find_if(maps.begin(), maps.end(), [&](const auto& map) { return map.map == state.colour_map; });
@@ -83,38 +79,24 @@ void add_colour_commands(CommandTable& table, ViewState& state, const CommandHos
       state.colour_map = render::colour_map_from_name(words[0]);
     }
   });
-  table.add({"reverse-colors", "reverse-colors [on|off|toggle]", "the colour map from its other end"}, [&state](Arguments words) {
-    require(words, 0, 1);
-    state.colouring.reversed = switched(words, 0, state.colouring.reversed);
-  });
-  table.add({"shading", "shading [on|off|toggle]", "volumes lit by a lamp, too, which changes what their colours tell"},
+  add_option_commands(table, state, {"reverse-colors", "shading", "occlusion"});
+  table.add({"color-steps", "color-steps N", "so many colours of equal width, 2 to 64; 0: without steps"}, {1, 1},
             [&state](Arguments words) {
-              require(words, 0, 1);
-              state.shading = switched(words, 0, state.shading);
+              const std::uint64_t steps = to_count(words[0]);
+              if (steps == 1 || steps > 64) throw UsageError("the steps are 2 to 64, or 0 for none");
+              state.colouring.steps = static_cast<int>(steps);
             });
-  table.add({"occlusion", "occlusion [on|off|toggle]", "volumes a little darker in corners and along edges, which shows their form"},
-            [&state](Arguments words) {
-              require(words, 0, 1);
-              state.occlusion = switched(words, 0, state.occlusion);
-            });
-  table.add({"color-steps", "color-steps N", "so many colours of equal width, 2 to 64; 0: without steps"}, [&state](Arguments words) {
-    require(words, 1, 1);
-    const std::uint64_t steps = to_count(words[0]);
-    if (steps == 1 || steps > 64) throw UsageError("the steps are 2 to 64, or 0 for none");
-    state.colouring.steps = static_cast<int>(steps);
-  });
   table.add(
       {"range", "range input|fixed|auto|expanding|percentile [LOW HIGH]  or  range LOW HIGH",
        "qualities that the colours span: the input's, 0 to 1, the mesh's own, all seen since it was opened, between two percentiles of "
        "the input (2 98), or given"},
-      [&state](Arguments words) { set_range(state, words); });
+      {1, 3}, [&state](Arguments words) { set_range(state, words); });
   table.add({"color-by",
              "color-by "
              "quality|kind|group|valence|class|displacement|size|edge-length|size-over-target|inverted|deviation|tilt|freedom|multiplier|"
              "difference [input|run N|mark a|b]",
              "what the elements' colours tell; difference: quality less that of the input, of a run or of a mark"},
-            [&state, &host](Arguments words) {
-              require(words, 1, 4);
+            {1, 4}, [&state, &host](Arguments words) {
               const ColourBy by = parse_by(words[0]);
               const auto view = host.session();
               if (by == ColourBy::Group && view && view->input && view->input->mesh.groups.empty()) {
@@ -136,11 +118,7 @@ void add_filter_commands(CommandTable& table, ViewState& state, const CommandHos
                 state.colouring.filter = parse_range(words);
               }
             });
-  table.add({"filter-mode", "filter-mode fade|isolate|only-outline", "how elements that do not count are drawn: grey, not, as outlines"},
-            [&state](Arguments words) {
-              require(words, 1, 1);
-              state.colouring.others = choose(words[0], kFilterModes);
-            });
+  add_option_commands(table, state, {"filter-mode"});
   table.add({"isolate", "isolate kind|group|valence|class|freedom|inverted NAME  or  isolate off", "only elements of this category count"},
             [&state, &host](Arguments words) {
               if (words.size() == 1 && words[0] == "off") {
@@ -158,8 +136,7 @@ void add_filter_commands(CommandTable& table, ViewState& state, const CommandHos
               if (const auto why = why_unknown(isolation, *view->input)) throw UsageError(*why);
               state.colouring.isolated = std::move(isolation);
             });
-  table.add({"worst-view", "worst-view N|off|toggle", "only the N worst elements count, 1 to 100"}, [&state](Arguments words) {
-    require(words, 1, 1);
+  table.add({"worst-view", "worst-view N|off|toggle", "only the N worst elements count, 1 to 100"}, {1, 1}, [&state](Arguments words) {
     constexpr int kUsual = 10;
     if (words[0] == "off" || words[0] == "toggle") {
       state.colouring.worst = words[0] == "off" || state.colouring.worst > 0 ? 0 : kUsual;
@@ -169,9 +146,8 @@ void add_filter_commands(CommandTable& table, ViewState& state, const CommandHos
     if (count > kMostWorst) throw UsageError("the worst 100 elements are known, not more");
     state.colouring.worst = static_cast<int>(count);
   });
-  table.add({"fit-worst", "fit-worst", "moves the view to the worst elements: those of worst-view, or 10"},
-            [&state, &host](Arguments words) {
-              require(words, 0, 0);
+  table.add({"fit-worst", "fit-worst", "moves the view to the worst elements: those of worst-view, or 10"}, {0, 0},
+            [&state, &host](Arguments) {
               const auto view = host.session();
               if (!view || !view->frame || view->frame->worst.empty()) throw UsageError("no worst elements are known");
               const Frame& frame = *view->frame;
@@ -185,8 +161,7 @@ void add_filter_commands(CommandTable& table, ViewState& state, const CommandHos
 }
 
 void add_label_commands(CommandTable& table, ViewState& state) {
-  table.add({"labels", "labels off|vertices|elements|both|next", "ids, where there is room for them"}, [&state](Arguments words) {
-    require(words, 1, 1);
+  table.add({"labels", "labels off|vertices|elements|both|next", "ids, where there is room for them"}, {1, 1}, [&state](Arguments words) {
     ColouringState& s = state.colouring;
     static constexpr std::array<std::pair<std::string_view, int>, 5> kinds{
         {{"off", 0}, {"vertices", 1}, {"elements", 2}, {"both", 3}, {"next", 4}}};
@@ -203,28 +178,6 @@ void add_colouring_commands(CommandTable& table, ViewState& state, const Command
   add_colour_commands(table, state, host);
   add_filter_commands(table, state, host);
   add_label_commands(table, state);
-}
-
-std::optional<bool> colouring_checked(const ViewState& state, std::string_view id) {
-  const ColouringState& colouring = state.colouring;
-  for (const RangeModeInfo& one : kRangeModes) {
-    if (id.starts_with("range-") && id.substr(6) == one.name) return state.range_mode == one.mode;
-  }
-  if (id == "shading") return state.shading;
-  if (id == "occlusion") return state.occlusion;
-  for (const ColourByInfo& one : kColourBys) {
-    if (id.starts_with("color-by-") && id.substr(9) == one.name) return colouring.by == one.by;
-  }
-  for (const auto& [name, mode] : kFilterModes) {
-    if (id.starts_with("others-") && id.substr(7) == name) return colouring.others == mode;
-  }
-  if (id == "reverse-colors") return colouring.reversed;
-  if (id == "worst-view") return colouring.worst > 0;
-  if (id == "labels-vertices") return colouring.label_vertices && !colouring.label_elements;
-  if (id == "labels-elements") return colouring.label_elements && !colouring.label_vertices;
-  if (id == "labels-both") return colouring.label_vertices && colouring.label_elements;
-  if (id == "labels-off") return !colouring.label_vertices && !colouring.label_elements;
-  return std::nullopt;
 }
 
 }  // namespace dmoscope::ui

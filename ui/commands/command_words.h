@@ -1,5 +1,5 @@
 #pragma once
-// How handlers of the window's commands read their words. Only for sources of this room.
+// The window's commands, theme by theme, and how their handlers read their words. Only for sources of this room.
 
 #include <array>
 #include <string>
@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 
 #include "core/commands/commands.h"
+#include "ui/commands/view_commands.h"
+#include "ui/commands/view_options.h"
 
 namespace dmoscope::ui {
 
@@ -35,5 +37,18 @@ Value choose(const std::string& word, const std::array<std::pair<std::string_vie
   }
   unexpected(word, "one of " + names);
 }
+
+/// What a volume mesh shows, and from where; colours, filter and labels; the window's look as a script gives it again; its files; the mouse
+/// and the keyboard; viewports; plots; selected vertices; stepping; marks and playing.
+void add_clipping_commands(CommandTable& table, ViewState& state, const CommandHost& host);
+void add_colouring_commands(CommandTable& table, ViewState& state, const CommandHost& host);
+void add_desktop_commands(CommandTable& table, ViewState& state, const CommandHost& host);
+void add_file_commands(CommandTable& table, ViewState& state, const CommandHost& host);
+void add_input_commands(CommandTable& table, ViewState& state, const CommandHost& host);
+void add_pane_commands(CommandTable& table, ViewState& state);
+void add_plot_commands(CommandTable& table, ViewState& state);
+void add_selection_commands(CommandTable& table, ViewState& state, const CommandHost& host);
+void add_stepping_commands(CommandTable& table, ViewState& state);
+void add_timeline_commands(CommandTable& table, ViewState& state, const CommandHost& host);
 
 }  // namespace dmoscope::ui

@@ -1,5 +1,3 @@
-#include "ui/commands/desktop_commands.h"
-
 #include <algorithm>
 
 #include "core/io/writing/atomic_file.h"
@@ -19,7 +17,6 @@ void set_panel_size(Panels& panels, const std::string& which, const std::string&
 }
 
 void set_camera(ViewState& state, Arguments words) {
-  require(words, 3, 3);
   const render::Camera2D camera{{to_number(words[0]), to_number(words[1])}, to_number(words[2])};
   if (!(camera.units_per_pixel > 0.0)) throw UsageError("units per pixel must be greater than 0");
   state.camera = camera;
@@ -27,44 +24,34 @@ void set_camera(ViewState& state, Arguments words) {
 }
 
 void add_session_file_commands(CommandTable& table, ViewState& state, const CommandHost& host) {
-  table.add({"save-session", "save-session FILE", "writes runs, histories and the view, to go on from there another time"},
-            [&state, &host](Arguments words) {
-              require(words, 1, 1);
-              host.post(fmt::format("save-state {} {}", quote_word(words[0]), quote_word(view_json(state))));
-            });
-  table.add({"open-session", "open-session FILE", "opens what save-session wrote"}, [&host](Arguments words) {
-    require(words, 1, 1);
-    host.post("open-state " + quote_word(words[0]));
-  });
+  table.add(
+      {"save-session", "save-session FILE", "writes runs, histories and the view, to go on from there another time"}, {1, 1},
+      [&state, &host](Arguments words) { host.post(fmt::format("save-state {} {}", quote_word(words[0]), quote_word(view_json(state)))); });
+  table.add({"open-session", "open-session FILE", "opens what save-session wrote"}, {1, 1},
+            [&host](Arguments words) { host.post("open-state " + quote_word(words[0])); });
 }
 
 }  // namespace
 
 void add_desktop_commands(CommandTable& table, ViewState& state, const CommandHost& host) {
-  table.add({"camera", "camera X Y UNITS-PER-PIXEL", "looks at that point of the mesh's plane, so close"},
+  table.add({"camera", "camera X Y UNITS-PER-PIXEL", "looks at that point of the mesh's plane, so close"}, {3, 3},
             [&state](Arguments words) { set_camera(state, words); });
   table.add({"panel-size", "panel-size left|right|bottom|runs EM|default",
              "width or height of a panel, or of the list of runs, in heights of the interface's font"},
+            {2, 2}, [&state](Arguments words) { set_panel_size(state.panels, words[0], words[1]); });
+  table.add({"unfold", "unfold left|right [on|off|toggle]", "in a narrow window: shows a side panel over the mesh"}, {1, 2},
             [&state](Arguments words) {
-              require(words, 2, 2);
-              set_panel_size(state.panels, words[0], words[1]);
-            });
-  table.add({"unfold", "unfold left|right [on|off|toggle]", "in a narrow window: shows a side panel over the mesh"},
-            [&state](Arguments words) {
-              require(words, 1, 2);
               static constexpr std::array<std::pair<std::string_view, bool Panels::*>, 2> names{
                   {{"left", &Panels::left_over}, {"right", &Panels::right_over}}};
               bool Panels::*panel = choose(words[0], names);
               state.panels.*panel = switched(words, 1, state.panels.*panel);
             });
   if (is_session_command("save-state")) add_session_file_commands(table, state, host);
-  table.add({"drawing-path", "drawing-path", "says what smooths and how it reaches the screen"}, [&state, &host](Arguments words) {
-    require(words, 0, 0);
+  table.add({"drawing-path", "drawing-path", "says what smooths and how it reaches the screen"}, {0, 0}, [&state, &host](Arguments) {
     add_message(state, {Message::Kind::Info, host.drawing_path(), 0});
   });
-  table.add({"save-script", "save-script FILE", "writes what was done so far as a script that does it again"},
+  table.add({"save-script", "save-script FILE", "writes what was done so far as a script that does it again"}, {1, 1},
             [&state, &host](Arguments words) {
-              require(words, 1, 1);
               const auto view = host.session();
               write_file_atomically(words[0], state.commands.script(view_lines(state, view && view->frame)));
               add_message(state, {Message::Kind::Info, "wrote " + words[0], 0});

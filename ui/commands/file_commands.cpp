@@ -1,5 +1,3 @@
-#include "ui/commands/file_commands.h"
-
 #include <tuple>
 
 #include "ui/commands/command_words.h"
@@ -41,15 +39,7 @@ SequenceOptions parse_sequence(Arguments words) {
 }  // namespace
 
 void add_file_commands(CommandTable& table, ViewState& state, const CommandHost& host) {
-  table.add({"watch", "watch [on|off|toggle]", "reads the mesh's file again whenever it is written anew"}, [&state](Arguments words) {
-    require(words, 0, 1);
-    state.watch_file = switched(words, 0, state.watch_file);
-  });
-  table.add({"native-dialogs", "native-dialogs [on|off|toggle]", "the desktop's own file dialogs where there are any (zenity, kdialog)"},
-            [&state](Arguments words) {
-              require(words, 0, 1);
-              state.native_dialogs = switched(words, 0, state.native_dialogs);
-            });
+  add_option_commands(table, state, {"watch", "native-dialogs"});
   table.add({"sequence", "sequence FOLDER [--from I] [--to J] [--every K] [--size WxH] [--window] [--overwrite]",
              "a picture of every iteration, for a video"},
             [&state, &host](Arguments words) {

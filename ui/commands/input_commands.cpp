@@ -1,5 +1,3 @@
-#include "ui/commands/input_commands.h"
-
 #include "ui/commands/command_words.h"
 
 namespace dmoscope::ui {
@@ -54,8 +52,7 @@ void add_input_commands(CommandTable& table, ViewState& state, const CommandHost
     const auto point = parse_point(host, words, at);
     for (int k = 0; k < 2; ++k) state.requests.input.push_back({InputKind::Move, point.first, point.second, 0, {}, {}});
   });
-  table.add({"drag", "drag X0 Y0 X1 Y1", "the mouse with the left button held"}, [&state](Arguments words) {
-    require(words, 4, 4);
+  table.add({"drag", "drag X0 Y0 X1 Y1", "the mouse with the left button held"}, {4, 4}, [&state](Arguments words) {
     const float x0 = pixel(words[0]), y0 = pixel(words[1]), x1 = pixel(words[2]), y1 = pixel(words[3]);
     auto& input = state.requests.input;
     for (int k = 0; k < 2; ++k) input.push_back({InputKind::Move, x0, y0, 0, {}, {}});
@@ -66,26 +63,22 @@ void add_input_commands(CommandTable& table, ViewState& state, const CommandHost
     }
     input.push_back({InputKind::Release, x1, y1, 0, {}, {}});
   });
-  table.add({"wheel", "wheel X Y AMOUNT", "the mouse's wheel, up is positive"}, [&state](Arguments words) {
-    require(words, 3, 3);
+  table.add({"wheel", "wheel X Y AMOUNT", "the mouse's wheel, up is positive"}, {3, 3}, [&state](Arguments words) {
     const float x = pixel(words[0]), y = pixel(words[1]);
     state.requests.input.push_back({InputKind::Move, x, y, 0, {}, {}});
     state.requests.input.push_back({InputKind::Wheel, 0, pixel(words[2]), 0, {}, {}});
   });
-  table.add({"key", "key NAME", "presses a key, such as N or Ctrl+Shift+S"}, [&state](Arguments words) {
-    require(words, 1, 1);
+  table.add({"key", "key NAME", "presses a key, such as N or Ctrl+Shift+S"}, {1, 1}, [&state](Arguments words) {
     auto chord = parse_key(words[0]);
     if (!chord) unexpected(words[0], "a key such as N, Space, F1 or Ctrl+Shift+S");
     if (chord->code == '+') chord->code = '=';  // there is no other key of that name
     state.requests.input.push_back({InputKind::KeyDown, 0, 0, 0, *chord, {}});
     state.requests.input.push_back({InputKind::KeyUp, 0, 0, 0, *chord, {}});
   });
-  table.add({"type", "type TEXT", "types a text"}, [&state](Arguments words) {
-    require(words, 1, 1);
+  table.add({"type", "type TEXT", "types a text"}, {1, 1}, [&state](Arguments words) {
     state.requests.input.push_back({InputKind::Text, 0, 0, 0, {}, words[0]});
   });
-  table.add({"wait", "wait", "until nothing is pending (scripts wait after every line anyway)"},
-            [](Arguments words) { require(words, 0, 0); });
+  table.add({"wait", "wait", "until nothing is pending (scripts wait after every line anyway)"}, {0, 0}, [](Arguments) {});
 }
 
 }  // namespace dmoscope::ui

@@ -247,8 +247,7 @@ void set_level(ViewState& state, const SessionView& session, const std::string& 
 void add_opening_commands(CommandTable& table, ViewState& state, const CommandHost& host) {
   table.add({"inspect", "inspect [on|off|toggle|vertex ID|element ID]",
              "looks into the search of a vertex: what is picked, or the next of the run; of an element its worst free corner"},
-            [&state, &host](Arguments words) {
-              require(words, 0, 2);
+            {0, 2}, [&state, &host](Arguments words) {
               const auto session = session_of(host);
               if (words.size() == 2 && words[0] == "vertex") {
                 open_at(state, *session, parse_index(words[1], session->frame->vertex_count(), "vertex"), false);
@@ -261,14 +260,12 @@ void add_opening_commands(CommandTable& table, ViewState& state, const CommandHo
                 close_inspection(state);
               }
             });
-  table.add({"inspect-next", "inspect-next", "looks into the vertex that the run visits next"}, [&state, &host](Arguments words) {
-    require(words, 0, 0);
+  table.add({"inspect-next", "inspect-next", "looks into the vertex that the run visits next"}, {0, 0}, [&state, &host](Arguments) {
     const auto session = session_of(host);
     open_at(state, *session, next_vertex(*session), true);
   });
-  table.add({"inspect-worst", "inspect-worst", "looks into the worst element that smoothing can change, at its worst free corner"},
-            [&state, &host](Arguments words) {
-              require(words, 0, 0);
+  table.add({"inspect-worst", "inspect-worst", "looks into the worst element that smoothing can change, at its worst free corner"}, {0, 0},
+            [&state, &host](Arguments) {
               const auto session = session_of(host);
               const Index element = worst_movable_element(*session);
               if (element == kNoIndex) throw UsageError("no vertex of this mesh may move");
@@ -277,9 +274,8 @@ void add_opening_commands(CommandTable& table, ViewState& state, const CommandHo
 }
 
 void add_level_commands(CommandTable& table, ViewState& state, const CommandHost& host) {
-  table.add({"level", "level next|back|all|N", "shows a level's candidates; next after the last one applies the move"},
+  table.add({"level", "level next|back|all|N", "shows a level's candidates; next after the last one applies the move"}, {1, 1},
             [&state, &host](Arguments words) {
-              require(words, 1, 1);
               const auto session = session_of(host);
               follow_pick(state);
               state.inspection.playing = false;
@@ -291,53 +287,25 @@ void add_level_commands(CommandTable& table, ViewState& state, const CommandHost
                 set_level(state, *session, words[0]);
               }
             });
-  table.add({"play-levels", "play-levels [on|off|toggle]", "shows level after level, then applies the move"},
+  table.add({"play-levels", "play-levels [on|off|toggle]", "shows level after level, then applies the move"}, {0, 1},
             [&state, &host](Arguments words) {
-              require(words, 0, 1);
               (void)session_of(host);
               follow_pick(state);
               state.inspection.playing = switched(words, 0, state.inspection.playing);
               state.inspection.level_since = -1.0;
             });
-  table.add({"apply-move", "apply-move", "visits the inspected vertex: the run's own step when it is its turn"},
-            [&state, &host](Arguments words) {
-              require(words, 0, 0);
+  table.add({"apply-move", "apply-move", "visits the inspected vertex: the run's own step when it is its turn"}, {0, 0},
+            [&state, &host](Arguments) {
               const auto session = session_of(host);
               follow_pick(state);
               apply_move(state, host, *session);
             });
 }
 
-void add_inspection_look_commands(CommandTable& table, ViewState& state) {
-  struct Switch {
-    const char* name;
-    bool InspectionState::*flag;
-    const char* doc;
-  };
-  static constexpr std::array<Switch, 4> switches{
-      {{"inspect-zoom", &InspectionState::zoom, "goes as close as the shown level needs"},
-       {"field", &InspectionState::field, "the quality around the inspected vertex, in the inspector"},
-       {"field-in-view", &InspectionState::field_in_view, "the quality around the inspected vertex, over the mesh"},
-       {"inspect-alone", &InspectionState::alone, "of a volume the rest is but a ghost while a vertex is looked into"}}};
-  for (const Switch& one : switches) {
-    table.add({one.name, fmt::format("{} [on|off|toggle]", one.name), one.doc}, [&state, flag = one.flag](Arguments words) {
-      require(words, 0, 1);
-      state.inspection.*flag = switched(words, 0, state.inspection.*flag);
-    });
-  }
-  table.add({"level-range", "level-range view|level", "colours of the levels' heat maps: as in the view, or over each level's own range"},
-            [&state](Arguments words) {
-              require(words, 1, 1);
-              static constexpr std::array<std::pair<std::string_view, bool>, 2> names{{{"view", false}, {"level", true}}};
-              state.inspection.own_range = choose(words[0], names);
-            });
-}
-
 void add_slice_command(CommandTable& table, ViewState& state, const CommandHost& host) {
   table.add({"grid-slice", "grid-slice x|y|z|N|next|back|best",
              "of a volume's grid the slice that the maps show: its axis, its number, or of each level the one chosen from"},
-            [&state, &host](Arguments words) {
-              require(words, 1, 1);
+            {1, 1}, [&state, &host](Arguments words) {
               const auto session = session_of(host);
               if (!session->input->in_space()) throw UsageError("the grids of a planar mesh have no slices");
               follow_pick(state);
@@ -379,16 +347,14 @@ void add_trace_commands(CommandTable& table, ViewState& state, const CommandHost
   };
   table.add(
       {"copy-level", "copy-level [N]", "puts the candidates of a level on the clipboard as CSV; without N of the shown one, 0: of all"},
-      [&state, traced](Arguments words) {
-        require(words, 0, 1);
+      {0, 1}, [&state, traced](Arguments words) {
         const Inspection look = traced();
         const std::uint64_t level = words.empty() ? static_cast<std::uint64_t>(state.inspection.level) : to_count(words[0]);
         if (level > look.level_count()) throw UsageError(fmt::format("there is no level {}: this visit has {}", level, look.level_count()));
         state.requests.clipboard = trace_csv(look, static_cast<int>(level));
       });
-  table.add({"export-trace", "export-trace FILE.csv", "writes all candidates of all levels of the inspected vertex"},
+  table.add({"export-trace", "export-trace FILE.csv", "writes all candidates of all levels of the inspected vertex"}, {1, 1},
             [&state, traced](Arguments words) {
-              require(words, 1, 1);
               write_file_atomically(words[0], trace_csv(traced()));
               add_message(state, {Message::Kind::Info, fmt::format("wrote {}", words[0])});
             });
@@ -399,7 +365,7 @@ void add_trace_commands(CommandTable& table, ViewState& state, const CommandHost
 void add_inspection_commands(CommandTable& table, ViewState& state, const CommandHost& host) {
   add_opening_commands(table, state, host);
   add_level_commands(table, state, host);
-  add_inspection_look_commands(table, state);
+  add_option_commands(table, state, {"inspect-zoom", "field", "field-in-view", "inspect-alone", "level-range"});
   add_slice_command(table, state, host);
   add_trace_commands(table, state, host);
 }

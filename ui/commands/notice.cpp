@@ -74,9 +74,8 @@ Notice notice_of(const SessionView& session) {
 }
 
 void add_notice_command(CommandTable& table, ViewState& state, const CommandHost& host) {
-  table.add({"notice", "notice off|on", "takes away what is said of the run's end, until another one ends; or shows it again"},
+  table.add({"notice", "notice off|on", "takes away what is said of the run's end, until another one ends; or shows it again"}, {1, 1},
             [&state, &host](Arguments words) {
-              require(words, 1, 1);
               const bool on = switched(words, 0, true);
               const auto view = host.session();
               state.dismissed_notice = on || !view ? std::string() : notice_of(*view).key;

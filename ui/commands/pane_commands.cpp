@@ -1,5 +1,3 @@
-#include "ui/commands/pane_commands.h"
-
 #include <algorithm>
 
 #include "ui/commands/command_words.h"
@@ -17,7 +15,6 @@ std::size_t to_pane(const ViewState& state, const std::string& word) {
 }
 
 void set_pane(ViewState& state, Arguments words) {
-  require(words, 2, 4);
   Pane& pane = state.panes.panes[to_pane(state, words[0])];
   pane.content = state.panes.parse({words.begin() + 1, words.end()});
   pane.chosen = pane.content.kind != PaneContent::Kind::Free;
@@ -25,7 +22,6 @@ void set_pane(ViewState& state, Arguments words) {
 }
 
 void hide_runs(Panes& panes, Arguments words) {
-  require(words, 1, 2);
   if (words[0] == "none" || words[0] == "others") {
     require(words, 1, 1);
     for (const std::uint64_t id : panes.run_ids) panes.hide_run(id, words[0] == "others" && id != panes.active_id);
@@ -36,7 +32,6 @@ void hide_runs(Panes& panes, Arguments words) {
 }
 
 void set_pane_camera(ViewState& state, Arguments words) {
-  require(words, 4, 4);
   const std::size_t pane = to_pane(state, words[0]);
   const render::Camera2D camera{{to_number(words[1]), to_number(words[2])}, to_number(words[3])};
   if (!(camera.units_per_pixel > 0.0)) throw UsageError("units per pixel must be greater than 0");
@@ -47,40 +42,31 @@ void set_pane_camera(ViewState& state, Arguments words) {
 
 void add_pane_commands(CommandTable& table, ViewState& state) {
   table.add({"viewports", "viewports 1|2|4|split", "one mesh, or several side by side, or two over each other with a handle between them"},
-            [&state](Arguments words) {
-              require(words, 1, 1);
-              state.set_layout(choose(words[0], kPaneLayouts));
-            });
+            {1, 1}, [&state](Arguments words) { state.set_layout(choose(words[0], kPaneLayouts)); });
   table.add({"pane", "pane K active|run N [ITERATION]|input|mark a|b|auto",
              "what viewport K shows: a run as it stands or at an iteration, the input, a mark; auto: what is not shown elsewhere"},
-            [&state](Arguments words) { set_pane(state, words); });
-  table.add({"focus-pane", "focus-pane K", "makes viewport K the active one, which the camera's commands are about"},
+            {2, 4}, [&state](Arguments words) { set_pane(state, words); });
+  table.add({"focus-pane", "focus-pane K", "makes viewport K the active one, which the camera's commands are about"}, {1, 1},
+            [&state](Arguments words) { state.focus_pane(to_pane(state, words[0])); });
+  table.add({"link-cameras", "link-cameras [on|off|toggle]", "all viewports look at the same place, or each for itself"}, {0, 1},
             [&state](Arguments words) {
-              require(words, 1, 1);
-              state.focus_pane(to_pane(state, words[0]));
-            });
-  table.add({"link-cameras", "link-cameras [on|off|toggle]", "all viewports look at the same place, or each for itself"},
-            [&state](Arguments words) {
-              require(words, 0, 1);
               const bool linked = switched(words, 0, state.panes.linked);
               if (!linked && state.in_space) throw UsageError("of a volume mesh all viewports share one camera");
               state.link_cameras(linked);
             });
-  table.add({"pane-camera", "pane-camera K X Y UNITS-PER-PIXEL", "as camera, for one viewport while they are not linked"},
+  table.add({"pane-camera", "pane-camera K X Y UNITS-PER-PIXEL", "as camera, for one viewport while they are not linked"}, {4, 4},
             [&state](Arguments words) { set_pane_camera(state, words); });
   table.add({"hide-run", "hide-run K|others [on|off|toggle]  or  hide-run none",
              "takes a run, or all but the active one, out of plots and viewports; none: all are there again"},
-            [&state](Arguments words) { hide_runs(state.panes, words); });
+            {1, 2}, [&state](Arguments words) { hide_runs(state.panes, words); });
   table.add({"begin-rename", "begin-rename [K]", "lets a person type another name for run K, or the active one, into the list of runs"},
-            [&state](Arguments words) {
-              require(words, 0, 1);
+            {0, 1}, [&state](Arguments words) {
               const Panes& panes = state.panes;
               if (panes.run_ids.empty()) throw UsageError("no mesh is open");
               state.renaming_run = words.empty() ? panes.active_id : panes.parse({"run", words[0]}).run;
               state.panels.left = state.panels.left_over = true;  // where the list is
             });
-  table.add({"split", "split X", "where the handle of the split view is, 0 (left) to 1"}, [&state](Arguments words) {
-    require(words, 1, 1);
+  table.add({"split", "split X", "where the handle of the split view is, 0 (left) to 1"}, {1, 1}, [&state](Arguments words) {
     const double at = to_number(words[0]);
     if (!(at >= 0.0 && at <= 1.0)) throw UsageError("the handle goes from 0 to 1");
     state.panes.split = at;

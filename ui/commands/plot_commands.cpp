@@ -1,5 +1,3 @@
-#include "ui/commands/plot_commands.h"
-
 #include "core/view/run_table.h"
 #include "ui/commands/command_words.h"
 
@@ -53,7 +51,6 @@ void zoom_plot(ViewState& state, Arguments words) {
 }
 
 void switch_series(ViewState& state, Arguments words) {
-  require(words, 1, 2);
   PlotView& view = state.plot_view();
   const std::string before = std::exchange(view.isolated, {});
   const std::string name = state.run_names.of_now(words[0]);
@@ -73,7 +70,6 @@ void switch_series(ViewState& state, Arguments words) {
 }
 
 void sort_runs(ViewState& state, Arguments words) {
-  require(words, 1, 2);
   static constexpr std::array<std::pair<std::string_view, bool>, 2> ways{{{"ascending", false}, {"descending", true}}};
   const bool descending = words.size() > 1 && choose(words[1], ways);
   state.plot_options.sorted_by = words[0] == "off" ? std::string() : std::string(run_column(words[0]).name);
@@ -121,34 +117,28 @@ void rename_runs(PlotView& view, const std::map<std::string, std::string>& chang
 }
 
 void add_plot_commands(CommandTable& table, ViewState& state) {
-  table.add({"plot", "plot convergence|histogram|sorted|moved|time|runs", "which plot is shown, or the table of runs"},
-            [&state](Arguments words) {
-              require(words, 1, 1);
-              state.plot = choose(words[0], kPlotTabs);
-            });
+  add_option_commands(table, state, {"plot"});
   table.add({"axis", "axis linear|log|log-distance|next", "the shown plot's value axis; log-distance: by the logarithm of 1 - quality"},
-            [&state](Arguments words) {
-              require(words, 1, 1);
+            {1, 1}, [&state](Arguments words) {
               choose_axis(state, words[0] == "next" ? next_axis(state.plot, state.plot_view().axis) : choose(words[0], kValueAxes));
             });
-  table.add({"log-scale", "log-scale [on|off|toggle]", "the shown plot's value axis, logarithmic or linear"}, [&state](Arguments words) {
-    require(words, 0, 1);
-    choose_axis(state, switched(words, 0, state.plot_view().axis == ValueAxis::Log) ? ValueAxis::Log : ValueAxis::Linear);
-  });
-  table.add({"plot-x", "plot-x iteration|seconds|toggle", "what runs along the plots of a run's course"}, [&state](Arguments words) {
-    require(words, 1, 1);
-    static constexpr std::array<std::pair<std::string_view, bool>, 2> names{{{"iteration", false}, {"seconds", true}}};
-    const bool before = state.plot_options.by_seconds;
-    state.plot_options.by_seconds = words[0] == "toggle" ? !before : choose(words[0], names);
-    if (state.plot_options.by_seconds == before) return;
-    for (const auto& [name, tab] : kPlotTabs) {
-      if (over_iterations(tab)) state.plots[static_cast<std::size_t>(tab)].x_range.reset();
-    }
-  });
+  table.add({"log-scale", "log-scale [on|off|toggle]", "the shown plot's value axis, logarithmic or linear"}, {0, 1},
+            [&state](Arguments words) {
+              choose_axis(state, switched(words, 0, state.plot_view().axis == ValueAxis::Log) ? ValueAxis::Log : ValueAxis::Linear);
+            });
+  table.add({"plot-x", "plot-x iteration|seconds|toggle", "what runs along the plots of a run's course"}, {1, 1},
+            [&state](Arguments words) {
+              static constexpr std::array<std::pair<std::string_view, bool>, 2> names{{{"iteration", false}, {"seconds", true}}};
+              const bool before = state.plot_options.by_seconds;
+              state.plot_options.by_seconds = words[0] == "toggle" ? !before : choose(words[0], names);
+              if (state.plot_options.by_seconds == before) return;
+              for (const auto& [name, tab] : kPlotTabs) {
+                if (over_iterations(tab)) state.plots[static_cast<std::size_t>(tab)].x_range.reset();
+              }
+            });
   table.add({"x-axis", "x-axis log|changes|linear|next",
              "how iterations or seconds lie along the plots: by the logarithm, evenly up to the last visible change, or evenly"},
-            [&state](Arguments words) {
-              require(words, 1, 1);
+            {1, 1}, [&state](Arguments words) {
               XAxis& now = state.plot_options.x_axis;
               const XAxis next = static_cast<XAxis>((static_cast<std::size_t>(now) + 1) % kXAxes.size());
               now = words[0] == "next" ? next : choose(words[0], kXAxes);
@@ -156,8 +146,7 @@ void add_plot_commands(CommandTable& table, ViewState& state) {
                 if (over_iterations(tab)) state.plots[static_cast<std::size_t>(tab)].x_range.reset();
             });
   table.add({"histogram-range", "histogram-range data|whole|toggle", "whether the histogram begins where its elements are, or from 0 to 1"},
-            [&state](Arguments words) {
-              require(words, 1, 1);
+            {1, 1}, [&state](Arguments words) {
               HistogramRange& now = state.plot_options.histogram_range;
               const HistogramRange other = now == HistogramRange::Data ? HistogramRange::Whole : HistogramRange::Data;
               now = words[0] == "toggle" ? other : choose(words[0], kHistogramRanges);
@@ -168,19 +157,12 @@ void add_plot_commands(CommandTable& table, ViewState& state) {
       [&state](Arguments words) { zoom_plot(state, words); });
   table.add({"plot-series", "plot-series NAME [on|off|toggle|only]  or  plot-series all",
              "shows or hides a run or a quantity of the plot's legend"},
-            [&state](Arguments words) { switch_series(state, words); });
-  table.add({"sort-runs", "sort-runs COLUMN [ascending|descending] | sort-runs off", "the order of the table of runs"},
+            {1, 2}, [&state](Arguments words) { switch_series(state, words); });
+  table.add({"sort-runs", "sort-runs COLUMN [ascending|descending] | sort-runs off", "the order of the table of runs"}, {1, 2},
             [&state](Arguments words) { sort_runs(state, words); });
-  table.add({"plot-bins", "plot-bins 16|32|64", "bars of the histogram"}, [&state](Arguments words) {
-    require(words, 1, 1);
-    static constexpr std::array<std::pair<std::string_view, int>, 3> counts{{{"16", 16}, {"32", 32}, {"64", 64}}};
-    state.plot_options.bins = choose(words[0], counts);
-  });
-  table.add({"plot-copy", "plot-copy", "the plotted numbers, or the table of runs, as comma separated values, on the clipboard"},
-            [&state](Arguments words) {
-              require(words, 0, 0);
-              state.requests.plots.push_back({});
-            });
+  add_option_commands(table, state, {"plot-bins"});
+  table.add({"plot-copy", "plot-copy", "the plotted numbers, or the table of runs, as comma separated values, on the clipboard"}, {0, 0},
+            [&state](Arguments) { state.requests.plots.push_back({}); });
   table.add({"plot-save", "plot-save FILE.csv|.svg|.png [--size WxH] [--scale N]", "writes the plot as it is seen, on white"},
             [&state](Arguments words) { state.requests.plots.push_back(parse_save(words)); });
 }

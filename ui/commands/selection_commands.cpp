@@ -1,5 +1,3 @@
-#include "ui/commands/selection_commands.h"
-
 #include <algorithm>
 #include <utility>
 
@@ -98,51 +96,41 @@ void add_selection_commands(CommandTable& table, ViewState& state, const Command
   table.add({"select", "select vertex|add|remove ID|A-B...  or  select none  or  select all-in X0 Y0 X1 Y1",
              "the vertices to smooth or to fix; all-in: those in a box of the plane"},
             [&state, &host](Arguments words) { select(state, host, words); });
-  table.add({"brush", "brush [on|off|toggle]", "dragging selects vertices; with Shift it adds, with Ctrl it removes"},
+  table.add({"brush", "brush [on|off|toggle]", "dragging selects vertices; with Shift it adds, with Ctrl it removes"}, {0, 1},
             [&state](Arguments words) {
-              require(words, 0, 1);
               const bool on = switched(words, 0, state.brush.on);
               if (on && state.in_space) throw UsageError("the brush is of planar meshes: select vertices of a volume mesh by their ids");
               state.brush.on = on;
             });
-  table.add({"leave", "leave", "ends what the mouse is doing besides picking, such as brushing; else clears the selection"},
+  table.add({"leave", "leave", "ends what the mouse is doing besides picking, such as brushing; else clears the selection"}, {0, 0},
+            [&state](Arguments) { leave(state); });
+  table.add({"brush-radius", "brush-radius PIXELS|up|down", "how wide the brush is, 2 to 200 at scale 1"}, {1, 1},
             [&state](Arguments words) {
-              require(words, 0, 0);
-              leave(state);
+              const double radius = words[0] == "up"     ? state.brush.radius * 1.25
+                                    : words[0] == "down" ? state.brush.radius / 1.25
+                                                         : to_number(words[0]);
+              if (!(radius > 0.0)) throw UsageError("the radius must be greater than 0");
+              state.brush.radius = std::clamp(radius, 2.0, 200.0);
             });
-  table.add({"brush-radius", "brush-radius PIXELS|up|down", "how wide the brush is, 2 to 200 at scale 1"}, [&state](Arguments words) {
-    require(words, 1, 1);
-    const double radius = words[0] == "up"     ? state.brush.radius * 1.25
-                          : words[0] == "down" ? state.brush.radius / 1.25
-                                               : to_number(words[0]);
-    if (!(radius > 0.0)) throw UsageError("the radius must be greater than 0");
-    state.brush.radius = std::clamp(radius, 2.0, 200.0);
-  });
-  table.add({"smooth-selected", "smooth-selected", "visits the free ones of the selected vertices, each once"},
-            [&state, &host](Arguments words) {
-              require(words, 0, 0);
+  table.add({"smooth-selected", "smooth-selected", "visits the free ones of the selected vertices, each once"}, {0, 0},
+            [&state, &host](Arguments) {
               const auto view = host.session();
               host.post("visit " + id_ranges(free_of(state, open_session(view))));
             });
-  table.add({"fix-selected", "fix-selected", "fixes the selected vertices"}, [&state, &host](Arguments words) {
-    require(words, 0, 0);
+  table.add({"fix-selected", "fix-selected", "fixes the selected vertices"}, {0, 0}, [&state, &host](Arguments) {
     const auto view = host.session();
     std::string list = id_ranges(free_of(state, open_session(view)));
     std::ranges::replace(list, ' ', ',');
     host.post("fix vertices:" + list);  // a number alone may also be a group's
   });
-  table.add({"make", "make corner|no-corner|auto-corner", "gives the selected vertices, or else the picked one, this kind"},
+  table.add({"make", "make corner|no-corner|auto-corner", "gives the selected vertices, or else the picked one, this kind"}, {1, 1},
             [&state, &host](Arguments words) {
-              require(words, 1, 1);
               if (words[0] != "corner" && words[0] != "no-corner" && words[0] != "auto-corner")
                 unexpected(words[0], "corner, no-corner or auto-corner");
               const auto view = host.session();
               host.post(words[0] + ' ' + chosen_vertices(state, open_session(view)));
             });
-  table.add({"click-smooths", "click-smooths [on|off|toggle]", "a click on a free vertex visits it"}, [&state](Arguments words) {
-    require(words, 0, 1);
-    state.stepping.click_smooths = switched(words, 0, state.stepping.click_smooths);
-  });
+  add_option_commands(table, state, {"click-smooths"});
 }
 
 }  // namespace dmoscope::ui

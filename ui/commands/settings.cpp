@@ -10,13 +10,12 @@
 
 #include "core/io/reading/source_file.h"
 #include "core/io/writing/atomic_file.h"
+#include "ui/commands/view_options.h"
 
 namespace dmoscope::ui {
 namespace {
 
 using nlohmann::json;
-
-constexpr const char* kThemeNames[] = {"dark", "light", "contrast"};
 
 void take(const json& from, const char* name, bool& value) {
   const auto at = from.find(name);
@@ -28,19 +27,6 @@ void take(const json& from, const char* name, double& value, double least, doubl
   if (at == from.end() || !at->is_number()) return;
   const double read = at->get<double>();
   if (read >= least && read <= most) value = read;
-}
-
-template <class Value, std::size_t N>
-void take(const json& from, const char* name, Value& value, const std::array<std::pair<std::string_view, Value>, N>& choices) {
-  const auto at = from.find(name);
-  if (at == from.end() || !at->is_string()) return;
-  for (const auto& [word, one] : choices)
-    if (word == at->get<std::string>()) value = one;
-}
-
-template <class Value, std::size_t N>
-std::string_view word_of(const std::array<std::pair<std::string_view, Value>, N>& choices, Value value) {
-  return std::ranges::find(choices, value, &std::pair<std::string_view, Value>::second)->first;
 }
 
 /// Two numbers of which the second is greater, else those that are.
@@ -57,10 +43,6 @@ void take_range(const json& from, ViewState& state) {
   constexpr double kFarthest = 1e300;
   take_pair(from, "low", "high", state.range_low, state.range_high, -kFarthest, kFarthest);
   take_pair(from, "low_percent", "high_percent", state.range_low_percent, state.range_high_percent, 0.0, 100.0);
-  const auto mode = from.find("mode");
-  if (mode == from.end() || !mode->is_string()) return;
-  for (const RangeModeInfo& one : kRangeModes)
-    if (one.name == mode->get<std::string>()) state.range_mode = one.mode;
 }
 
 constexpr int kLayout = 2;  // 1, which was not written: wider side panels
@@ -137,79 +119,52 @@ std::filesystem::path autosave_folder() { return xdg_path("XDG_STATE_HOME", ".lo
 
 std::string settings_text(const ViewState& state) {
   const Panels& panels = state.panels;
-  json out = {{"theme", kThemeNames[static_cast<int>(state.theme)]},
-              {"scale", state.scale / state.monitor_scale},
-              {"colormap", render::name(state.colour_map)},
-              {"reversed", state.colouring.reversed},
+  json out = {{"scale", state.scale / state.monitor_scale},
               {"steps", state.colouring.steps},
               {"range",
-               {{"mode", info(state.range_mode).name},
-                {"low", state.range_low},
+               {{"low", state.range_low},
                 {"high", state.range_high},
                 {"low_percent", state.range_low_percent},
                 {"high_percent", state.range_high_percent}}},
               {"flash", state.stepping.flash != Flash::Off},
-              {"shading", state.shading},
-              {"occlusion", state.occlusion},
-              {"wireframe", state.wireframe},
               {"tour_offered", state.tour.offered},
-              {"x_axis", word_of(kXAxes, state.plot_options.x_axis)},
-              {"histogram_range", word_of(kHistogramRanges, state.plot_options.histogram_range)},
-              {"native_dialogs", state.native_dialogs},
               {"panels",
-               {{"left", panels.left},
-                {"right", panels.right},
-                {"bottom", panels.bottom},
-                {"left_width", panels.left_width},
+               {{"left_width", panels.left_width},
                 {"right_width", panels.right_width},
                 {"bottom_height", panels.bottom_height},
                 {"runs_height", panels.runs_height},
                 {"layout", kLayout}}}};
   if (const WindowPlace& place = state.place; place.width > 0)
     out["window"] = {{"width", place.width}, {"height", place.height}, {"maximised", place.maximised}};
+  for (const ViewOption& option : view_options())
+    if (!option.setting.empty()) out[json::json_pointer(std::string(option.setting))] = option.saved(state);
   return out.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
 bool apply_settings(const std::string& text, ViewState& state) {
   const json in = json::parse(text, nullptr, false);
   if (!in.is_object()) return false;
-  if (const auto at = in.find("theme"); at != in.end() && at->is_string()) {
-    for (int k = 0; k < 3; ++k) {
-      if (at->get<std::string>() == kThemeNames[k]) state.theme = static_cast<Theme>(k);
-    }
+  for (const ViewOption& option : view_options()) {
+    const json::json_pointer setting{std::string(option.setting)};
+    if (!option.setting.empty() && in.contains(setting)) (void)option.take(in[setting], state);
   }
   double scale = state.scale / state.monitor_scale;
   take(in, "scale", scale, 0.125, 4.0);
   state.scale = std::clamp(scale * state.monitor_scale, 0.5, 4.0);
-  take(in, "reversed", state.colouring.reversed);
   double steps = state.colouring.steps;
   take(in, "steps", steps, 0.0, 64.0);
   state.colouring.steps = steps == 1.0 ? 0 : static_cast<int>(steps);
-  take(in, "wireframe", state.wireframe);
   bool flash = state.stepping.flash != Flash::Off;
   take(in, "flash", flash);
   state.stepping.flash = flash ? Flash::On : Flash::Off;
-  take(in, "shading", state.shading);
-  take(in, "occlusion", state.occlusion);
   if (const auto at = in.find("range"); at != in.end() && at->is_object()) take_range(*at, state);
   take(in, "tour_offered", state.tour.offered);
-  take(in, "native_dialogs", state.native_dialogs);
-  if (const auto at = in.find("colormap"); at != in.end() && at->is_string()) {
-    for (const auto& map : render::colour_map_table()) {
-      if (map.name == at->get<std::string>()) state.colour_map = map.map;
-    }
-  }
-  take(in, "x_axis", state.plot_options.x_axis, kXAxes);
-  take(in, "histogram_range", state.plot_options.histogram_range, kHistogramRanges);
   if (const auto at = in.find("recent"); at != in.end() && at->is_array()) {  // of older versions
     state.recent_files.clear();
     take_recent(*at, state.recent_files);
   }
   take_place(in, state.place);
   if (const auto at = in.find("panels"); at != in.end() && at->is_object()) {
-    take(*at, "left", state.panels.left);
-    take(*at, "right", state.panels.right);
-    take(*at, "bottom", state.panels.bottom);
     take(*at, "left_width", state.panels.left_width, 8.0, 60.0);
     take(*at, "right_width", state.panels.right_width, 8.0, 60.0);
     take(*at, "bottom_height", state.panels.bottom_height, 6.0, 60.0);

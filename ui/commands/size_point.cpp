@@ -15,8 +15,7 @@ const Vec3* size_point_of(const RunView& run) {
 
 void add_size_point_commands(CommandTable& table, ViewState& state, const CommandHost& host) {
   table.add({"place-size-point", "place-size-point [on|off|toggle]", "the next click in the view places the point of the size function"},
-            [&state, &host](Arguments words) {
-              require(words, 0, 1);
+            {0, 1}, [&state, &host](Arguments words) {
               const bool on = switched(words, 0, state.placing_size_point);
               const auto view = host.session();
               if (on && (!view || view->runs.empty() || size_point_of(view->runs[view->active]) == nullptr))

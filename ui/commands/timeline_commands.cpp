@@ -1,5 +1,3 @@
-#include "ui/commands/timeline_commands.h"
-
 #include <algorithm>
 
 #include "ui/commands/command_words.h"
@@ -21,7 +19,6 @@ void set_mark(Timeline& timeline, const CommandHost& host, const std::string& wo
 }
 
 void flip(ViewState& state, Arguments words) {
-  require(words, 0, 1);
   Timeline& timeline = state.timeline;
   if (words.empty()) {
     timeline.flip();
@@ -59,20 +56,17 @@ void require_mesh(const CommandHost& host) {
 }  // namespace
 
 void add_timeline_commands(CommandTable& table, ViewState& state, const CommandHost& host) {
-  table.add({"mark", "mark a|b|clear", "marks what is shown as A or B, to flip between them"}, [&state, &host](Arguments words) {
-    require(words, 1, 1);
-    set_mark(state.timeline, host, words[0]);
-  });
-  table.add({"flip", "flip [a|b|now]", "shows A and B in turn, or what is said"}, [&state](Arguments words) { flip(state, words); });
-  table.add({"play", "play [on|off|toggle]", "shows the history, iteration by iteration"}, [&state, &host](Arguments words) {
-    require(words, 0, 1);
+  table.add({"mark", "mark a|b|clear", "marks what is shown as A or B, to flip between them"}, {1, 1},
+            [&state, &host](Arguments words) { set_mark(state.timeline, host, words[0]); });
+  table.add({"flip", "flip [a|b|now]", "shows A and B in turn, or what is said"}, {0, 1},
+            [&state](Arguments words) { flip(state, words); });
+  table.add({"play", "play [on|off|toggle]", "shows the history, iteration by iteration"}, {0, 1}, [&state, &host](Arguments words) {
     require_mesh(host);
     const bool on = switched(words, 0, state.timeline.play.kind != Playback::Kind::Off);
     start(state, on ? Playback::Kind::History : Playback::Kind::Off);
   });
-  table.add({"play-steps", "play-steps vertex|class|iteration|off", "steps again and again, until stopped"},
+  table.add({"play-steps", "play-steps vertex|class|iteration|off", "steps again and again, until stopped"}, {1, 1},
             [&state, &host](Arguments words) {
-              require(words, 1, 1);
               require_mesh(host);
               static constexpr std::array<std::pair<std::string_view, Playback::Kind>, 4> kinds{{{"vertex", Playback::Kind::Vertex},
                                                                                                  {"class", Playback::Kind::Class},
@@ -81,10 +75,8 @@ void add_timeline_commands(CommandTable& table, ViewState& state, const CommandH
               const Playback::Kind kind = choose(words[0], kinds);
               start(state, kind == state.timeline.play.kind ? Playback::Kind::Off : kind);
             });
-  table.add({"speed", "speed N|up|down", "iterations (or steps) a second that playing shows, 0.5 to 60"}, [&state](Arguments words) {
-    require(words, 1, 1);
-    set_speed(state.timeline.play, words[0]);
-  });
+  table.add({"speed", "speed N|up|down", "iterations (or steps) a second that playing shows, 0.5 to 60"}, {1, 1},
+            [&state](Arguments words) { set_speed(state.timeline.play, words[0]); });
 }
 
 }  // namespace dmoscope::ui

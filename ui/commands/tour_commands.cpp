@@ -17,15 +17,16 @@ TourFacts tour_facts(const SessionView& session, const ViewState& state, bool bu
 }
 
 void add_tour_command(CommandTable& table, ViewState& state) {
-  table.add({"tour", "tour [on|off|next|offer]", "guided steps on the sample coast; next: leaves a step out"}, [&state](Arguments words) {
-    require(words, 0, 1);
-    Tour& tour = state.tour;
-    static constexpr std::array<std::pair<std::string_view, void (*)(Tour&)>, 4> ways{{{"on", [](Tour& one) { one.start(); }},
-                                                                                       {"off", [](Tour& one) { one.stop(); }},
-                                                                                       {"next", [](Tour& one) { one.advance(); }},
-                                                                                       {"offer", [](Tour& one) { one.offer = !one.on; }}}};
-    (words.empty() ? ways[0].second : choose(words[0], ways))(tour);
-  });
+  table.add({"tour", "tour [on|off|next|offer]", "guided steps on the sample coast; next: leaves a step out"}, {0, 1},
+            [&state](Arguments words) {
+              Tour& tour = state.tour;
+              static constexpr std::array<std::pair<std::string_view, void (*)(Tour&)>, 4> ways{
+                  {{"on", [](Tour& one) { one.start(); }},
+                   {"off", [](Tour& one) { one.stop(); }},
+                   {"next", [](Tour& one) { one.advance(); }},
+                   {"offer", [](Tour& one) { one.offer = !one.on; }}}};
+              (words.empty() ? ways[0].second : choose(words[0], ways))(tour);
+            });
 }
 
 }  // namespace dmoscope::ui

@@ -41,20 +41,14 @@ void recovery(ViewState& state, const CommandHost& host, Recovery wish, std::siz
 }  // namespace
 
 void add_unsaved_commands(CommandTable& table, ViewState& state, const CommandHost& host) {
-  table.add({"ask-unsaved", "ask-unsaved [on|off|toggle]", "asks before keys and menus give up what is in no file"},
-            [&state](Arguments words) {
-              require(words, 0, 1);
-              state.asks_unsaved = switched(words, 0, state.asks_unsaved);
-            });
-  table.add({"answer", "answer session|export|discard|cancel", "answers that question"}, [&state, &host](Arguments words) {
-    require(words, 1, 1);
+  add_option_commands(table, state, {"ask-unsaved"});
+  table.add({"answer", "answer session|export|discard|cancel", "answers that question"}, {1, 1}, [&state, &host](Arguments words) {
     static constexpr std::array<std::pair<std::string_view, Answer>, 4> answers{
         {{"session", Answer::Session}, {"export", Answer::Export}, {"discard", Answer::Discard}, {"cancel", Answer::Cancel}}};
     answer(state, host, choose(words[0], answers));
   });
-  table.add({"recovery", "recovery take|discard|later [K]", "what becomes of a session that a window left behind"},
+  table.add({"recovery", "recovery take|discard|later [K]", "what becomes of a session that a window left behind"}, {1, 2},
             [&state, &host](Arguments words) {
-              require(words, 1, 2);
               static constexpr std::array<std::pair<std::string_view, Recovery>, 3> wishes{
                   {{"take", Recovery::Take}, {"discard", Recovery::Discard}, {"later", Recovery::Later}}};
               recovery(state, host, choose(words[0], wishes), words.size() > 1 ? to_count(words[1], 1) - 1 : 0);

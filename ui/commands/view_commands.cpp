@@ -8,20 +8,10 @@
 #include <fmt/format.h>
 
 #include "core/quality/quality.h"
-#include "ui/commands/clipping_commands.h"
-#include "ui/commands/colouring_commands.h"
 #include "ui/commands/command_words.h"
-#include "ui/commands/desktop_commands.h"
-#include "ui/commands/file_commands.h"
-#include "ui/commands/input_commands.h"
 #include "ui/commands/inspection_commands.h"
 #include "ui/commands/notice.h"
-#include "ui/commands/pane_commands.h"
-#include "ui/commands/plot_commands.h"
-#include "ui/commands/selection_commands.h"
 #include "ui/commands/size_point.h"
-#include "ui/commands/stepping_commands.h"
-#include "ui/commands/timeline_commands.h"
 #include "ui/commands/tour_commands.h"
 #include "ui/commands/unsaved_commands.h"
 #include "ui/state/view_geometry.h"
@@ -29,8 +19,6 @@
 namespace dmoscope::ui {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Theme>, 3> kThemes{
-    {{"dark", Theme::Dark}, {"light", Theme::Light}, {"contrast", Theme::Contrast}}};
 constexpr auto kDialogs = std::to_array<std::pair<std::string_view, Dialog>>({{"none", Dialog::None},
                                                                               {"open", Dialog::Open},
                                                                               {"export", Dialog::Export},
@@ -79,20 +67,15 @@ void add_camera_commands(CommandTable& table, ViewState& state, const CommandHos
     const auto view = host.session();
     if (view->frame) look_at_picked(state, *view->frame);
   });
-  table.add({"fit", "fit", "shows the whole mesh"}, [&state](Arguments words) {
-    require(words, 0, 0);
-    state.requests.fit = true;
-  });
-  table.add({"zoom", "zoom FACTOR", "makes everything FACTOR times as big around the middle"}, [&state](Arguments words) {
-    require(words, 1, 1);
+  table.add({"fit", "fit", "shows the whole mesh"}, {0, 0}, [&state](Arguments) { state.requests.fit = true; });
+  table.add({"zoom", "zoom FACTOR", "makes everything FACTOR times as big around the middle"}, {1, 1}, [&state](Arguments words) {
     const double factor = to_number(words[0]);
     if (!(factor > 0.0)) throw UsageError("the factor must be greater than 0");
     const Vec2<double> middle{state.viewport.x / 2, state.viewport.y / 2};
     state.camera.zoom_at(middle, state.viewport, factor);
     state.orbit.zoom_at(middle, state.viewport, factor);
   });
-  table.add({"pan", "pan DX DY", "moves the picture by pixels"}, [&state](Arguments words) {
-    require(words, 2, 2);
+  table.add({"pan", "pan DX DY", "moves the picture by pixels"}, {2, 2}, [&state](Arguments words) {
     const Vec2<double> pixels{to_number(words[0]), to_number(words[1])};
     state.camera.pan(pixels);
     state.orbit.pan(pixels, state.viewport);
@@ -100,37 +83,11 @@ void add_camera_commands(CommandTable& table, ViewState& state, const CommandHos
 }
 
 void add_look_commands(CommandTable& table, ViewState& state) {
-  table.add({"wireframe", "wireframe [on|off|toggle]", "edges of the elements"}, [&state](Arguments words) {
-    require(words, 0, 1);
-    state.wireframe = switched(words, 0, state.wireframe);
-  });
-  table.add({"vertices", "vertices [on|off|toggle]", "dots: free vertices round, fixed ones square"}, [&state](Arguments words) {
-    require(words, 0, 1);
-    state.vertices = switched(words, 0, state.vertices);
-  });
-  table.add({"worst", "worst [on|off|toggle]", "ring around the worst element, and a diamond where a listed one is inverted inside alone"},
-            [&state](Arguments words) {
-              require(words, 0, 1);
-              state.worst_marker = switched(words, 0, state.worst_marker);
-            });
-  table.add(
-      {"features", "features [on|off|toggle]", "where vertices slide: boundary, interfaces and feature edges as lines, corners as squares"},
-      [&state](Arguments words) {
-        require(words, 0, 1);
-        state.features = switched(words, 0, state.features);
-      });
-  table.add({"holders", "holders [on|off|toggle]",
-             "what holds the minimum: the elements that hold one another, the forces on their vertices, and the cluster around them"},
-            [&state](Arguments words) {
-              require(words, 0, 1);
-              state.holders = switched(words, 0, state.holders);
-            });
-  table.add({"theme", "theme dark|light|contrast|next", "colours of the interface"}, [&state](Arguments words) {
-    require(words, 1, 1);
+  add_option_commands(table, state, {"wireframe", "vertices", "worst", "features", "holders"});
+  table.add({"theme", "theme dark|light|contrast|next", "colours of the interface"}, {1, 1}, [&state](Arguments words) {
     state.theme = words[0] == "next" ? static_cast<Theme>((static_cast<int>(state.theme) + 1) % 3) : choose(words[0], kThemes);
   });
-  table.add({"scale", "scale FACTOR|up|down", "size of the interface over what the monitor asks for"}, [&state](Arguments words) {
-    require(words, 1, 1);
+  table.add({"scale", "scale FACTOR|up|down", "size of the interface over what the monitor asks for"}, {1, 1}, [&state](Arguments words) {
     const double wanted = words[0] == "up"     ? state.scale * 1.125
                           : words[0] == "down" ? state.scale / 1.125
                                                : to_number(words[0]) * state.monitor_scale;
@@ -140,18 +97,15 @@ void add_look_commands(CommandTable& table, ViewState& state) {
 }
 
 void add_panel_commands(CommandTable& table, ViewState& state) {
-  table.add({"size", "size WIDTH HEIGHT", "size of the window in pixels"}, [&state](Arguments words) {
-    require(words, 2, 2);
+  table.add({"size", "size WIDTH HEIGHT", "size of the window in pixels"}, {2, 2}, [&state](Arguments words) {
     state.window_size = parse_size(words[0] + "x" + words[1]);
     state.requests.size = state.window_size;
   });
-  table.add({"full-screen", "full-screen [on|off|toggle]", "the whole monitor"}, [&state](Arguments words) {
-    require(words, 0, 1);
+  table.add({"full-screen", "full-screen [on|off|toggle]", "the whole monitor"}, {0, 1}, [&state](Arguments words) {
     state.full_screen = switched(words, 0, state.full_screen);
     state.requests.full_screen = state.full_screen;
   });
-  table.add({"panel", "panel left|right|bottom [on|off|toggle]", "shows or hides a panel"}, [&state](Arguments words) {
-    require(words, 1, 2);
+  table.add({"panel", "panel left|right|bottom [on|off|toggle]", "shows or hides a panel"}, {1, 2}, [&state](Arguments words) {
     static constexpr std::array<std::pair<std::string_view, bool Panels::*>, 3> names{
         {{"left", &Panels::left}, {"right", &Panels::right}, {"bottom", &Panels::bottom}}};
     bool Panels::*panel = choose(words[0], names);
@@ -159,8 +113,7 @@ void add_panel_commands(CommandTable& table, ViewState& state) {
   });
   table.add({"dialog", "dialog NAME|none",
              "opens or closes a dialog; open-beside, open-surface: that of open, for a mesh beside those that are open, or to slide on"},
-            [&state](Arguments words) {
-              require(words, 1, 1);
+            {1, 1}, [&state](Arguments words) {
               state.open_for = words[0] == "open-beside" ? OpenFor::Beside : words[0] == "open-surface" ? OpenFor::Surface : OpenFor::Alone;
               state.dialog = state.open_for != OpenFor::Alone ? Dialog::Open : choose(words[0], kDialogs);
             });
@@ -198,14 +151,9 @@ void add_output_commands(CommandTable& table, ViewState& state) {
                   throw UsageError(fmt::format("{}: screenshots are written as .png", shot.path.string()));
               state.requests.screenshots.push_back(std::move(shot));
             });
-  table.add({"copy", "copy TEXT", "puts a text on the clipboard"}, [&state](Arguments words) {
-    require(words, 1, 1);
-    state.requests.clipboard = words[0];
-  });
-  table.add({"quit", "quit", "closes the window"}, [&state](Arguments words) {
-    require(words, 0, 0);
-    state.requests.quit = true;
-  });
+  table.add({"copy", "copy TEXT", "puts a text on the clipboard"}, {1, 1},
+            [&state](Arguments words) { state.requests.clipboard = words[0]; });
+  table.add({"quit", "quit", "closes the window"}, {0, 0}, [&state](Arguments) { state.requests.quit = true; });
 }
 
 void seek_in_timeline(const CommandHost& host, const std::string& where) {
@@ -230,8 +178,7 @@ void seek_in_timeline(const CommandHost& host, const std::string& where) {
 }
 
 void add_session_shortcuts(CommandTable& table, ViewState& state, const CommandHost& host) {
-  table.add({"run-pause", "run-pause", "runs until converged, or stops what runs or plays"}, [&state, &host](Arguments words) {
-    require(words, 0, 0);
+  table.add({"run-pause", "run-pause", "runs until converged, or stops what runs or plays"}, {0, 0}, [&state, &host](Arguments) {
     if (state.timeline.play.kind != Playback::Kind::Off) {
       state.timeline.play.kind = Playback::Kind::Off;
     } else if (host.busy()) {
@@ -240,21 +187,14 @@ void add_session_shortcuts(CommandTable& table, ViewState& state, const CommandH
       host.post("until-converged best");
     }
   });
-  table.add({"cancel", "cancel", "stops what runs and forgets what waits"}, [&host](Arguments words) {
-    require(words, 0, 0);
-    host.cancel();
-  });
-  table.add({"timeline", "timeline back|forward|first|last", "shows another iteration of the history"}, [&host](Arguments words) {
-    require(words, 1, 1);
-    seek_in_timeline(host, words[0]);
-  });
-  table.add({"next-run", "next-run", "selects the next run"}, [&host](Arguments words) {
-    require(words, 0, 0);
+  table.add({"cancel", "cancel", "stops what runs and forgets what waits"}, {0, 0}, [&host](Arguments) { host.cancel(); });
+  table.add({"timeline", "timeline back|forward|first|last", "shows another iteration of the history"}, {1, 1},
+            [&host](Arguments words) { seek_in_timeline(host, words[0]); });
+  table.add({"next-run", "next-run", "selects the next run"}, {0, 0}, [&host](Arguments) {
     const auto view = host.session();
     if (view && view->runs.size() > 1) host.post(fmt::format("select-run {}", (view->active + 1) % view->runs.size() + 1));
   });
-  table.add({"next-metric", "next-metric", "shows the next metric that is defined for the mesh"}, [&host](Arguments words) {
-    require(words, 0, 0);
+  table.add({"next-metric", "next-metric", "shows the next metric that is defined for the mesh"}, {0, 0}, [&host](Arguments) {
     const auto view = host.session();
     if (!view || !view->input) throw UsageError("no mesh is open");
     host.post("show next");  // not by name: of several presses in a row each goes one further

@@ -16,6 +16,7 @@
 #include "core/base/error.h"
 #include "core/commands/commands.h"
 #include "core/view/run_table.h"
+#include "ui/commands/view_options.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -50,6 +51,10 @@ class Writer {
     for (std::size_t k = 0; k < panes.run_ids.size(); ++k)
       if (ids.contains(panes.run_ids[k])) numbers.push_back(k + 1);
     json_[name] = std::move(numbers);
+  }
+  void options(const ViewState& state) {
+    for (const ViewOption& option : view_options())
+      if (!option.member.empty()) json_[json::json_pointer(std::string(option.member))] = option.saved(state);
   }
   template <class Body>
   void object(const char* name, Body body) {
@@ -159,6 +164,16 @@ class Reader {
       ids.insert(panes.run_ids[k - 1]);
     }
   }
+  /// Behind the objects that they are in.
+  void options(ViewState& state) {
+    for (const ViewOption& option : view_options()) {
+      const json::json_pointer member{std::string(option.member)};
+      if (option.member.empty() || !json_.contains(member) || option.take(json_[member], state)) continue;
+      std::string name(option.member.substr(1));
+      std::ranges::replace(name, '/', '.');
+      wrong(name.c_str(), option.expected());
+    }
+  }
   template <class Body>
   void object(const char* name, Body body) {
     const json* at = find(name);
@@ -189,37 +204,16 @@ std::vector<std::pair<std::string_view, std::string>> sortable_columns() {
   return choices;
 }
 
-constexpr std::array<std::pair<std::string_view, int>, 3> kBins{{{"16", 16}, {"32", 32}, {"64", 64}}};
 constexpr std::array<std::pair<std::string_view, Picked::Kind>, 3> kPicks{
     {{"none", Picked::Kind::None}, {"vertex", Picked::Kind::Vertex}, {"element", Picked::Kind::Element}}};
 
-std::vector<std::pair<std::string_view, RangeMode>> range_mode_names() {
-  std::vector<std::pair<std::string_view, RangeMode>> names;
-  for (const RangeModeInfo& one : kRangeModes) names.emplace_back(one.name, one.mode);
-  return names;
-}
 /// Those that need nothing but the run; what another one showed is not saved.
 constexpr std::array<std::pair<std::string_view, Reference>, 2> kLastingReferences{{{"off", Reference::None}, {"input", Reference::Input}}};
-
-std::vector<std::pair<std::string_view, ColourBy>> colour_by_names() {
-  std::vector<std::pair<std::string_view, ColourBy>> names;
-  for (const ColourByInfo& one : kColourBys) names.emplace_back(one.name, one.by);
-  return names;
-}
-
-std::vector<std::pair<std::string_view, render::ColourMap>> colour_map_names() {
-  std::vector<std::pair<std::string_view, render::ColourMap>> names;
-  for (const render::ColourMapInfo& map : render::colour_map_table()) names.emplace_back(map.name, map.map);
-  return names;
-}
 
 // State is const where it is written.
 
 template <class Archive, class Panels>
 void describe_panels(Archive& archive, Panels& panels) {
-  archive.flag("left", panels.left);
-  archive.flag("right", panels.right);
-  archive.flag("bottom", panels.bottom);
   archive.number("left_width", panels.left_width, 6.0, 60.0);
   archive.number("right_width", panels.right_width, 6.0, 60.0);
   archive.number("bottom_height", panels.bottom_height, 6.0, 60.0);
@@ -228,11 +222,6 @@ void describe_panels(Archive& archive, Panels& panels) {
 
 template <class Archive, class State>
 void describe_plots(Archive& archive, State& state) {
-  archive.choice("shown", state.plot, kPlotTabs);
-  archive.flag("by_seconds", state.plot_options.by_seconds);
-  archive.choice("x_axis", state.plot_options.x_axis, kXAxes);
-  archive.choice("histogram_range", state.plot_options.histogram_range, kHistogramRanges);
-  archive.choice("bins", state.plot_options.bins, kBins);
   archive.choice("runs_sorted_by", state.plot_options.sorted_by, sortable_columns());
   archive.flag("runs_descending", state.plot_options.descending);
   for (const auto& [name, tab] : kPlotTabs) {
@@ -253,18 +242,12 @@ void describe_camera(Archive& archive, Camera& camera) {
   archive.number("units_per_pixel", camera.units_per_pixel, 1e-300, kFar);
 }
 
-constexpr std::array<std::pair<std::string_view, ClipPlane::Mode>, 2> kClipModes{
-    {{"crinkle", ClipPlane::Mode::Crinkle}, {"cut", ClipPlane::Mode::Cut}}};
-
 /// What is seen of a volume mesh. Qualities in double, as the numbers of JSON are.
 template <class Archive, class View>
 void describe_inside(Archive& archive, View& view) {
   archive.object("clip", [&view](auto& clip) {
-    clip.flag("on", view.clip.on);
     clip.vector("normal", view.clip.normal);
     clip.number("offset", view.clip.offset, -kFar, kFar);
-    clip.flag("flip", view.clip.flip);
-    clip.choice("mode", view.clip.mode, kClipModes);
   });
   archive.count("peel", view.peel, kNoIndex - 1);
   std::optional<std::pair<double, double>> keep;
@@ -275,7 +258,6 @@ void describe_inside(Archive& archive, View& view) {
   archive.number("peel_quality", quality, -kFar, kFar);
   archive.range("keep_quality", keep);
   archive.count("worst", view.worst, kNoIndex);
-  archive.flag("ghost", view.ghost);
   archive.number("shrink", view.shrink, 1e-6, 1.0);
   if constexpr (!std::is_const_v<View>) {
     view.peel_quality = by_quality ? std::optional(static_cast<float>(quality)) : std::nullopt;
@@ -290,14 +272,11 @@ void describe_volume(Archive& archive, State& state) {
   archive.number("height", state.orbit.height, 1e-150, 1e150);
   archive.vector("right", state.orbit.right);
   archive.vector("up", state.orbit.up);
-  archive.flag("perspective", state.orbit.perspective);
-  archive.flag("trackball", state.trackball);
   archive.object("inside", [&state](auto& inside) { describe_inside(inside, state.inside); });
 }
 
 template <class Archive, class Panes>
 void describe_panes(Archive& archive, Panes& panes) {
-  archive.choice("layout", panes.layout, kPaneLayouts);
   archive.flag("linked", panes.linked);
   archive.number("split", panes.split, 0.0, 1.0);
   archive.count("active", panes.focus, Panes::kMost - 1);
@@ -316,16 +295,12 @@ template <class Archive, class State>
 void describe_colouring(Archive& archive, State& state) {
   auto& colouring = state.colouring;
   archive.content("reference", colouring.reference, state.panes);
-  archive.choice("by", colouring.by, colour_by_names());
-  archive.choice("range_mode", state.range_mode, range_mode_names());
   archive.number("range_low", state.range_low, -kFar, kFar);
   archive.number("range_high", state.range_high, -kFar, kFar);
   archive.number("range_low_percent", state.range_low_percent, 0.0, 100.0);
   archive.number("range_high_percent", state.range_high_percent, 0.0, 100.0);
-  archive.flag("reversed", colouring.reversed);
   archive.count("steps", colouring.steps, 64);
   archive.range("filter", colouring.filter);
-  archive.choice("filter_mode", colouring.others, kFilterModes);
   archive.count("worst", colouring.worst, 100);
   archive.flag("label_vertices", colouring.label_vertices);
   archive.flag("label_elements", colouring.label_elements);
@@ -333,11 +308,9 @@ void describe_colouring(Archive& archive, State& state) {
 
 template <class Archive, class State>
 void describe_stepping(Archive& archive, State& state) {
-  archive.flag("next_class", state.stepping.next_class);
   archive.choice("arrows", state.stepping.arrows, kLastingReferences);
   archive.number("arrow_scale", state.stepping.arrow_scale, 0.0, kFar);
   archive.choice("ghost", state.stepping.ghost, kLastingReferences);
-  archive.flag("click_smooths", state.stepping.click_smooths);
 }
 
 /// The one description of the view.
@@ -346,30 +319,18 @@ void describe(Archive& archive, State& state) {
   archive.object("camera", [&state](auto& camera) { describe_camera(camera, state.camera); });
   archive.object("volume", [&state](auto& volume) { describe_volume(volume, state); });
   archive.object("viewports", [&state](auto& viewports) { describe_panes(viewports, state.panes); });
-  archive.flag("wireframe", state.wireframe);
-  archive.flag("vertices", state.vertices);
-  archive.flag("worst_marker", state.worst_marker);
-  archive.flag("features", state.features);
-  archive.flag("holders", state.holders);
-  archive.flag("shading", state.shading);
-  archive.flag("occlusion", state.occlusion);
-  archive.choice("colormap", state.colour_map, colour_map_names());
   archive.object("colours", [&state](auto& colours) { describe_colouring(colours, state); });
   archive.object("stepping", [&state](auto& stepping) { describe_stepping(stepping, state); });
   archive.ids("selection", state.selection);
   archive.object("panels", [&state](auto& panels) { describe_panels(panels, state.panels); });
   archive.object("plots", [&state](auto& plots) { describe_plots(plots, state); });
   archive.object("inspection", [&state](auto& inspection) {
-    inspection.flag("open", state.inspection.open);
     inspection.count("level", state.inspection.level, 16);
     inspection.flag("all_levels", state.inspection.all_levels);
-    inspection.flag("zoom", state.inspection.zoom);
-    inspection.flag("field", state.inspection.field);
-    inspection.flag("field_in_view", state.inspection.field_in_view);
-    inspection.flag("alone", state.inspection.alone);
     inspection.count("slice_axis", state.inspection.slice_axis, 2);
   });
   archive.number("speed", state.timeline.play.speed, Playback::kSlowest, Playback::kFastest);
+  archive.options(state);
   archive.object("picked", [&state](auto& picked) {
     picked.choice("kind", state.picked.kind, kPicks);
     picked.count("id", state.picked.id, kNoIndex);

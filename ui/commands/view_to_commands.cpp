@@ -1,10 +1,12 @@
 #include "ui/commands/view_to_commands.h"
 
+#include <initializer_list>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "ui/commands/clipping_text.h"
+#include "ui/commands/view_options.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -19,36 +21,30 @@ std::string range_line(const ViewState& state) {
 }  // namespace
 
 std::vector<std::string> view_lines(const ViewState& state, bool with_camera) {
-  const auto on = [](bool value) { return value ? "on" : "off"; };
   const Panels& panels = state.panels;
   std::vector<std::string> lines;
+  const auto say = [&](std::initializer_list<std::string_view> options) {
+    for (const std::string_view option : options) lines.push_back(option_line(state, option));
+  };
   if (state.window_size.first > 0) lines.push_back(fmt::format("size {} {}", state.window_size.first, state.window_size.second));
   lines.push_back(fmt::format("scale {}", state.scale));
-  lines.push_back(fmt::format("theme {}", theme_name(state.theme)));
-  lines.push_back(fmt::format("panel left {}", on(panels.left)));
-  lines.push_back(fmt::format("panel right {}", on(panels.right)));
-  lines.push_back(fmt::format("panel bottom {}", on(panels.bottom)));
+  say({"theme", "panel left", "panel right", "panel bottom"});
   lines.push_back(fmt::format("panel-size left {}", panels.left_width));
   lines.push_back(fmt::format("panel-size right {}", panels.right_width));
   lines.push_back(fmt::format("panel-size bottom {}", panels.bottom_height));
   lines.push_back(fmt::format("panel-size runs {}", panels.runs_height));
-  lines.push_back(fmt::format("unfold left {}", on(panels.left_over)));
-  lines.push_back(fmt::format("unfold right {}", on(panels.right_over)));
-  lines.push_back(fmt::format("colormap {}", render::name(state.colour_map)));
+  say({"unfold left", "unfold right", "colormap"});
   // Of whoever runs the script the settings may say otherwise, and what they had before is to be had again.
   lines.push_back(range_line(state));
-  lines.push_back(fmt::format("shading {}", on(state.shading)));
-  lines.push_back(fmt::format("occlusion {}", on(state.occlusion)));
-  lines.push_back(fmt::format("reverse-colors {}", on(state.colouring.reversed)));
+  say({"shading", "occlusion", "reverse-colors"});
   lines.push_back(fmt::format("color-steps {}", state.colouring.steps));
-  lines.push_back(fmt::format("wireframe {}", on(state.wireframe)));
+  say({"wireframe"});
   const PlotView& plot = state.plots[static_cast<std::size_t>(state.plot)];
   for (const auto& [axis, range] : {std::pair{"x", plot.x_range}, {"y", plot.y_range}})
     lines.push_back(range ? fmt::format("plot-zoom {} {} {}", axis, range->first, range->second) : fmt::format("plot-zoom {} all", axis));
   const Panes& panes = state.panes;
-  for (const auto& [name, layout] : kPaneLayouts)
-    if (panes.layout == layout) lines.push_back(fmt::format("viewports {}", name));
-  lines.push_back(fmt::format("link-cameras {}", on(panes.linked)));
+  say({"viewports"});
+  lines.push_back(fmt::format("link-cameras {}", panes.linked ? "on" : "off"));
   lines.push_back(fmt::format("split {}", panes.split));
   for (std::size_t k = 0; k < panes.count() && !panes.one(); ++k) {
     const Pane& pane = panes.panes[k];

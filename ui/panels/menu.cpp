@@ -6,77 +6,11 @@
 #include <fmt/format.h>
 
 #include "core/mesh/generate.h"
-#include "ui/commands/colouring_commands.h"
+#include "ui/commands/view_options.h"
 #include "ui/panels/panels.h"
 
 namespace dmoscope::ui {
 namespace {
-
-/// Of the actions of a volume's inside.
-bool inside_checked(const ViewState& state, std::string_view id) {
-  const ClippingView& view = state.inside;
-  if (id == "inside-clip") return view.clip.on;
-  if (id == "inside-flip") return view.clip.flip;
-  if (id == "inside-cut") return view.clip.mode == ClipPlane::Mode::Cut;
-  if (id == "inside-shrink") return view.shrink < 1.0;
-  if (id == "inside-worst") return view.worst > 0;
-  if (id == "inside-ghost") return view.ghost;
-  if (id == "from-perspective") return state.orbit.perspective;
-  return id == "from-trackball" && state.trackball;
-}
-
-bool is_checked(const ViewState& state, std::string_view id) {
-  if (id == "wireframe") return state.wireframe;
-  if (id == "vertices") return state.vertices;
-  if (id == "next-class") return state.stepping.next_class;
-  if (id == "arrows-previous") return state.stepping.arrows == Reference::Previous;
-  if (id == "arrows-input") return state.stepping.arrows == Reference::Input;
-  if (id == "arrows-auto") return !(state.stepping.arrow_scale > 0.0);
-  if (id == "ghost-previous") return state.stepping.ghost == Reference::Previous;
-  if (id == "ghost-input") return state.stepping.ghost == Reference::Input;
-  if (id == "brush") return state.brush.on;
-  if (id == "click-smooths") return state.stepping.click_smooths;
-  if (id == "worst-marker") return state.worst_marker;
-  if (id == "features") return state.features;
-  if (id == "holders") return state.holders;
-  if (const std::optional<bool> colouring = colouring_checked(state, id)) return *colouring;
-  for (const auto& [name, tab] : kPlotTabs) {
-    if (id.starts_with("plot-") && id.substr(5) == name) return state.plot == tab;
-  }
-  if (id == "plot-seconds") return state.plot_options.by_seconds;
-  for (const auto& [name, axis] : kXAxes)
-    if (id.starts_with("x-axis-") && id.substr(7) == name) return state.plot_options.x_axis == axis;
-  if (id == "histogram-whole") return state.plot_options.histogram_range == HistogramRange::Whole;
-  if (id == "inspect") return state.inspection.open;
-  if (id == "play-levels") return state.inspection.playing;
-  if (id == "level-all") return state.inspection.open && state.inspection.all_levels;
-  if (id == "field") return state.inspection.field;
-  if (id == "field-in-view") return state.inspection.field_in_view;
-  if (id == "inspect-zoom") return state.inspection.zoom;
-  if (id == "level-range-view") return !state.inspection.own_range;
-  if (id == "level-range-level") return state.inspection.own_range;
-  for (const auto& [name, layout] : kPaneLayouts) {
-    if (id.starts_with("viewports-") && id.substr(10) == name) return state.panes.layout == layout;
-  }
-  if (id == "link-cameras") return state.panes.linked || state.in_space;
-  if (state.in_space && (id.starts_with("inside-") || id.starts_with("from-"))) return inside_checked(state, id);
-  if (id == "panel-left") return state.panels.left;
-  if (id == "panel-right") return state.panels.right;
-  if (id == "panel-bottom") return state.panels.bottom;
-  if (id == "watch") return state.watch_file;
-  if (id == "native-dialogs") return state.native_dialogs;
-  if (id == "play") return state.timeline.play.kind == Playback::Kind::History;
-  if (id == "play-iterations") return state.timeline.play.kind == Playback::Kind::Iteration;
-  if (id == "play-classes") return state.timeline.play.kind == Playback::Kind::Class;
-  if (id == "play-vertices") return state.timeline.play.kind == Playback::Kind::Vertex;
-  if (id == "unfold-left") return state.panels.left_over;
-  if (id == "unfold-right") return state.panels.right_over;
-  if (id == "full-screen") return state.full_screen;
-  if (id == "theme-dark") return state.theme == Theme::Dark;
-  if (id == "theme-light") return state.theme == Theme::Light;
-  if (id == "theme-contrast") return state.theme == Theme::Contrast;
-  return false;
-}
 
 void draw_recent(PanelContext& context) {
   if (!ImGui::BeginMenu("Recent", !context.state.recent_files.empty())) return;
@@ -90,7 +24,7 @@ void draw_recent(PanelContext& context) {
 void draw_entry(PanelContext& context, const Action& action) {
   if (action.separator) ImGui::Separator();
   const std::string title = fmt::format("{}###{}", title_of(action, context.situation()), action.id);
-  if (ImGui::MenuItem(title.c_str(), std::string(action.key).c_str(), is_checked(context.state, action.id),
+  if (ImGui::MenuItem(title.c_str(), std::string(action.key).c_str(), is_ticked(context.state, action),
                       enabled(action, context.situation()))) {
     context.send(std::string(action.command));
   }

@@ -17,18 +17,6 @@ double highest_of(const Histogram& histogram) {
 
 }  // namespace
 
-std::string_view theme_name(Theme theme) {
-  switch (theme) {
-    case Theme::Dark:
-      return "dark";
-    case Theme::Light:
-      return "light";
-    case Theme::Contrast:
-      break;
-  }
-  return "contrast";
-}
-
 std::optional<std::pair<double, double>> own_range(const Frame& frame) {
   double low = INFINITY, high = -INFINITY;
   if (frame.device) {

@@ -34,8 +34,8 @@
 namespace dmoscope::ui {
 
 enum class Theme { Dark, Light, Contrast };
-/// "dark", "light", "contrast"
-[[nodiscard]] std::string_view theme_name(Theme theme);
+inline constexpr std::array<std::pair<std::string_view, Theme>, 3> kThemes{
+    {{"dark", Theme::Dark}, {"light", Theme::Light}, {"contrast", Theme::Contrast}}};
 /// What a file that is opened is for.
 enum class OpenFor : std::uint8_t {
   Alone,   // in the place of all that is open

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/run/hint_budget.h"
+#include "core/run/hints.h"
 
 namespace dmoscope::app {
 

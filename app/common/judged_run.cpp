@@ -2,8 +2,9 @@
 
 #include <algorithm>
 
+#include "app/common/smooth_report.h"
+#include "core/run/hints.h"
 #include "core/run/retry_on_cpu.h"
-#include "core/run/what_holds.h"
 
 namespace dmoscope::app {
 
@@ -13,8 +14,7 @@ namespace {
 void count_all(RunRow& row, const Run& run) {
   const auto& records = run.history().records();
   row.iterations = records.size() - 1;
-  row.seconds = 0.0;
-  for (const IterationRecord& record : records) row.seconds += record.seconds;
+  row.seconds = smoothing_seconds(run);
   const auto visits = static_cast<double>(row.iterations * run.visits_per_iteration());
   row.vertices_per_second = row.seconds > 0.0 ? visits / row.seconds : RunRow::kUnknown;
 }

@@ -1,13 +1,18 @@
 #include "app/common/smooth_report.h"
 
+#include <array>
+#include <string_view>
+
 #include <fmt/format.h>
 
 #include "app/common/console.h"
 #include "app/common/objective_report.h"
 #include "app/common/quality_report.h"
+#include "core/base/unknown_value.h"
 #include "core/numeric/simd.h"
 #include "core/reference/domain.h"
-#include "core/run/mean_given_up.h"
+#include "core/run/ending.h"
+#include "core/session/csv.h"
 #include "core/session/parameter_json.h"
 #include "core/smooth/execution/method_table.h"
 
@@ -94,8 +99,6 @@ std::string where_computed(const SmoothReport& r) {
   return r.ranks > 0 ? fmt::format("{} of {}{}", counted(r.ranks, "rank", "ranks"), threads, r.ranks > 1 ? " each" : "") : threads;
 }
 
-}  // namespace
-
 Json json_of(const SmoothReport& r) {
   const RunParameters& p = r.run.parameters();
   Json object;
@@ -167,6 +170,51 @@ void print_summary(const SmoothReport& r) {
   print("  {} in {:.3f} s, {}vertices/s on {}\n", counted(r.outcome.iterations, "iteration", "iterations"), r.seconds,
         with_prefix(r.visits_per_second()), where_computed(r));
   print("  wrote {}\n", r.output.string());
+}
+
+bool has_converged(const SmoothReport& r) { return !r.until_converged || r.outcome.reason != StopReason::IterationLimit; }
+
+}  // namespace
+
+void print_report(const SmoothReport& r, bool as_json) {
+  if (as_json) {
+    print_json(json_of(r));
+  } else {
+    print_summary(r);
+  }
+  if (!has_converged(r)) complain(fmt::format("not converged: {}", r.outcome.sentence()));
+}
+
+bool all_well(const SmoothReport& r) { return has_converged(r) && !r.left; }
+
+void require_output_moment(const std::string& word) {
+  if (word != "best" && word != "last")
+    throw UsageError("--write: " + unknown_value("moment", word, std::array<std::string_view, 2>{"best", "last"}));
+}
+
+std::string seek_output_iteration(Run& run, const std::string& write, bool until_converged, Progress& progress) {
+  const bool optimises = method_info(run.parameters().method).optimises;
+  // A number of iterations that was asked for is done, where it makes nothing worse.
+  if (write == "last" || (optimises && !until_converged)) return {};
+  const std::uint64_t ended = run.moment().iteration;
+  run.end_at_best(progress);
+  run.sync_to_host();
+  const std::uint64_t best = run.moment().iteration;
+  if (optimises || best == ended) return {};
+  return fmt::format("{} {}. Wrote {}, the best one, instead of iteration {} (--write last writes the last)", run.parameters().method,
+                     kMayMakeWorse, iteration_name(best), ended);
+}
+
+std::string stats_of(const Run& run) {
+  const std::vector<std::string> titles{stats_label(run.parameters())};
+  const std::vector<const std::vector<IterationRecord>*> records{&run.history().records()};
+  return stats_csv(titles, records);
+}
+
+double smoothing_seconds(const Run& run) {
+  double seconds = 0.0;
+  for (const IterationRecord& record : run.history().records()) seconds += record.seconds;
+  return seconds;
 }
 
 }  // namespace dmoscope::app

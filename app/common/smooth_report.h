@@ -12,7 +12,7 @@
 #include "core/inspect/held_minimum.h"
 #include "core/inspect/joint_hold.h"
 #include "core/run/crossing_faces.h"
-#include "core/run/left_inverted.h"
+#include "core/run/ending.h"
 #include "core/run/run.h"
 
 namespace dmoscope::app {
@@ -44,7 +44,18 @@ struct SmoothReport {
   }
 };
 
-[[nodiscard]] Json json_of(const SmoothReport& report);
-void print_summary(const SmoothReport& report);
+/// Prints it, for a person or as JSON, and complains where the run has not converged as was asked.
+void print_report(const SmoothReport& report, bool as_json);
+/// Whether the run ended as was asked, with no element inverted.
+[[nodiscard]] bool all_well(const SmoothReport& report);
+
+/// What is written of a run: "best" or "last". Throws UsageError.
+void require_output_moment(const std::string& word);
+/// Goes to the iteration that is written; returns a sentence where that is not the last though it was the last that was asked for.
+[[nodiscard]] std::string seek_output_iteration(Run& run, const std::string& write, bool until_converged, Progress& progress);
+/// The run's records as the text of a file, see stats_csv.
+[[nodiscard]] std::string stats_of(const Run& run);
+/// How long all iterations took.
+[[nodiscard]] double smoothing_seconds(const Run& run);
 
 }  // namespace dmoscope::app

@@ -1,6 +1,5 @@
 // mpirun -n N dmoscope smooth: the verb smooth by many processes.
 
-#include <array>
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -20,12 +19,10 @@
 #include "app/mpi/verbs.h"
 #include "core/base/error.h"
 #include "core/base/thread_pool.h"
-#include "core/base/unknown_value.h"
 #include "core/io/mesh_io.h"
 #include "core/io/writing/atomic_file.h"
-#include "core/run/missing_phase.h"
+#include "core/run/ending.h"
 #include "core/run/recipe.h"
-#include "core/session/csv.h"
 #include "core/smooth/execution/executor.h"
 #include "core/smooth/execution/method_table.h"
 #include "mpi/smooth/shared_left_inverted.h"
@@ -93,27 +90,12 @@ class ProgressLines {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// Goes to the iteration that is written; says so where it is not the last.
-std::string go_to_what_is_written(Run& run, const SharedSmoothOptions& options, Progress& progress) {
-  const bool optimises = method_info(run.parameters().method).optimises;
-  if (options.write == "last" || (optimises && !options.goal.until_converged)) return {};
-  const std::uint64_t ended = run.moment().iteration;
-  run.end_at_best(progress);
-  const std::uint64_t best = run.moment().iteration;
-  if (optimises || best == ended) return {};
-  return fmt::format("{} {}. Wrote {}, the best one, instead of iteration {} (--write last writes the last)", run.parameters().method,
-                     kMayMakeWorse, iteration_name(best), ended);
-}
-
 /// Returns what could not be kept, on rank 0.
 std::vector<std::string> write_results(const World& world, const SharedSmoothOptions& options, const Run& run, const SharedMesh& mesh,
                                        SharedMeshFile& file) {
   AtomicFiles others;
   world.together([&] {
-    if (!world.is_first() || options.stats.empty()) return;
-    const std::vector<std::string> titles{stats_label(run.parameters())};
-    const std::vector<const std::vector<IterationRecord>*> records{&run.history().records()};
-    others.add(options.stats, stats_csv(titles, records));
+    if (world.is_first() && !options.stats.empty()) others.add(options.stats, stats_of(run));
   });
   const std::vector<std::string> notes = file.write(options.output, positions_of_block(mesh, run.positions()));
   world.together([&] { others.commit(); });
@@ -121,8 +103,7 @@ std::vector<std::string> write_results(const World& world, const SharedSmoothOpt
 }
 
 void refuse_early(const SharedSmoothOptions& options) {
-  if (options.write != "best" && options.write != "last")
-    throw UsageError("--write: " + unknown_value("moment", options.write, std::array<std::string_view, 2>{"best", "last"}));
+  require_output_moment(options.write);
   require_same_kind(options.input, options.output);
   require_another_file(options.stats, "--stats", options.input);
   require_another_output(options.stats, "--stats", options.output);
@@ -171,10 +152,10 @@ int smooth(const World& world, const SharedSmoothOptions& options) {
   const auto after = [&](const Run& now) { lines.after_iteration(now); };
   Outcome outcome = options.goal.until_converged ? run.until_converged(options.goal.limits, progress, after)
                                                  : run.iterate(options.goal.iterations, progress, after);
-  double seconds = 0.0;
-  for (const IterationRecord& record : run.history().records()) seconds += record.seconds;
+  const double seconds = smoothing_seconds(run);
   for (std::string& sentence : missing_phases(run, outcome)) warn(std::move(sentence));
-  if (std::string other = go_to_what_is_written(run, options, progress); !other.empty()) warn(std::move(other));
+  if (std::string other = seek_output_iteration(run, options.write, options.goal.until_converged, progress); !other.empty())
+    warn(std::move(other));
   if (run.last_outcome()) outcome = *run.last_outcome();
   run.rest();  // writing needs memory, and the smoother's is no longer wanted
   for (const std::string& sentence : write_results(world, options, run, mesh, *file))
@@ -200,15 +181,8 @@ int smooth(const World& world, const SharedSmoothOptions& options) {
                             .inside_alone_before = inside_before,
                             .left = std::move(left),
                             .warnings = std::move(warnings)};
-  const bool reached = !options.goal.until_converged || outcome.reason != StopReason::IterationLimit;
-  const bool all_well = reached && !report.left;
-  if (!world.is_first()) return all_well ? 0 : 1;
-  if (options.json)
-    print_json(json_of(report));
-  else
-    print_summary(report);
-  if (!reached) complain(fmt::format("not converged: {}", outcome.sentence()));
-  return all_well ? 0 : 1;
+  if (world.is_first()) print_report(report, options.json);
+  return all_well(report) ? 0 : 1;
 }
 
 }  // namespace

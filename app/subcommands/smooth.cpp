@@ -1,6 +1,5 @@
 // dmoscope smooth: reads a mesh, smooths it, writes it.
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -26,22 +25,17 @@
 #include "app/subcommands/checkpoint.h"
 #include "app/subcommands/input_report.h"
 #include "app/subcommands/subcommands.h"
-#include "core/base/unknown_value.h"
 #include "core/io/commented_mesh.h"
 #include "core/io/mesh_io.h"
 #include "core/io/reading/source_file.h"
 #include "core/io/writing/atomic_file.h"
 #include "core/reference/domain.h"
 #include "core/run/crossing_faces.h"
-#include "core/run/left_inverted.h"
-#include "core/run/missing_phase.h"
+#include "core/run/ending.h"
+#include "core/run/hints.h"
 #include "core/run/recipe.h"
 #include "core/run/retry_on_cpu.h"
-#include "core/run/untangling_hint.h"
-#include "core/run/what_holds.h"
-#include "core/session/csv.h"
 #include "core/session/session.h"
-#include "core/smooth/execution/method_table.h"
 
 namespace dmoscope::app {
 namespace {
@@ -60,8 +54,7 @@ struct SmoothOptions {
 
 /// Everything that can be refused without reading the mesh.
 void refuse_early(const SmoothOptions& options) {
-  if (options.write != "best" && options.write != "last")
-    throw UsageError("--write: " + unknown_value("moment", options.write, std::array<std::string_view, 2>{"best", "last"}));
+  require_output_moment(options.write);
   require_mesh_target(options.output, options.input);
   require_another_file(options.stats, "--stats", options.input);
   if (!options.surface.empty()) {
@@ -73,17 +66,11 @@ void refuse_early(const SmoothOptions& options) {
   refuse_early(options.checkpoints, {options.input, options.output, options.stats});
 }
 
-std::string statistics(const Run& run) {
-  const std::vector<std::string> titles{stats_label(run.parameters())};
-  const std::vector<const std::vector<IterationRecord>*> records{&run.history().records()};
-  return stats_csv(titles, records);
-}
-
 /// The mesh and the statistics: none takes its place before both are on the disk. Returns what the mesh's format could not carry.
 std::vector<std::string> write_results(const SmoothOptions& options, const Run& run, const std::optional<Provenance>& provenance,
                                        const IoContext& context) {
   AtomicFiles others;
-  if (!options.stats.empty()) others.add(options.stats, statistics(run));
+  if (!options.stats.empty()) others.add(options.stats, stats_of(run));
   const std::string comment = options.provenance ? comment_of(*provenance) : std::string();
   std::vector<std::string> sentences = write_commented_mesh(options.output, run.input().mesh, run.positions(), context, comment);
   others.commit();
@@ -95,27 +82,6 @@ void require_at_goal(const Run& run, const Outcome& outcome) {
   if (run.moment().iteration == outcome.iterations) return;
   throw UsageError(fmt::format("--resume: that run has come to iteration {} already, and what is asked for ends at {}",
                                run.moment().iteration, outcome.iterations));
-}
-
-double smoothing_seconds(const Run& run) {
-  double seconds = 0.0;
-  for (const IterationRecord& record : run.history().records()) seconds += record.seconds;
-  return seconds;
-}
-
-/// Goes to the iteration that is written; says so where it is not the last.
-template <class Warn>
-void go_to_what_is_written(Run& run, const SmoothOptions& options, Progress& progress, const Warn& warn) {
-  const bool optimises = method_info(run.parameters().method).optimises;
-  // A number of iterations that was asked for is done, where it makes nothing worse.
-  if (options.write == "last" || (optimises && !options.goal.until_converged)) return;
-  const std::uint64_t ended = run.moment().iteration;
-  run.end_at_best(progress);
-  run.sync_to_host();
-  const std::uint64_t best = run.moment().iteration;
-  if (optimises || best == ended) return;
-  warn(fmt::format("{} {}. Wrote {}, the best one, instead of iteration {} (--write last writes the last)", run.parameters().method,
-                   kMayMakeWorse, iteration_name(best), ended));
 }
 
 /// Says which method gets further where elements stay inverted, and what holds the minimum.
@@ -184,7 +150,8 @@ int smooth(const SmoothOptions& options) {
   require_at_goal(run, outcome);
   const double seconds = smoothing_seconds(run);
   for (std::string& sentence : missing_phases(run, outcome)) warn(std::move(sentence));
-  go_to_what_is_written(run, options, progress, warn);
+  if (std::string other = seek_output_iteration(run, options.write, options.goal.until_converged, progress); !other.empty())
+    warn(std::move(other));
   if (run.last_outcome()) outcome = *run.last_outcome();
 
   std::optional<LeftInverted> left = find_left_inverted(run);
@@ -218,14 +185,8 @@ int smooth(const SmoothOptions& options) {
                             .held = std::move(held),
                             .warnings = std::move(warnings),
                             .provenance = std::move(provenance)};
-  if (options.json) {
-    print_json(json_of(result));
-  } else {
-    print_summary(result);
-  }
-  const bool reached = !options.goal.until_converged || outcome.reason != StopReason::IterationLimit;
-  if (!reached) complain(fmt::format("not converged: {}", outcome.sentence()));
-  return reached && !result.left ? 0 : 1;
+  print_report(result, options.json);
+  return all_well(result) ? 0 : 1;
 }
 
 }  // namespace

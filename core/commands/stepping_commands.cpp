@@ -9,8 +9,7 @@
 #include "core/base/unknown_value.h"
 #include "core/commands/command_rows.h"
 #include "core/run/crossing_faces.h"
-#include "core/run/left_inverted.h"
-#include "core/run/mean_given_up.h"
+#include "core/run/ending.h"
 #include "core/run/recipe.h"
 
 namespace dmoscope {

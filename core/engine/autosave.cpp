@@ -54,22 +54,11 @@ void Autosave::supersede(const std::vector<std::filesystem::path>& recovered) {
   }
 }
 
-bool Autosave::Mark::is(const Mark& other) const {
-  const auto same = [](const auto& a, const auto& b) {
-    return !a.first.owner_before(b.first) && !b.first.owner_before(a.first) && a.second == b.second;
-  };
-  return !input.owner_before(other.input) && !other.input.owner_before(input) &&
-         std::equal(runs.begin(), runs.end(), other.runs.begin(), other.runs.end(), same);
-}
-
 Autosave::Mark Autosave::mark_of(Session& session) {
   Mark mark;
   if (!session.has_input()) return mark;
   mark.input = session.input();
-  for (std::size_t i = 0; i < session.run_count(); ++i) {
-    const Run& run = session.run(i);
-    mark.runs.push_back({session.identity(i), {run.path(), run.moment()}});
-  }
+  for (std::size_t i = 0; i < session.run_count(); ++i) mark.runs.push_back(session.standing(i));
   return mark;
 }
 

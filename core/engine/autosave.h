@@ -60,8 +60,8 @@ class Autosave {
   /// Which state of a session it is.
   struct Mark {
     std::weak_ptr<const InputMesh> input;
-    std::vector<std::pair<std::weak_ptr<const Run>, std::pair<std::uint64_t, Moment>>> runs;  // with path
-    [[nodiscard]] bool is(const Mark& other) const;
+    std::vector<StandingRun> runs;
+    [[nodiscard]] bool is(const Mark& other) const { return input.lock() == other.input.lock() && runs == other.runs; }
   };
   struct Job {
     SessionStanding session;

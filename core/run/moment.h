@@ -3,6 +3,7 @@
 
 #include <compare>
 #include <cstdint>
+#include <memory>
 
 namespace dmoscope {
 
@@ -15,6 +16,17 @@ struct Moment {
   friend auto operator<=>(const Moment&, const Moment&) = default;
   /// Whether it is the end of an iteration (or the input), which is what the history records and keeps.
   [[nodiscard]] bool is_iteration_end() const noexcept { return visits == 0 && edits == 0; }
+};
+
+class Run;
+
+/// A run as it stood: what was found out about it then holds wherever this is equal.
+struct StandingRun {
+  std::weak_ptr<const Run> run;
+  std::uint64_t path = 0;  // see Run::path
+  Moment moment{};
+  [[nodiscard]] bool is_of(const StandingRun& other) const { return !run.expired() && run.lock() == other.run.lock(); }
+  friend bool operator==(const StandingRun& a, const StandingRun& b) { return a.is_of(b) && a.path == b.path && a.moment == b.moment; }
 };
 
 }  // namespace dmoscope

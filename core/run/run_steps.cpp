@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/stopwatch.h"
-#include "core/run/left_inverted.h"
+#include "core/run/ending.h"
 #include "core/run/run.h"
 #include "core/run/sweep_after.h"
 #include "core/smooth/execution/method_table.h"

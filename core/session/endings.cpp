@@ -24,11 +24,8 @@ std::shared_ptr<const RunEnding> ending_of(const Run& run) {
 }  // namespace
 
 const Endings::Known* Endings::find_known(Session& session, std::size_t index) const {
-  const Run& run = session.run(index);
-  if (!is_ending(run)) return nullptr;
-  const auto at = std::ranges::find_if(known_, [&](const Known& known) {
-    return known.run.lock() == session.identity(index).lock() && known.path == run.path() && known.moment == run.moment();
-  });
+  if (!is_ending(session.run(index))) return nullptr;
+  const auto at = std::ranges::find(known_, session.standing(index), &Known::at);
   return at == known_.end() ? nullptr : &*at;
 }
 
@@ -46,7 +43,7 @@ bool Endings::find(Session& session, const std::function<bool()>& go_on) {
     if (const Known* known = find_known(session, i)) {
       all.push_back(*known);
     } else if (go_on()) {
-      all.push_back({session.identity(i), run.path(), run.moment(), ending_of(run), false});
+      all.push_back({session.standing(i), ending_of(run), false});
       found = found || all.back().ending;
     }
   }

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/run/crossing_faces.h"
-#include "core/run/left_inverted.h"
-#include "core/run/untangling_hint.h"
+#include "core/run/ending.h"
+#include "core/run/hints.h"
 #include "core/session/session.h"
 
 namespace dmoscope {
@@ -34,9 +34,7 @@ class Endings {
 
  private:
   struct Known {
-    std::weak_ptr<const Run> run;
-    std::uint64_t path = 0;
-    Moment moment;
+    StandingRun at;
     std::shared_ptr<const RunEnding> ending;
     bool tried = false;  // other methods
   };

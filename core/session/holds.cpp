@@ -15,18 +15,14 @@ constexpr std::size_t kMostHoldDomains = 3;  // that are kept: the next moment a
 }  // namespace
 
 const Holds::Known* Holds::find_known(Session& session, std::size_t index) const {
-  const Run& run = session.run(index);
-  const auto at = std::ranges::find_if(known_, [&](const Known& known) {
-    return known.run.lock() == session.identity(index).lock() && known.path == run.path() && known.moment == run.moment();
-  });
+  const auto at = std::ranges::find(known_, session.standing(index), &Known::at);
   return at == known_.end() ? nullptr : &*at;
 }
 
 Holds::Latest Holds::of(Session& session, std::size_t index) const {
-  const auto run = session.identity(index).lock();
-  const auto at = std::ranges::find_if(known_, [&](const Known& known) { return known.run.lock() == run; });
-  if (at == known_.end()) return {};
-  return {at->found, at->path == run->path() && at->moment == run->moment()};
+  const StandingRun now = session.standing(index);
+  const auto at = std::ranges::find_if(known_, [&](const Known& known) { return known.at.is_of(now); });
+  return at == known_.end() ? Latest{} : Latest{at->found, at->at == now};
 }
 
 std::shared_ptr<const Domain> Holds::domain(const std::shared_ptr<const InputMesh>& input, const StandingRule& rule) {
@@ -46,9 +42,9 @@ std::shared_ptr<const HeldMinimum> Holds::find(Session& session, std::size_t ind
   const auto domains = [&](const StandingRule& rule) { return domain(run.shared_input(), rule); };
   auto found = what_holds(run, session.pool().get(), progress, {domains, go_on, static_cast<bool>(go_on)});
   if (found && !found->untried.empty()) throw Cancelled();
-  const auto here = session.identity(index);
-  std::erase_if(known_, [&](const Known& known) { return known.run.expired() || known.run.lock() == here.lock(); });
-  known_.push_back({here, run.path(), run.moment(), found ? std::make_shared<const HeldMinimum>(std::move(*found)) : nullptr});
+  const StandingRun here = session.standing(index);
+  std::erase_if(known_, [&](const Known& known) { return known.at.run.expired() || known.at.is_of(here); });
+  known_.push_back({here, found ? std::make_shared<const HeldMinimum>(std::move(*found)) : nullptr});
   return known_.back().found;
 }
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/run/what_holds.h"
+#include "core/run/hints.h"
 
 namespace dmoscope {
 
@@ -29,9 +29,7 @@ class Holds {
 
  private:
   struct Known {
-    std::weak_ptr<const Run> run;
-    std::uint64_t path = 0;
-    Moment moment;
+    StandingRun at;
     std::shared_ptr<const HeldMinimum> found;
   };
   struct KnownDomain {

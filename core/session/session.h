@@ -77,6 +77,7 @@ class Session {
   [[nodiscard]] Run& run(std::size_t index);
   /// The same, to tell one run from another.
   [[nodiscard]] std::weak_ptr<const Run> identity(std::size_t index) { return (void)run(index), runs_[index]; }
+  [[nodiscard]] StandingRun standing(std::size_t index) { return {identity(index), runs_[index]->path(), runs_[index]->moment()}; }
   /// Where in the list the run with this id (see Run::id) is.
   [[nodiscard]] std::optional<std::size_t> place_of(std::uint64_t id) const;
   [[nodiscard]] std::size_t active_index() const noexcept { return active_; }

@@ -92,18 +92,16 @@ std::shared_ptr<const InputSpread> FrameBuilder::spread_at(Session& session, Inp
 }
 
 bool FrameBuilder::FrameKey::is(const FrameKey& other) const {
-  const bool same_run = index == Frame::kNoRun || (!run.expired() && run.lock() == other.run.lock());
-  return same_run && index == other.index && path == other.path && moment == other.moment && shown == other.shown && rule == other.rule;
+  return index == other.index && (index == Frame::kNoRun || at == other.at) && shown == other.shown && rule == other.rule;
 }
 
 FrameBuilder::FrameKey FrameBuilder::key_of(Session& session, std::size_t index) {
-  const Run& run = session.run(index);
-  return {session.identity(index), index, run.path(), run.moment(), session.shown(), {}};
+  return {session.standing(index), index, session.shown(), {}};
 }
 
 FrameBuilder::FrameKey FrameBuilder::key_of(Session& session, std::size_t index, std::uint64_t iteration) {
   FrameKey key = key_of(session, index);
-  key.moment = {iteration};
+  key.at.moment = {iteration};
   return key;
 }
 
@@ -134,7 +132,7 @@ std::shared_ptr<Frame> FrameBuilder::begin(Session& session, const FrameKey& key
   frame->input_serial = facts.serial;
   frame->input = facts.input;
   frame->run = key.index;
-  frame->moment = key.moment;
+  frame->moment = key.at.moment;
   frame->shown = key.shown;
   frame->input_spread = spread_at(session, facts, detail);
   frame->provisional = frame->input_spread == nullptr;

@@ -35,10 +35,8 @@ class FrameBuilder {
  private:
   /// What a frame is of: as long as it is the same, so is the frame.
   struct FrameKey {
-    std::weak_ptr<const Run> run;  // none: the input
+    StandingRun at{};  // of no run: the input
     std::size_t index = Frame::kNoRun;
-    std::uint64_t path = 0;
-    Moment moment;
     Metric shown = Metric::MeanRatio;
     StandingRule rule{};  // of the input: what stays there, as for the active run
     [[nodiscard]] bool is(const FrameKey& other) const;

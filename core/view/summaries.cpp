@@ -30,16 +30,9 @@ RunSummary summary_of(const Frame& frame) {
   return summary;
 }
 
-bool Summaries::fits(const Known& known, Session& session, std::size_t index) {
-  const auto run = session.identity(index).lock();
-  return known.run.lock() == run && known.path == run->path() && known.summary->moment == run->moment() &&
-         known.summary->metric == session.shown();
-}
-
 std::shared_ptr<const RunSummary> Summaries::of(Session& session, std::size_t run) const {
-  for (const Known& known : known_)
-    if (fits(known, session, run)) return known.summary;
-  return nullptr;
+  const auto known = std::ranges::find(known_, session.standing(run), &Known::at);
+  return known == known_.end() || known->summary->metric != session.shown() ? nullptr : known->summary;
 }
 
 StandingRule Summaries::rule_of(Session& session, const std::shared_ptr<const InputMesh>& input) {
@@ -82,7 +75,7 @@ SizeCourse Summaries::sizes_of(Session& session, std::size_t index, std::span<co
   if (!run->size_field()) return {};
   SizeCourse sizes;
   // What the mesh was at the input stays, wherever the run goes.
-  const auto before = std::ranges::find_if(known_, [&](const Known& one) { return one.run.lock() == run; });
+  const auto before = std::ranges::find_if(known_, [&](const Known& one) { return one.at.run.lock() == run; });
   sizes.before = before != known_.end() ? before->summary->sizes.before : size_correlation_at_input(*run);
   sizes.after = size_correlation(*run->size_field(), run->input(), positions, run->colouring().order);
   return sizes;
@@ -102,7 +95,7 @@ bool Summaries::find(Session& session, const std::function<const Frame*(std::siz
       summary = std::make_shared<const RunSummary>(std::move(found_now));
       found = true;
     }
-    if (summary) known.push_back({session.identity(i), session.run(i).path(), std::move(summary)});
+    if (summary) known.push_back({session.standing(i), std::move(summary)});
   }
   known_ = std::move(known);
   return found;

@@ -32,8 +32,7 @@ class Summaries {
 
  private:
   struct Known {
-    std::weak_ptr<const Run> run;
-    std::uint64_t path = 0;
+    StandingRun at;
     std::shared_ptr<const RunSummary> summary;
   };
   [[nodiscard]] SizeCourse sizes_of(Session& session, std::size_t run, std::span<const Vec3> positions) const;
@@ -44,7 +43,6 @@ class Summaries {
   };
   bool find_inputs(Session& session, const std::function<bool()>& go_on);
   [[nodiscard]] static StandingRule rule_of(Session& session, const std::shared_ptr<const InputMesh>& input);
-  [[nodiscard]] static bool fits(const Known& known, Session& session, std::size_t run);
   std::vector<Known> known_;        // one a run
   std::vector<KnownInput> inputs_;  // one a mesh
 };

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "core/run/left_inverted.h"
+#include "core/run/ending.h"
 #include "mpi/smooth/rank_share.h"
 
 namespace dmoscope {

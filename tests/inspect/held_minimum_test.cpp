@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/run/what_holds.h"
+#include "core/run/hints.h"
 #include "tests/support/meshes.h"
 #include "tests/support/volume_grids.h"
 

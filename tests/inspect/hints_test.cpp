@@ -1,13 +1,12 @@
 // What is looked for once a run is done: of any mix of mesh, method and aims, ended at any moment, and no more promised than was tried.
 
+#include "core/run/hints.h"
+
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/run/hint_budget.h"
 #include "core/run/run_task.h"
-#include "core/run/untangling_hint.h"
-#include "core/run/what_holds.h"
 #include "tests/support/meshes.h"
 #include "tests/support/volume_grids.h"
 

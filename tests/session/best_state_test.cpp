@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 
 #include "core/base/same_bits.h"
-#include "core/run/left_inverted.h"
+#include "core/run/ending.h"
 #include "core/run/run.h"
 #include "tests/session/spoken_session.h"
 #include "tests/support/meshes.h"

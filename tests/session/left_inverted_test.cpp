@@ -1,12 +1,11 @@
 // What is said of elements that stay inverted, which state is the best of a run, and by what rule each iteration is done: told from
 // records alone.
 
-#include "core/run/left_inverted.h"
-
 #include <tuple>
 
 #include <gmock/gmock.h>
 
+#include "core/run/ending.h"
 #include "core/run/sweep_after.h"
 #include "tests/session/spoken_session.h"
 #include "tests/support/meshes.h"

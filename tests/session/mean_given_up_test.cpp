@@ -1,13 +1,12 @@
 // What max-min costs the mean is said, and what is said holds.
 
-#include "core/run/mean_given_up.h"
-
 #include <algorithm>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "core/base/number_text.h"
+#include "core/run/ending.h"
 #include "tests/session/spoken_session.h"
 #include "tests/support/meshes.h"
 

@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/run/left_inverted.h"
-#include "core/run/mean_given_up.h"
+#include "core/run/ending.h"
 #include "ui/commands/command_words.h"
 #include "ui/state/format.h"
 

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "core/run/left_inverted.h"
+#include "core/run/ending.h"
 #include "core/smooth/execution/method_table.h"
 #include "ui/panels/panels.h"
 #include "ui/state/format.h"

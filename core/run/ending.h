@@ -1,9 +1,13 @@
 #pragma once
-// What a person should look at where elements stay inverted.
+// What a person should know of a run that has come to its end: elements that stay inverted, a better iteration before, what the mean lost,
+// and phases that never began.
 
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/run/run.h"
 
@@ -37,5 +41,20 @@ inline constexpr std::string_view kMayMakeWorse = "may make elements worse";
 /// "laplace may make elements worse: the best it passed through is iteration 2, not iteration 202"; empty of a method that optimises, and
 /// where the best is the last.
 [[nodiscard]] std::string worse_than_best(const RunParameters& parameters, std::uint64_t best, std::uint64_t last);
+
+/// How minimum and mean stand at the end of an iteration, against the input: "minimum 0.301 -> 0.428, mean 0.781 -> 0.654".
+[[nodiscard]] std::string course_text(std::span<const IterationRecord> records, std::uint64_t iteration);
+
+/// "the mean fell from 0.957 (iteration 2) to 0.844 for the sake of the worst element; a second phase raises it and keeps the minimum".
+/// Empty where the mean has not fallen by more than 0.005 since no element has been inverted, and of a run that raises the
+/// mean, has two aims, or does not optimise. `iteration`: at whose end the run stands.
+[[nodiscard]] std::string mean_given_up(const RunParameters& parameters, std::span<const IterationRecord> records, std::uint64_t iteration);
+
+/// Of a method that does not optimise: "laplace made elements worse: the minimum fell from 0.653 to 0.573". Empty where neither the minimum
+/// has fallen nor more elements are inverted than at the input.
+[[nodiscard]] std::string made_worse(const RunParameters& parameters, std::span<const IterationRecord> records, std::uint64_t iteration);
+
+/// A sentence for each phase that was asked for and never began, with what would make it begin, as the command line names it; usually none.
+[[nodiscard]] std::vector<std::string> missing_phases(const Run& run, const Outcome& outcome);
 
 }  // namespace dmoscope

@@ -13,31 +13,24 @@
 
 #include "core/io/abaqus/abaqus.h"
 #include "core/io/abaqus/abaqus_sets.h"
-#include "core/io/boundary_strings.h"
 #include "core/io/element_sides.h"
+#include "core/io/mesh_writer.h"
 #include "core/io/writing/field_number.h"
-#include "core/io/writing/text_writer.h"
 
 namespace dmoscope {
 namespace {
 
-class AbaqusWriter {
+class AbaqusWriter : MeshWriter {
  public:
   AbaqusWriter(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context)
-      : out_(file, context), mesh_(mesh), positions_(positions), groups_(groups_with_edges(mesh, "surface", notes_)) {
-    const auto kinds = mesh.elements.kinds();
-    volume_ = std::any_of(kinds.begin(), kinds.end(), [](ElementKind kind) { return info(kind).dimension == 3; });
-    plane_ = !volume_ && std::all_of(positions.begin(), positions.end(), [](Vec3 p) { return p.z == 0.0; });
-  }
+      : MeshWriter(file, mesh, positions, context, abaqus_format().info.title, "surface") {}
 
   Notes write() {
     out_ << "*HEADING\n" << heading() << '\n';
     nodes();
     elements();
     for (std::size_t i = 0; i < groups_.size(); ++i) group(i);
-    out_.finish();
-    note_dropped(mesh_, {}, kept_groups_, abaqus_format().info.title, notes_);
-    return std::move(notes_);
+    return finish();
   }
 
  private:
@@ -71,21 +64,9 @@ class AbaqusWriter {
   }
 
   [[nodiscard]] std::string_view type_of(ElementKind kind) const {
-    switch (kind) {
-      case ElementKind::Triangle:
-        return plane_ ? "CPS3" : "S3";
-      case ElementKind::Quadrilateral:
-        return plane_ ? "CPS4" : "S4";
-      case ElementKind::Tetrahedron:
-        return "C3D4";
-      case ElementKind::Hexahedron:
-        return "C3D8";
-      case ElementKind::Wedge:
-        return "C3D6";
-      case ElementKind::Pyramid:
-        return "C3D5";
-    }
-    return {};
+    constexpr std::array<std::string_view, kElementKindCount> kInSpace{"S3", "S4", "C3D4", "C3D8", "C3D6", "C3D5"};  // in its order
+    if (plane_ && info(kind).dimension == 2) return kind == ElementKind::Triangle ? "CPS3" : "CPS4";
+    return kInSpace[static_cast<std::size_t>(kind)];
   }
 
   /// In the mesh's order: a keyword for each run of one kind.
@@ -198,15 +179,8 @@ class AbaqusWriter {
     kept_groups_.push_back(i);
   }
 
-  TextWriter out_;
-  const Mesh& mesh_;
-  std::span<const Vec3> positions_;
-  Notes notes_;
-  std::vector<Group> groups_;  // the mesh's, boundary strings by their edges
-  bool volume_ = false;
-  bool plane_ = false;
+  const bool volume_ = is_volume(), plane_ = is_flat();
   std::set<std::string> node_sets_, element_sets_, surfaces_;
-  std::vector<std::size_t> kept_groups_;
 };
 
 }  // namespace

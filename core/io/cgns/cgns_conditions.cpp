@@ -35,26 +35,9 @@ bool take_numbers(const CgnsTree& tree, const CgnsNode& node, CgnsCondition& int
 }  // namespace
 
 std::optional<CellShape> cgns_shape(std::int64_t type) noexcept {
-  switch (type) {
-    case 2:
-      return CellShape::Point;
-    case 3:
-      return CellShape::Line;
-    case 5:
-      return CellShape::Triangle;
-    case 7:
-      return CellShape::Quadrilateral;
-    case 10:
-      return CellShape::Tetrahedron;
-    case 12:
-      return CellShape::Pyramid;
-    case 14:
-      return CellShape::Wedge;
-    case 17:
-      return CellShape::Hexahedron;
-    default:
-      return std::nullopt;
-  }
+  constexpr std::array<std::int64_t, kCellShapeCount> kTypes{2, 3, 5, 7, 10, 17, 14, 12};  // in the order of CellShape
+  const auto* const at = std::ranges::find(kTypes, type);
+  return at == kTypes.end() ? std::nullopt : std::optional(static_cast<CellShape>(at - kTypes.begin()));
 }
 
 std::string cgns_type_name(std::int64_t type) {

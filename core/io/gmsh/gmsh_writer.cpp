@@ -9,41 +9,33 @@
 
 #include <fmt/format.h>
 
-#include "core/io/boundary_strings.h"
 #include "core/io/gmsh/gmsh.h"
-#include "core/io/writing/text_writer.h"
+#include "core/io/mesh_writer.h"
+#include "core/io/writing/one_line.h"
 
 namespace dmoscope {
 namespace {
 
-class GmshWriter {
+class GmshWriter : MeshWriter {
  public:
   GmshWriter(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context)
-      : out_(file, context),
-        mesh_(mesh),
-        positions_(positions),
-        groups_(groups_with_edges(mesh, "physical group", notes_)),
-        numbers_(numbers_of_groups(groups_)) {}
+      : MeshWriter(file, mesh, positions, context, gmsh_format().info.title, "physical group") {}
 
   Notes write() {
     out_ << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
     if (!mesh_.title.empty()) out_ << "$Comments\n" << one_line(mesh_.title) << "\n$EndComments\n";
-    const std::vector<int> physical = numbers_of_elements(mesh_, numbers_, gmsh_format().info.title, notes_);
+    const std::vector<int> physical = numbers_of_elements(mesh_, numbers_, title_, notes_);
     names();
     nodes();
     elements(physical);
     for (std::size_t i = 0; i < mesh_.fields.size(); ++i) data(i);
-    out_.finish();
-    note_dropped(mesh_, kept_fields_, kept_groups_, gmsh_format().info.title, notes_);
-    return std::move(notes_);
+    return finish();
   }
 
  private:
   static std::string one_line(std::string text) {
-    for (char& c : text) {
-      if (c == '\n' || c == '\r') c = ' ';
-      if (c == '"') c = '\'';
-    }
+    text = without_line_ends(std::move(text));
+    std::ranges::replace(text, '"', '\'');
     return text;
   }
 
@@ -158,14 +150,7 @@ class GmshWriter {
     out_ << "$End" << section << '\n';
   }
 
-  TextWriter out_;
-  const Mesh& mesh_;
-  std::span<const Vec3> positions_;
-  Notes notes_;
-  std::vector<Group> groups_;  // the mesh's, boundary strings by their edges
-  std::vector<int> numbers_;   // of groups
   std::size_t first_element_ = 1;
-  std::vector<std::size_t> kept_fields_, kept_groups_;
 };
 
 }  // namespace

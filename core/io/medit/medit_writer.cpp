@@ -9,12 +9,10 @@
 
 #include <fmt/format.h>
 
-#include "core/io/boundary_strings.h"
-#include "core/io/cell_table.h"
 #include "core/io/medit/medit.h"
+#include "core/io/mesh_writer.h"
 #include "core/io/reading/tokenizer.h"
 #include "core/io/writing/one_line.h"
-#include "core/io/writing/text_writer.h"
 
 namespace dmoscope {
 namespace {
@@ -48,14 +46,10 @@ std::array<Index, 4> face_key(std::span<const Index> corners) {
   return key;
 }
 
-class MeditWriter {
+class MeditWriter : MeshWriter {
  public:
   MeditWriter(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context)
-      : out_(file, context),
-        mesh_(mesh),
-        positions_(positions),
-        groups_(groups_with_edges(mesh, "reference", notes_)),
-        numbers_(numbers_of_groups(groups_)) {
+      : MeshWriter(file, mesh, positions, context, medit_format().info.title, "reference") {
     for (std::size_t i = 0; i < numbers_.size(); ++i) {
       // Cells without a reference are a group when they are no elements: they get none again.
       if (groups_[i].role == kMeditReference && groups_[i].code == 0) numbers_[i] = 0;
@@ -65,9 +59,7 @@ class MeditWriter {
   }
 
   Notes write() {
-    const auto kinds = mesh_.elements.kinds();
-    const bool volume = std::any_of(kinds.begin(), kinds.end(), [](ElementKind kind) { return info(kind).dimension == 3; });
-    const bool flat = !volume && std::all_of(positions_.begin(), positions_.end(), [](Vec3 p) { return p.z == 0.0; });
+    const bool flat = is_flat();
     out_ << kMeditSignature << " 2\n";
     if (!mesh_.title.empty()) out_ << "# " << one_line(mesh_.title) << '\n';
     out_ << "Dimension " << (flat ? 2 : 3) << '\n';
@@ -77,10 +69,8 @@ class MeditWriter {
     elements();
     marks();
     out_ << "End\n";
-    out_.finish();
     note_names();
-    note_dropped(mesh_, kept_fields_, kept_groups_, medit_format().info.title, notes_);
-    return std::move(notes_);
+    return finish();
   }
 
  private:
@@ -197,7 +187,7 @@ class MeditWriter {
     const std::size_t fields = kept_fields_.size();
     std::vector<int> references = references_of(Field::On::Elements, std::vector<int>(mesh_.elements.size(), 0));
     if (fields == kept_fields_.size()) {
-      references = numbers_of_elements(mesh_, numbers_, medit_format().info.title, notes_);
+      references = numbers_of_elements(mesh_, numbers_, title_, notes_);
       for (std::size_t i = 0; i < groups_.size(); ++i) {
         if (groups_[i].of_elements() && marks_[i] == nullptr) keep(i);
       }
@@ -246,18 +236,11 @@ class MeditWriter {
     return numbers;
   }
 
-  TextWriter out_;
-  const Mesh& mesh_;
-  std::span<const Vec3> positions_;
-  Notes notes_;
-  std::vector<Group> groups_;                                    // the mesh's, boundary strings by their edges
-  std::vector<int> numbers_;                                     // of groups
   std::map<std::pair<Index, Index>, std::size_t> edge_numbers_;  // the first of each, smaller vertex first
   std::map<std::array<Index, 4>, std::size_t> face_numbers_;     // likewise, by ascending corners
   std::vector<std::size_t> element_numbers_;                     // of each element among those of its kind
   std::vector<const MeditMark*> marks_;                          // of each group; null: it is none
-  std::vector<std::size_t> kept_fields_, kept_groups_;
-  std::vector<std::size_t> unnamed_;  // groups whose names are not in the file
+  std::vector<std::size_t> unnamed_;                             // groups whose names are not in the file
 };
 
 }  // namespace

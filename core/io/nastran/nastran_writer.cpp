@@ -12,12 +12,11 @@
 
 #include "core/base/error.h"
 #include "core/base/same_bits.h"
-#include "core/io/boundary_strings.h"
-#include "core/io/cell_table.h"
+#include "core/io/mesh_writer.h"
 #include "core/io/nastran/nastran.h"
 #include "core/io/nastran/nastran_cards.h"
 #include "core/io/writing/field_number.h"
-#include "core/io/writing/text_writer.h"
+#include "core/io/writing/one_line.h"
 
 namespace dmoscope {
 namespace {
@@ -44,14 +43,10 @@ std::string rounding_note(std::size_t rounded) {
   return fmt::format("{} coordinates were rounded to the {} characters that Nastran has for a number.", rounded, kNastranNumber);
 }
 
-class NastranWriter {
+class NastranWriter : MeshWriter {
  public:
   NastranWriter(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context)
-      : file_(file),
-        out_(file, context),
-        mesh_(mesh),
-        positions_(positions),
-        groups_(groups_with_edges(mesh, "property of lines", notes_)) {
+      : MeshWriter(file, mesh, positions, context, nastran_format().info.title, "property of lines"), file_(file) {
     number_groups();
   }
 
@@ -62,27 +57,17 @@ class NastranWriter {
       throw OutputError(file_.path().string(), fmt::format("Nastran numbers {} nodes and elements at most", kMostNumber));
     }
     out_ << "CEND\n";
-    if (!mesh_.title.empty()) out_ << "TITLE = " << one_line(mesh_.title) << '\n';
+    if (!mesh_.title.empty()) out_ << "TITLE = " << in_quotes(mesh_.title) << '\n';
     out_ << "BEGIN BULK\n";
     names();
     nodes();
     elements();
     for (std::size_t i = 0; i < groups_.size(); ++i) cells_of(i);
     out_ << "ENDDATA\n";
-    out_.finish();
-    note_dropped(mesh_, {}, kept_groups_, nastran_format().info.title, notes_);
-    return std::move(notes_);
+    return finish();
   }
 
  private:
-  static std::string one_line(std::string text) {
-    for (char& c : text) {
-      if (static_cast<unsigned char>(c) < 0x20) c = ' ';
-      if (c == '"') c = '\'';
-    }
-    return text;
-  }
-
   /// Properties are numbered together, whatever they are of.
   void number_groups() {
     std::set<int> used;
@@ -113,7 +98,7 @@ class NastranWriter {
       if (members(groups_[i]) == 0 && (!groups_[i].of_elements() || groups_[i].members.empty())) continue;
       kept_groups_.push_back(i);
       if (groups_[i].name == fmt::format("property {}", numbers_[i])) continue;
-      out_ << fmt::format("$HMNAME PROP{:>20}\"{}\"\n", numbers_[i], one_line(groups_[i].name));
+      out_ << fmt::format("$HMNAME PROP{:>20}\"{}\"\n", numbers_[i], in_quotes(groups_[i].name));
     }
   }
 
@@ -143,7 +128,7 @@ class NastranWriter {
   }
 
   void elements() {
-    const std::vector<int> properties = numbers_of_elements(mesh_, numbers_, nastran_format().info.title, notes_);
+    const std::vector<int> properties = numbers_of_elements(mesh_, numbers_, title_, notes_);
     out_.for_each(mesh_.elements.size(), [&](TextBuffer& part, std::size_t i) {
       const auto e = static_cast<Index>(i);
       std::array<Index, 8> buffer{};
@@ -167,15 +152,8 @@ class NastranWriter {
   }
 
   AtomicFile& file_;
-  TextWriter out_;
-  const Mesh& mesh_;
-  std::span<const Vec3> positions_;
-  Notes notes_;
-  std::vector<Group> groups_;  // the mesh's, boundary strings by their edges
-  std::vector<int> numbers_;   // of groups
-  int no_group_ = 1;           // property of elements without a group
-  std::size_t next_ = 1;       // number of an element
-  std::vector<std::size_t> kept_groups_;
+  int no_group_ = 1;      // property of elements without a group
+  std::size_t next_ = 1;  // number of an element
 };
 
 /// What stands in the file's card with the coordinates that moved; those that did not keep their characters.

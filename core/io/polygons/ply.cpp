@@ -11,11 +11,11 @@
 #include <fmt/format.h>
 
 #include "core/base/memory.h"
-#include "core/io/format.h"
+#include "core/io/mesh_writer.h"
 #include "core/io/polygons/ply_header.h"
 #include "core/io/reading/binary_scalar.h"
 #include "core/io/reading/mixed_input.h"
-#include "core/io/writing/text_writer.h"
+#include "core/io/writing/one_line.h"
 
 namespace dmoscope {
 namespace {
@@ -270,16 +270,16 @@ struct Column {
   ScalarType type;
 };
 
-class PlyWriter {
+class PlyWriter : MeshWriter {
  public:
   PlyWriter(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context)
-      : out_(file, context), mesh_(mesh), positions_(positions) {}
+      : MeshWriter(file, mesh, positions, context, "PLY") {}
 
   Notes write() {
     const std::vector<Column> of_vertices = columns(Field::On::Vertices, positions_.size(), kAxes);
     const std::vector<Column> of_faces = columns(Field::On::Elements, mesh_.elements.size(), kCorners);
     out_ << "ply\nformat ascii 1.0\n";
-    if (!mesh_.title.empty()) out_ << "comment " << one_line(mesh_.title) << '\n';
+    if (!mesh_.title.empty()) out_ << "comment " << without_line_ends(mesh_.title) << '\n';
     out_ << "element vertex " << positions_.size() << "\nproperty double x\nproperty double y\nproperty double z\n";
     declare(of_vertices);
     out_ << "element face " << mesh_.elements.size() << "\nproperty list uchar uint vertex_indices\n";
@@ -296,25 +296,16 @@ class PlyWriter {
       for (const Index corner : corners) part << ' ' << corner;
       values(part, of_faces, e);
     });
-    out_.finish();
-    note_dropped(mesh_, kept_, {}, "PLY", notes_);
-    return std::move(notes_);
+    return finish();
   }
 
  private:
-  static std::string one_line(std::string text) {
-    for (char& c : text) {
-      if (c == '\n' || c == '\r') c = ' ';
-    }
-    return text;
-  }
-
   std::vector<Column> columns(Field::On on, std::size_t count, std::span<const std::string_view> reserved) {
     std::vector<Column> result;
     for (std::size_t i = 0; i < mesh_.fields.size(); ++i) {
       const Field& field = mesh_.fields[i];
       if (field.on != on || field.components != 1 || field.values.size() != count) continue;
-      kept_.push_back(i);
+      kept_fields_.push_back(i);
       std::string name = field.name.empty() ? "unnamed" : field.name;
       for (char& c : name) {
         if (static_cast<unsigned char>(c) <= ' ' || c == 0x7f) c = '_';
@@ -352,12 +343,6 @@ class PlyWriter {
     }
     part << '\n';
   }
-
-  TextWriter out_;
-  const Mesh& mesh_;
-  std::span<const Vec3> positions_;
-  std::vector<std::size_t> kept_;
-  Notes notes_;
 };
 
 Notes write_ply(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {

@@ -16,6 +16,7 @@
 #include "core/io/format.h"
 #include "core/io/reading/tokenizer.h"
 #include "core/io/solvers/fort14_text.h"
+#include "core/io/writing/one_line.h"
 #include "core/io/writing/text_writer.h"
 
 namespace dmoscope {
@@ -192,10 +193,7 @@ Notes write_fort14(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> pos
   };
 
   TextWriter out(file, context);
-  std::string name = mesh.title.empty() ? mesh.name : mesh.title;
-  std::ranges::replace_if(
-      name, [](char c) { return c == '\n' || c == '\r'; }, ' ');
-  out << name << '\n';
+  out << without_line_ends(mesh.title.empty() ? mesh.name : mesh.title) << '\n';
   out << mesh.elements.size() << ' ' << positions.size() << '\n';
   out.for_each(positions.size(), [&](TextBuffer& part, std::size_t v) {
     part << v + 1 << ' ' << positions[v].x << ' ' << positions[v].y << ' ' << depth_of(v) << '\n';

@@ -16,11 +16,10 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/io/boundary_strings.h"
-#include "core/io/format.h"
+#include "core/io/mesh_writer.h"
 #include "core/io/numbered_mesh.h"
 #include "core/io/reading/tokenizer.h"
-#include "core/io/writing/text_writer.h"
+#include "core/io/writing/one_line.h"
 
 namespace dmoscope {
 namespace {
@@ -260,20 +259,16 @@ bool recognises_2dm(std::string_view bytes) {
 
 // --- Writing anew ---
 
-class Writer {
+class Writer : MeshWriter {
  public:
   Writer(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context)
-      : out_(file, context),
-        mesh_(mesh),
-        positions_(positions),
-        groups_(groups_with_edges(mesh, kString, notes_)),
-        numbers_(numbers_of_groups(groups_)) {
-    require_surface_elements(file, mesh, title());
-    require_constant_z(file, positions, title(), notes_);
+      : MeshWriter(file, mesh, positions, context, sms_2dm_format().info.title, kString) {
+    require_surface_elements(file, mesh, title_);
+    require_constant_z(file, positions, title_, notes_);
   }
 
   Notes write() {
-    const std::vector<int> materials = numbers_of_elements(mesh_, numbers_, title(), notes_);
+    const std::vector<int> materials = numbers_of_elements(mesh_, numbers_, title_, notes_);
     out_ << k2dmSignature << '\n';
     if (!mesh_.title.empty()) out_ << "MESHNAME \"" << in_quotes(mesh_.title) << "\"\n";
     out_.for_each(mesh_.elements.size(), [&](TextBuffer& part, std::size_t i) {
@@ -287,22 +282,10 @@ class Writer {
     nodes();
     for (std::size_t i = 0; i < groups_.size(); ++i) strings(i);
     material_names();
-    out_.finish();
-    note_dropped(mesh_, kept_fields_, kept_groups_, title(), notes_);
-    return std::move(notes_);
+    return finish();
   }
 
  private:
-  static std::string_view title() { return sms_2dm_format().info.title; }
-
-  static std::string in_quotes(std::string text) {
-    for (char& c : text) {
-      if (static_cast<unsigned char>(c) < 0x20) c = ' ';
-      if (c == '"') c = '\'';
-    }
-    return text;
-  }
-
   /// What each node's elevation is. A depth counts downwards.
   std::vector<double> elevations() {
     std::vector<double> values(positions_.size(), 0.0);
@@ -381,14 +364,6 @@ class Writer {
     }
     if (begun) out_ << "END2DMBC\n";
   }
-
-  TextWriter out_;
-  const Mesh& mesh_;
-  std::span<const Vec3> positions_;
-  Notes notes_;
-  std::vector<Group> groups_;  // the mesh's, boundary strings by their edges
-  std::vector<int> numbers_;   // of groups
-  std::vector<std::size_t> kept_fields_, kept_groups_;
 };
 
 Notes write_2dm(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {

@@ -5,23 +5,23 @@
 #include <string>
 #include <vector>
 
-#include "core/io/format.h"
+#include "core/io/mesh_writer.h"
 #include "core/io/reading/binary_scalar.h"
 #include "core/io/vtk/vtk_attributes.h"
 #include "core/io/vtk/vtk_cells.h"
 #include "core/io/vtk/vtk_order.h"
 #include "core/io/vtk/vtk_reader.h"
-#include "core/io/writing/text_writer.h"
+#include "core/io/writing/one_line.h"
 
 namespace dmoscope {
 namespace {
 
 constexpr std::size_t kLongestTitle = 255;  // VTK reads 256 bytes, the line end among them
 
-class VtkWriter {
+class VtkWriter : MeshWriter {
  public:
   VtkWriter(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context)
-      : out_(file, context), mesh_(mesh), positions_(positions) {}
+      : MeshWriter(file, mesh, positions, context, "VTK legacy") {}
 
   Notes write() {
     out_ << "# vtk DataFile Version 3.0\n" << title() << "\nASCII\nDATASET UNSTRUCTURED_GRID\n";
@@ -29,17 +29,12 @@ class VtkWriter {
     cells();
     data(Field::On::Vertices, "POINT_DATA ", positions_.size());
     data(Field::On::Elements, "CELL_DATA ", mesh_.elements.size());
-    out_.finish();
-    note_dropped(mesh_, kept_, {}, "VTK legacy", notes_);
-    return std::move(notes_);
+    return finish();
   }
 
  private:
   std::string title() {
-    std::string line = mesh_.title.empty() ? "dmoscope" : mesh_.title;
-    for (char& c : line) {
-      if (c == '\n' || c == '\r') c = ' ';
-    }
+    std::string line = mesh_.title.empty() ? "dmoscope" : without_line_ends(mesh_.title);
     if (line.size() > kLongestTitle) {
       notes_.push_back("The title was cut to 255 bytes, which is what VTK legacy allows.");
       line.resize(kLongestTitle);
@@ -74,7 +69,7 @@ class VtkWriter {
     for (std::size_t i = 0; i < mesh_.fields.size(); ++i) {
       const Field& field = mesh_.fields[i];
       if (field.on != on || field.components < 1 || field.values.size() != count * static_cast<std::size_t>(field.components)) continue;
-      kept_.push_back(i);
+      kept_fields_.push_back(i);
       if (!begun) out_ << header << count << '\n';
       begun = true;
       if (!attribute(field)) arrays.push_back(i);
@@ -136,12 +131,6 @@ class VtkWriter {
       out_ << ((i + 1) % n == 0 ? '\n' : ' ');
     }
   }
-
-  TextWriter out_;
-  const Mesh& mesh_;
-  std::span<const Vec3> positions_;
-  std::vector<std::size_t> kept_;
-  Notes notes_;
 };
 
 }  // namespace

@@ -38,20 +38,8 @@ constexpr std::array kMagma{Rgb{0x00, 0x00, 0x04}, Rgb{0x14, 0x0e, 0x36}, Rgb{0x
 constexpr std::array kGrey{Rgb{0x18, 0x18, 0x18}, Rgb{0xf4, 0xf4, 0xf4}};
 
 std::span<const Rgb> controls(ColourMap map) {
-  switch (map) {
-    case ColourMap::Beacon:
-      return kBeacon;
-    case ColourMap::Cividis:
-      return kCividis;
-    case ColourMap::Magma:
-      return kMagma;
-    case ColourMap::Grey:
-      return kGrey;
-    case ColourMap::OrangeBlue:
-    case ColourMap::Viridis:
-      break;
-  }
-  return kViridis;
+  static constexpr std::array<std::span<const Rgb>, 6> kControls{kBeacon, kViridis, kCividis, kMagma, kGrey, kViridis};  // in its order
+  return kControls[static_cast<std::size_t>(map)];
 }
 
 /// Linear light of a channel of sRGB.

@@ -86,27 +86,15 @@ double Projection::depth(Vec3 point) const {
 double OrbitCamera::distance() const { return 0.5 * height / std::tan(0.5 * kFieldOfView); }
 
 void OrbitCamera::look_from(ViewPreset preset) {
-  const auto set = [this](Vec3 new_right, Vec3 new_up) {
-    right = new_right;
-    up = new_up;
-  };
-  switch (preset) {
-    case ViewPreset::PlusX:
-      return set({0, 1, 0}, {0, 0, 1});
-    case ViewPreset::MinusX:
-      return set({0, -1, 0}, {0, 0, 1});
-    case ViewPreset::PlusY:
-      return set({-1, 0, 0}, {0, 0, 1});
-    case ViewPreset::MinusY:
-      return set({1, 0, 0}, {0, 0, 1});
-    case ViewPreset::PlusZ:
-      return set({1, 0, 0}, {0, 1, 0});
-    case ViewPreset::MinusZ:
-      return set({-1, 0, 0}, {0, 1, 0});
-    case ViewPreset::Isometric:
-      break;
-  }
-  set(normalised({1, 1, 0}), normalised({-1, 1, 2}));
+  // To the right and up, in the order of ViewPreset.
+  const std::array<std::pair<Vec3, Vec3>, 7> directions{{{{0, 1, 0}, {0, 0, 1}},
+                                                         {{0, -1, 0}, {0, 0, 1}},
+                                                         {{-1, 0, 0}, {0, 0, 1}},
+                                                         {{1, 0, 0}, {0, 0, 1}},
+                                                         {{1, 0, 0}, {0, 1, 0}},
+                                                         {{-1, 0, 0}, {0, 1, 0}},
+                                                         {normalised({1, 1, 0}), normalised({-1, 1, 2})}}};
+  std::tie(right, up) = directions[static_cast<std::size_t>(preset)];
 }
 
 void OrbitCamera::face(Vec3 outward) {

@@ -10,18 +10,11 @@ namespace dmoscope::ui {
 
 /// The target of a dialog that saves.
 SaveRows* App::rows_of(Dialog dialog) {
-  switch (dialog) {
-    case Dialog::Export:
-      return &widgets_.exporting.save;
-    case Dialog::Screenshot:
-      return &widgets_.screenshot.save;
-    case Dialog::Plot:
-      return &widgets_.plot_dialog.save;
-    case Dialog::SaveSession:
-      return &widgets_.save_session.save;
-    default:
-      return nullptr;
-  }
+  return dialog == Dialog::Export        ? &widgets_.exporting.save
+         : dialog == Dialog::Screenshot  ? &widgets_.screenshot.save
+         : dialog == Dialog::Plot        ? &widgets_.plot_dialog.save
+         : dialog == Dialog::SaveSession ? &widgets_.save_session.save
+                                         : nullptr;
 }
 
 void App::take_chosen_file() {

@@ -20,19 +20,8 @@ namespace dmoscope::app {
 namespace {
 
 std::string_view reason_name(StopReason reason) {
-  switch (reason) {
-    case StopReason::NothingMoved:
-      return "nothing-moved";
-    case StopReason::NoRise:
-      return "no-rise";
-    case StopReason::Certified:
-      return "certified";
-    case StopReason::NoJointGain:
-      return "no-joint-gain";
-    case StopReason::IterationLimit:
-      return "iteration-limit";
-  }
-  return "unknown";
+  constexpr std::array<std::string_view, 5> kNames{"nothing-moved", "no-rise", "certified", "no-joint-gain", "iteration-limit"};
+  return kNames[static_cast<std::size_t>(reason)];  // in its order
 }
 
 Json json_of(const Statistics& s, std::uint64_t inside_alone) {

@@ -7,19 +7,8 @@
 namespace dmoscope::app {
 
 std::string_view name(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::Holds:
-      return "holds";
-    case Verdict::Differs:
-      return "differs";
-    case Verdict::Told:
-      return "told";
-    case Verdict::NoMesh:
-      return "no mesh";
-    case Verdict::NotPossible:
-      return "not possible";
-  }
-  return "";
+  constexpr std::array<std::string_view, 5> kNames{"holds", "differs", "told", "no mesh", "not possible"};
+  return kNames[static_cast<std::size_t>(verdict)];  // in its order
 }
 
 Claim Claim::about(double value, double tolerance, std::string why) {

@@ -33,16 +33,7 @@ std::vector<double> reference_measures(const Mesh& mesh, const Geometry& geometr
   const double fallback = largest > 0.0 ? largest : 1.0;  // where all around is flat
   // An ideal element's corner Jacobian over its volume; in the plane areas are compared as they are.
   constexpr auto kCorner = [](ElementKind kind) {
-    switch (kind) {
-      case ElementKind::Tetrahedron:
-        return 6.0;
-      case ElementKind::Pyramid:
-        return 3.0;
-      case ElementKind::Wedge:
-        return 2.0;
-      default:
-        return 1.0;
-    }
+    return kind == ElementKind::Tetrahedron ? 6.0 : kind == ElementKind::Pyramid ? 3.0 : kind == ElementKind::Wedge ? 2.0 : 1.0;
   };
   // First around each vertex, then over the corners of each element: linear whatever the valence.
   auto around = large_vector<double>(mesh.positions.size());

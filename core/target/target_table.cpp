@@ -178,19 +178,9 @@ class TargetTable::Maker {
     table_.spaces_.push_back(shape.kind == TargetShape::Kind::Input ? FormulaSpace::Target : FormulaSpace::Stretched);
     for (std::size_t kind = 0; kind < kElementKindCount; ++kind)
       table_.steepness_.push_back(present[kind] ? steepness(shape, static_cast<ElementKind>(kind)) : 1.0);
-    switch (shape.kind) {
-      case TargetShape::Kind::Ideal:
-        break;
-      case TargetShape::Kind::Input:
-        as_they_were(shape, mine);
-        break;
-      case TargetShape::Kind::Field:
-        by_field(shape, mine);
-        break;
-      case TargetShape::Kind::Aspect:
-        by_aspect(shape, mine);
-        break;
-    }
+    if (shape.kind == TargetShape::Kind::Input) as_they_were(shape, mine);
+    if (shape.kind == TargetShape::Kind::Field) by_field(shape, mine);
+    if (shape.kind == TargetShape::Kind::Aspect) by_aspect(shape, mine);
     phrases_.push_back({shape, of, mine.size()});
   }
 
@@ -400,21 +390,13 @@ class TargetTable::Maker {
   void facts() {
     for (const std::uint32_t first : table_.first_) table_.facts_.with_target += first != kNone ? 1U : 0U;
     for (const Part& part : phrases_) {
-      std::string what;
-      switch (part.shape.kind) {
-        case TargetShape::Kind::Ideal:
-          what = "ideal";
-          break;
-        case TargetShape::Kind::Input:
-          what = part.shape.rounds > 0 ? "as they and their neighbours were" : "as they were";
-          break;
-        case TargetShape::Kind::Field:
-          what = "by the metric field";
-          break;
-        case TargetShape::Kind::Aspect:
-          what = fmt::format("stretched {:g} times", part.shape.aspect);
-          break;
-      }
+      using Kind = TargetShape::Kind;
+      const TargetShape& shape = part.shape;
+      const std::string what = shape.kind == Kind::Field    ? "by the metric field"
+                               : shape.kind == Kind::Aspect ? fmt::format("stretched {:g} times", shape.aspect)
+                               : shape.kind == Kind::Ideal  ? "ideal"
+                               : shape.rounds > 0           ? "as they and their neighbours were"
+                                                            : "as they were";
       table_.facts_.phrase += fmt::format("{}{} elements{}{} {}", table_.facts_.phrase.empty() ? "" : ", ", part.count,
                                           part.of.empty() ? "" : " ", part.of, what);
     }

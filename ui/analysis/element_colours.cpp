@@ -320,6 +320,24 @@ void by_difference(Work& work) {
   work.out.common_title = fmt::format("{}: each minus {}", metric, of);
 }
 
+void by_sliding(Work& work) { colour_by_sliding(work.request, work.out, work.shading); }
+void by_multiplier(Work& work) { colour_by_multiplier(work.request, work.out, work.shading); }
+
+constexpr auto kColourings = std::to_array<std::pair<ColourBy, void (*)(Work&)>>({{ColourBy::Kind, by_kind},
+                                                                                  {ColourBy::Group, by_group},
+                                                                                  {ColourBy::Valence, by_valence},
+                                                                                  {ColourBy::Class, by_class},
+                                                                                  {ColourBy::Displacement, by_displacement},
+                                                                                  {ColourBy::Size, by_size},
+                                                                                  {ColourBy::Inverted, by_inverted},
+                                                                                  {ColourBy::EdgeLength, by_edge_length},
+                                                                                  {ColourBy::SizeOverTarget, by_size_over_target},
+                                                                                  {ColourBy::Difference, by_difference},
+                                                                                  {ColourBy::Deviation, by_sliding},
+                                                                                  {ColourBy::Tilt, by_sliding},
+                                                                                  {ColourBy::Freedom, by_sliding},
+                                                                                  {ColourBy::Multiplier, by_multiplier}});
+
 }  // namespace
 
 ElementColours colour_elements(const ColourRequest& request) {
@@ -327,48 +345,9 @@ ElementColours colour_elements(const ColourRequest& request) {
   work.out.by = request.by;
   work.out.input_serial = request.frame->input_serial;
   work.out.title = info(request.by).name;
-  switch (request.by) {
-    case ColourBy::Quality:
-      break;
-    case ColourBy::Kind:
-      by_kind(work);
-      break;
-    case ColourBy::Group:
-      by_group(work);
-      break;
-    case ColourBy::Valence:
-      by_valence(work);
-      break;
-    case ColourBy::Class:
-      by_class(work);
-      break;
-    case ColourBy::Displacement:
-      by_displacement(work);
-      break;
-    case ColourBy::Size:
-      by_size(work);
-      break;
-    case ColourBy::Inverted:
-      by_inverted(work);
-      break;
-    case ColourBy::EdgeLength:
-      by_edge_length(work);
-      break;
-    case ColourBy::SizeOverTarget:
-      by_size_over_target(work);
-      break;
-    case ColourBy::Difference:
-      by_difference(work);
-      break;
-    case ColourBy::Deviation:
-    case ColourBy::Tilt:
-    case ColourBy::Freedom:
-      colour_by_sliding(request, work.out, work.shading);
-      break;
-    case ColourBy::Multiplier:
-      colour_by_multiplier(request, work.out, work.shading);
-      break;
-  }
+  if (const auto* const at = std::ranges::find(kColourings, request.by, &std::pair<ColourBy, void (*)(Work&)>::first);
+      at != kColourings.end())
+    at->second(work);
   if (work.out.common_title.empty()) work.out.common_title = work.out.title;
   for (const Category& category : work.out.categories) work.shading.palette.push_back(category.colour);
   // A palette that is not empty tells the values are categories.

@@ -166,16 +166,12 @@ void draw_range_menu(PanelContext& context) {
       const bool percentile = one.mode == RangeMode::Percentile;
       const std::string title = percentile ? percentile_title(context.state) : std::string(one.title);
       if (ImGui::MenuItem(title.c_str(), nullptr, context.state.range_mode == one.mode)) context.send(fmt::format("range {}", one.name));
-      context.items.record_last(fmt::format("range-menu:{}", one.name));
-      next_item_tooltip(std::string(one.doc));
+      note_item(context, fmt::format("range-menu:{}", one.name), std::string(one.doc));
     }
     ImGui::Separator();
     dim_text(context, "from, to", false);
     ImGui::SetNextItemWidth(11 * context.em());
-    double range[2] = {context.derived.range.first, context.derived.range.second};
-    ImGui::InputScalarN("##given", ImGuiDataType_Double, range, 2, nullptr, nullptr, "%.4g");
-    if (ImGui::IsItemDeactivatedAfterEdit()) context.send(fmt::format("range {} {}", full_number(range[0]), full_number(range[1])));
-    context.items.record_last("range-menu:given");
+    pair_field(context, "range-menu:given", context.derived.range.first, context.derived.range.second, "range");
     ImGui::EndPopup();
   }
   ImGui::PopStyleVar();

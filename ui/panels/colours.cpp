@@ -16,50 +16,37 @@ void word_combo(PanelContext& context, const char* item, const std::array<std::p
                 const std::array<const char*, N>& titles, Value now, const char* command) {
   std::size_t current = 0;
   for (std::size_t k = 0; k < N; ++k) current = words[k].second == now ? k : current;
-  const bool open = ImGui::BeginCombo(fmt::format("##{}", item).c_str(), titles[current]);
-  context.items.record_last(item);
-  if (!open) return;
-  for (std::size_t k = 0; k < N; ++k) {
-    if (ImGui::Selectable(titles[k], k == current)) context.send(fmt::format("{} {}", command, words[k].first));
-    context.items.record_last(fmt::format("{}:{}", item, words[k].first));
-  }
-  ImGui::EndCombo();
+  Combo combo(context, item, titles[current]);
+  for (std::size_t k = 0; combo.open() && k < N; ++k)
+    if (combo.entry(words[k].first, titles[k], k == current)) context.send(fmt::format("{} {}", command, words[k].first));
 }
 
 void draw_colour_by(PanelContext& context) {
   labelled(context, "colours", "what the elements' colours tell");
   const ColourBy now = context.state.colouring.by;
-  const bool open = ImGui::BeginCombo("##color-by", std::string(info(now).title).c_str(), ImGuiComboFlags_HeightLarge);
-  context.items.record_last("color-by");
-  if (!open) return;
+  Combo combo(context, "color-by", std::string(info(now).title), ImGuiComboFlags_HeightLarge);
+  if (!combo.open()) return;
   const bool no_groups = context.session.input && context.session.input->mesh.groups.empty();
   for (const ColourByInfo& one : kColourBys) {
     const auto not_drawn = context.session.input ? why_not_drawn(one.by, *context.session.input) : std::nullopt;
     const bool possible = !not_drawn && (one.by != ColourBy::Group || !no_groups);
-    const int flags = possible ? 0 : ImGuiSelectableFlags_Disabled;
-    if (ImGui::Selectable(std::string(one.title).c_str(), one.by == now, flags)) context.send(fmt::format("color-by {}", one.name));
-    context.items.record_last(fmt::format("color-by:{}", one.name));
-    next_item_tooltip(possible ? std::string(one.doc) : not_drawn ? *not_drawn : "the mesh has no groups or markers");
+    if (combo.entry(one.name, one.title, one.by == now,
+                    possible    ? std::string(one.doc)
+                    : not_drawn ? *not_drawn
+                                : "the mesh has no groups or markers",
+                    possible))
+      context.send(fmt::format("color-by {}", one.name));
   }
-  ImGui::EndCombo();
 }
 
 void draw_map(PanelContext& context) {
   labelled(context, "map", "perceptually uniform and colour-blind safe");
-  const bool open = ImGui::BeginCombo("##map", std::string(render::name(context.state.colour_map)).c_str());
-  context.items.record_last("colormap");
-  if (open) {
-    for (const auto& map : render::colour_map_table()) {
-      if (ImGui::Selectable(std::string(map.name).c_str(), map.map == context.state.colour_map))
+  if (Combo combo(context, "colormap", std::string(render::name(context.state.colour_map))); combo.open())
+    for (const auto& map : render::colour_map_table())
+      if (combo.entry(map.name, map.name, map.map == context.state.colour_map, std::string(map.doc)))
         context.send(fmt::format("colormap {}", map.name));
-      next_item_tooltip(std::string(map.doc));
-    }
-    ImGui::EndCombo();
-  }
   labelled(context, "reversed", "the colour map from its other end");
-  bool reversed = context.state.colouring.reversed;
-  if (ImGui::Checkbox("##reversed", &reversed)) context.send(reversed ? "reverse-colors on" : "reverse-colors off");
-  context.items.record_last("reverse-colors");
+  option_box(context, "##reversed", "reverse-colors", "reverse-colors", context.state.colouring.reversed);
   labelled(context, "steps", "so many colours of equal width; 0: without steps");
   int steps = context.state.colouring.steps;
   ImGui::InputInt("##color-steps", &steps, 1, 1, ImGuiInputTextFlags_EnterReturnsTrue);
@@ -74,55 +61,37 @@ void draw_map(PanelContext& context) {
 void draw_range(PanelContext& context) {
   labelled(context, "range", "qualities that the colours span; the ends of the colour bar can be dragged");
   const bool given = context.state.range_mode == RangeMode::Given;
-  const bool open = ImGui::BeginCombo("##range", info(context.state.range_mode).title.data());
-  context.items.record_last("range");
-  if (open) {
-    const auto now = context.derived.range;
-    for (const RangeModeInfo& one : kRangeModes) {
-      if (ImGui::Selectable(one.title.data(), one.mode == context.state.range_mode))
+  const auto now = context.derived.range;
+  if (Combo combo(context, "range", std::string(info(context.state.range_mode).title)); combo.open())
+    for (const RangeModeInfo& one : kRangeModes)
+      if (combo.entry(one.name, one.title, one.mode == context.state.range_mode, std::string(one.doc)))
         context.send(one.mode == RangeMode::Given ? fmt::format("range {} {}", full_number(now.first), full_number(now.second))
                                                   : fmt::format("range {}", one.name));
-      context.items.record_last(fmt::format("range:{}", one.name));
-      next_item_tooltip(std::string(one.doc));
-    }
-    ImGui::EndCombo();
-  }
   if (context.state.range_mode == RangeMode::Percentile) {
-    double percent[2] = {context.state.range_low_percent, context.state.range_high_percent};
     labelled(context, "per cent", "elements of the input that the colours leave out below, and those up to which they reach");
-    ImGui::InputScalarN("##percent", ImGuiDataType_Double, percent, 2, nullptr, nullptr, "%.4g");
-    context.items.record_last("range-percent");
-    if (ImGui::IsItemDeactivatedAfterEdit())
-      context.send(fmt::format("range percentile {} {}", full_number(percent[0]), full_number(percent[1])));
+    pair_field(context, "range-percent", context.state.range_low_percent, context.state.range_high_percent, "range percentile");
   }
   if (!given) return;
-  double range[2] = {context.state.range_low, context.state.range_high};
   labelled(context, "from, to", "lowest and highest quality of the colours");
-  ImGui::InputScalarN("##given", ImGuiDataType_Double, range, 2, nullptr, nullptr, "%.4g");
-  if (ImGui::IsItemDeactivatedAfterEdit()) context.send(fmt::format("range {} {}", full_number(range[0]), full_number(range[1])));
+  pair_field(context, "range-given", context.state.range_low, context.state.range_high, "range");
 }
 
 /// What shows the form of a volume besides its edges.
 void draw_depth(PanelContext& context) {
-  const auto check = [&](const char* label, const char* command, const char* tooltip, bool now) {
-    labelled(context, label, tooltip);
-    if (ImGui::Checkbox(fmt::format("##{}", command).c_str(), &now)) context.send(fmt::format("{} {}", command, now ? "on" : "off"));
-    context.items.record_last(command);
-  };
-  check("corners", "occlusion", "a little darker in corners, by a fifth at most, with lines along sharp edges", context.state.occlusion);
-  check("light", "shading", "lit by a lamp: shows the form, but changes what the colours tell", context.state.shading);
+  labelled(context, "corners", "a little darker in corners, by a fifth at most, with lines along sharp edges");
+  option_box(context, "##occlusion", "occlusion", "occlusion", context.state.occlusion);
+  labelled(context, "light", "lit by a lamp: shows the form, but changes what the colours tell");
+  option_box(context, "##shading", "shading", "shading", context.state.shading);
 }
 
 void draw_filter(PanelContext& context) {
   const ColouringState& state = context.state.colouring;
   labelled(context, "quality", "only elements from the first to the second quality count; inverted ones when the first is 0 or less",
            11 * context.em());
-  double range[2] = {state.filter ? state.filter->first : 0.0, state.filter ? state.filter->second : 1.0};
+  const auto range = state.filter.value_or(std::pair{0.0, 1.0});
   const float clear = ImGui::CalcTextSize("off").x + 2 * ImGui::GetStyle().FramePadding.x;
   ImGui::SetNextItemWidth(std::max(6 * context.em(), ImGui::GetContentRegionAvail().x - clear - context.px(6)));
-  ImGui::InputScalarN("##filter", ImGuiDataType_Double, range, 2, nullptr, nullptr, "%.4g");
-  context.items.record_last("filter");
-  if (ImGui::IsItemDeactivatedAfterEdit()) context.send(fmt::format("filter {} {}", full_number(range[0]), full_number(range[1])));
+  pair_field(context, "filter", range.first, range.second, "filter");
   ImGui::SameLine(0, context.px(6));
   ImGui::BeginDisabled(!state.filter);
   if (ImGui::Button("off##filter")) context.send("filter off");

@@ -33,19 +33,14 @@ Vec3 middle(const InputMesh& input) {
 void draw_second(PanelContext& context, const RunParameters& p) {
   labelled(context, "second aim", "what counts once the first metric is above its threshold", metric_combo_width(context));
   const auto* metric = std::get_if<Metric>(&p.combination->second);
-  const bool open = ImGui::BeginCombo("##second", metric != nullptr ? metric_title(*metric).c_str() : "Density");
-  context.items.record_last("second-aim");
-  if (!open) return;
-  if (ImGui::Selectable("Density", metric == nullptr)) say(context, p.metric, with(*p.combination, {}));
-  context.items.record_last("second-aim:density");
-  next_item_tooltip("sizes of elements after a size function: each vertex goes for the mean of its neighbours, weighted by 1 / size");
-  for (const Metric one : context.derived.metrics) {
-    if (one == p.metric) continue;
-    if (ImGui::Selectable(metric_title(one).c_str(), metric != nullptr && *metric == one))
+  Combo combo(context, "second-aim", metric != nullptr ? metric_title(*metric) : "Density");
+  if (!combo.open()) return;
+  if (combo.entry("density", "Density", metric == nullptr,
+                  "sizes of elements after a size function: each vertex goes for the mean of its neighbours, weighted by 1 / size"))
+    say(context, p.metric, with(*p.combination, {}));
+  for (const Metric one : context.derived.metrics)
+    if (one != p.metric && combo.entry(info(one).name, metric_title(one), metric != nullptr && *metric == one))
       say(context, p.metric, {p.combination->threshold, one});
-    context.items.record_last(fmt::format("second-aim:{}", info(one).name));
-  }
-  ImGui::EndCombo();
 }
 
 void draw_point(PanelContext& context, const SizeFunction& size) {
@@ -85,8 +80,7 @@ void draw_size(PanelContext& context, const RunView& run, const SizeFunction& si
     const auto choice = [&](const char* name, const SizeFunction& wanted, const char* tip) {
       if (ImGui::Selectable(name, size.kind == wanted.kind && size.field == wanted.field))
         say(context, p.metric, with(*p.combination, wanted));
-      context.items.record_last(fmt::format("size-function:{}", name));
-      next_item_tooltip(tip);
+      note_item(context, fmt::format("size-function:{}", name), tip);
     };
     const InputMesh& input = *context.session.input;
     const Vec3 point = size.has_point() ? size.point : middle(input);
@@ -123,12 +117,11 @@ void draw_composite(PanelContext& context, const RunView& run) {
     };
     if (joint_possible(run)) {
       if (ImGui::Checkbox("then joint", &then_joint)) say_then();
-      context.items.record_last("then-joint");
-      next_item_tooltip("once the minimum has converged, moves vertices together where single ones gain nothing, until nothing does");
+      note_item(context, "then-joint",
+                "once the minimum has converged, moves vertices together where single ones gain nothing, until nothing does");
     }
     if (ImGui::Checkbox("then mean", &then_mean)) say_then();
-    context.items.record_last("then-mean");
-    next_item_tooltip("once the minimum has converged, raises the mean quality, with the minimum as floor");
+    note_item(context, "then-mean", "once the minimum has converged, raises the mean quality, with the minimum as floor");
   }
   if (!method_info(p.method).combines || p.then_mean || p.then_joint) return;
   bool combined = p.combination.has_value();
@@ -138,8 +131,8 @@ void draw_composite(PanelContext& context, const RunView& run) {
     else
       context.send("combine off");
   }
-  context.items.record_last("combine");
-  next_item_tooltip("two aims: the metric up to a threshold, and beyond it a second one, such as sizes of elements (paper, Section 4.2)");
+  note_item(context, "combine",
+            "two aims: the metric up to a threshold, and beyond it a second one, such as sizes of elements (paper, Section 4.2)");
   if (!p.combination) return;
   labelled(context, "threshold", "of the metric, above 0 and below 1: beyond it the second aim counts");
   double threshold = p.combination->threshold;

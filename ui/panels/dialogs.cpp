@@ -1,5 +1,6 @@
 // What all dialogs share, and the small ones: find, keys, about, error.
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -40,53 +41,33 @@ void end_dialog() { ImGui::EndPopup(); }
 
 namespace {
 
-void close_button(PanelContext& context, const char* label = "Close") {
-  if (ImGui::Button(label)) context.state.dialog = Dialog::None;
-  context.items.record_last("dialog:close");
-}
-
-const char* dialog_title(Dialog dialog) {
-  switch (dialog) {
-    case Dialog::Open:
-      return "Open a mesh";
-    case Dialog::Export:
-      return "Export";
-    case Dialog::Screenshot:
-      return "Screenshot";
-    case Dialog::Find:
-      return "Find vertex or element";
-    case Dialog::Palette:
-      return "All commands";
-    case Dialog::Keys:
-      return "Keys";
-    case Dialog::About:
-      return "About dmoscope";
-    case Dialog::Error:
-      return "That did not work";
-    case Dialog::Log:
-      return "Log";
-    case Dialog::Sequence:
-      return "Pictures of a run";
-    case Dialog::Plot:
-      return "Save the plot";
-    case Dialog::SaveSession:
-      return "Save the session";
-    case Dialog::Unsaved:
-      return "Not saved";
-    case Dialog::Recover:
-      return "Recover";
-    case Dialog::Formula:
-      return "A metric of your own";
-    case Dialog::None:
-      break;
-  }
-  return "";
-}
+struct DialogInfo {
+  Dialog dialog;
+  const char* title;
+  void (*draw)(PanelContext&);
+};
+constexpr std::array kDialogInfos{DialogInfo{Dialog::Open, "Open a mesh", draw_open_dialog},
+                                  DialogInfo{Dialog::Export, "Export", draw_export_dialog},
+                                  DialogInfo{Dialog::Screenshot, "Screenshot", draw_screenshot_dialog},
+                                  DialogInfo{Dialog::Find, "Find vertex or element", draw_find_dialog},
+                                  DialogInfo{Dialog::Palette, "All commands", draw_palette_dialog},
+                                  DialogInfo{Dialog::Keys, "Keys", draw_keys_dialog},
+                                  DialogInfo{Dialog::About, "About dmoscope", draw_about_dialog},
+                                  DialogInfo{Dialog::Error, "That did not work", draw_error_dialog},
+                                  DialogInfo{Dialog::Log, "Log", draw_log_dialog},
+                                  DialogInfo{Dialog::Sequence, "Pictures of a run", draw_sequence_dialog},
+                                  DialogInfo{Dialog::Plot, "Save the plot", draw_plot_dialog},
+                                  DialogInfo{Dialog::SaveSession, "Save the session", draw_save_session_dialog},
+                                  DialogInfo{Dialog::Unsaved, "Not saved", draw_unsaved_dialog},
+                                  DialogInfo{Dialog::Recover, "Recover", draw_recover_dialog},
+                                  DialogInfo{Dialog::Formula, "A metric of your own", draw_formula_dialog}};
+/// `dialog` is not None.
+const DialogInfo& info_of(Dialog dialog) { return *std::ranges::find(kDialogInfos, dialog, &DialogInfo::dialog); }
 
 void close_stale_popup(PanelContext& context, Dialog now) {
   Dialog& shown = context.widgets.dialog_shown;
   context.widgets.dialog_opened = shown != now;
-  if (shown != now && shown != Dialog::None && ImGui::BeginPopupModal(dialog_title(shown))) {
+  if (shown != now && shown != Dialog::None && ImGui::BeginPopupModal(info_of(shown).title)) {
     ImGui::CloseCurrentPopup();
     ImGui::EndPopup();
   }
@@ -98,59 +79,11 @@ void close_stale_popup(PanelContext& context, Dialog now) {
 void draw_dialogs(PanelContext& context) {
   const Dialog now = context.state.dialog;
   close_stale_popup(context, now);
-  switch (now) {
-    case Dialog::None:
-      break;
-    case Dialog::Open:
-      draw_open_dialog(context);
-      break;
-    case Dialog::Export:
-      draw_export_dialog(context);
-      break;
-    case Dialog::Screenshot:
-      draw_screenshot_dialog(context);
-      break;
-    case Dialog::Find:
-      draw_find_dialog(context);
-      break;
-    case Dialog::Palette:
-      draw_palette_dialog(context);
-      break;
-    case Dialog::Keys:
-      draw_keys_dialog(context);
-      break;
-    case Dialog::About:
-      draw_about_dialog(context);
-      break;
-    case Dialog::Error:
-      draw_error_dialog(context);
-      break;
-    case Dialog::Log:
-      draw_log_dialog(context);
-      break;
-    case Dialog::Sequence:
-      draw_sequence_dialog(context);
-      break;
-    case Dialog::Plot:
-      draw_plot_dialog(context);
-      break;
-    case Dialog::SaveSession:
-      draw_save_session_dialog(context);
-      break;
-    case Dialog::Unsaved:
-      draw_unsaved_dialog(context);
-      break;
-    case Dialog::Formula:
-      draw_formula_dialog(context);
-      break;
-    case Dialog::Recover:
-      draw_recover_dialog(context);
-      break;
-  }
+  if (now != Dialog::None) info_of(now).draw(context);
 }
 
 void draw_find_dialog(PanelContext& context) {
-  if (!begin_dialog(context, dialog_title(Dialog::Find), 26)) return;
+  if (!begin_dialog(context, info_of(Dialog::Find).title, 26)) return;
   WidgetState& widgets = context.widgets;
   const Frame* frame = context.frame();
   if (ImGui::RadioButton("vertex", widgets.find.kind == 0)) widgets.find.kind = 0;
@@ -178,7 +111,7 @@ void draw_find_dialog(PanelContext& context) {
 }
 
 void draw_keys_dialog(PanelContext& context) {
-  if (!begin_dialog(context, dialog_title(Dialog::Keys), 52, 40)) return;
+  if (!begin_dialog(context, info_of(Dialog::Keys).title, 52, 40)) return;
   ImGui::BeginChild("list", {0, -ImGui::GetFrameHeightWithSpacing()});
   const auto row = [&](const std::string& key, const std::string& what) {
     ImGui::TableNextColumn();
@@ -216,12 +149,12 @@ void draw_keys_dialog(PanelContext& context) {
     ImGui::EndTable();
   }
   ImGui::EndChild();
-  close_button(context);
+  close_button(context, "Close");
   end_dialog();
 }
 
 void draw_about_dialog(PanelContext& context) {
-  if (!begin_dialog(context, dialog_title(Dialog::About), 38)) return;
+  if (!begin_dialog(context, info_of(Dialog::About).title, 38)) return;
   ImGui::PushTextWrapPos(0);
   ImGui::TextUnformatted(
       "See, compare and run Discrete Mesh Optimization: vertices move, topology never does, and the worst element gets as good as it can.");
@@ -235,12 +168,12 @@ void draw_about_dialog(PanelContext& context) {
                         (context.activity.backend_reason.empty() ? "" : ": " + context.activity.backend_reason));
   ImGui::PopTextWrapPos();
   ImGui::Spacing();
-  close_button(context);
+  close_button(context, "Close");
   end_dialog();
 }
 
 void draw_error_dialog(PanelContext& context) {
-  if (!begin_dialog(context, dialog_title(Dialog::Error), 42)) return;
+  if (!begin_dialog(context, info_of(Dialog::Error).title, 42)) return;
   ImGui::PushTextWrapPos(0);
   ImGui::TextUnformatted(context.shown(context.state.error_text).c_str());
   ImGui::PopTextWrapPos();
@@ -250,7 +183,7 @@ void draw_error_dialog(PanelContext& context) {
   context.items.record_last("error:copy");
   ImGui::SameLine();
   if (context.widgets.dialog_opened) ImGui::SetKeyboardFocusHere();
-  close_button(context);
+  close_button(context, "Close");
   if (ImGui::IsKeyPressed(key::kEnter, false)) context.state.dialog = Dialog::None;
   end_dialog();
 }

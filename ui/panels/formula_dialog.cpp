@@ -122,8 +122,7 @@ void draw_target(PanelContext& context) {
   ImGui::SameLine();
   ImGui::SetNextItemWidth(std::max(8 * context.em(), ImGui::GetContentRegionAvail().x - 10 * context.em()));
   ImGui::InputText("##target", &dialog.target);
-  context.items.record_last("formula:target");
-  next_item_tooltip(std::string("what elements are wished to be: ") + std::string(kTargetHelp));
+  note_item(context, "formula:target", std::string("what elements are wished to be: ") + std::string(kTargetHelp));
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-1);
   if (ImGui::BeginCombo("##targets", "choose", ImGuiComboFlags_NoPreview)) {
@@ -187,8 +186,7 @@ void draw_formula_dialog(PanelContext& context) {
   context.items.record_last("formula:show");
   ImGui::EndDisabled();
   ImGui::SameLine();
-  if (ImGui::Button("Close")) context.state.dialog = Dialog::None;
-  context.items.record_last("dialog:close");
+  close_button(context, "Close");
   end_dialog();
 }
 

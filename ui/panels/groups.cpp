@@ -76,8 +76,7 @@ struct GroupSwitch {
 bool draw_switch(PanelContext& context, const GroupSwitch& one, bool words) {
   if (!words) return icon_button(context, one.item, one.icon, {context.px(18), ImGui::GetTextLineHeight()}, one.tooltip, one.on);
   const bool pressed = switch_button(context, one.word, one.on);
-  context.items.record_last(one.item);
-  next_item_tooltip(one.tooltip);
+  note_item(context, one.item, one.tooltip);
   return pressed;
 }
 

@@ -52,8 +52,7 @@ bool toggle_button(PanelContext& context, const char* item, const char* label, b
   }
   const bool hit = ImGui::Button(fmt::format("{}##{}", label, item).c_str());
   if (pressed) ImGui::PopStyleColor(2);
-  context.items.record_last(item);
-  next_item_tooltip(tip);
+  note_item(context, item, tip);
   return hit;
 }
 
@@ -61,9 +60,7 @@ void draw_clip(PanelContext& context, const render::Bounds3& box) {
   ClipPlane& clip = context.state.inside.clip;
   const auto across = axis_plane(clip, box);
   labelled(context, "clip plane", "takes away what lies on one side of a plane; its handle in the view can be dragged   J");
-  bool on = clip.on;
-  if (ImGui::Checkbox("##clip", &on)) context.send(on ? "clip on" : "clip off");
-  context.items.record_last("inside:clip");
+  option_box(context, "##clip", "inside:clip", "clip", clip.on);
   for (int axis = 0; axis < 3; ++axis) {
     ImGui::SameLine(0, context.px(5));
     const std::string name = axis_name(axis, false);
@@ -154,8 +151,7 @@ void draw_qualities(PanelContext& context) {
   if (!view.isolate || static_cast<double>(upper) >= high) return;
   labelled(context, "kept", "cells of other qualities are taken away");
   if (ImGui::Button(fmt::format("{:.3g} to {:.3g}  ×##kept", view.isolate->first, upper).c_str())) context.send("keep-quality off");
-  context.items.record_last("inside:kept");
-  next_item_tooltip("shows the other qualities again");
+  note_item(context, "inside:kept", "shows the other qualities again");
 }
 
 void draw_worst_cells(PanelContext& context) {
@@ -181,9 +177,7 @@ void draw_worst_cells(PanelContext& context) {
 void draw_looks(PanelContext& context) {
   ClippingView& view = context.state.inside;
   labelled(context, "faint rest", "the boundary of what was taken away is seen faintly   Alt+Q");
-  bool ghost = view.ghost;
-  if (ImGui::Checkbox("##ghost-rest", &ghost)) context.send(ghost ? "ghost-rest on" : "ghost-rest off");
-  context.items.record_last("inside:ghost");
+  option_box(context, "##ghost-rest", "inside:ghost", "ghost-rest", view.ghost);
   labelled(context, "shrink", "every cell is drawn that large about its middle, so that one sees between them   E");
   double shrink = view.shrink;
   const bool moved = slider("shrink", shrink, 0.1, 1.0, "%.2f");
@@ -194,7 +188,6 @@ void draw_looks(PanelContext& context) {
 }
 
 void draw_from(PanelContext& context) {
-  const render::OrbitCamera& orbit = context.state.orbit;
   labelled(context, "look from", "all of the mesh from there");
   const ImVec2 padding = ImGui::GetStyle().FramePadding;
   const float column = ImGui::GetCursorPosX();
@@ -208,18 +201,14 @@ void draw_from(PanelContext& context) {
       ImGui::SetCursorPosX(column);
     }
     if (ImGui::Button(fmt::format("{}##from", name).c_str(), {width, 0})) context.send("view-from " + name);
-    context.items.record_last("from:" + name);
-    next_item_tooltip("all of the mesh from there");
+    note_item(context, "from:" + name, "all of the mesh from there");
   }
   ImGui::PopStyleVar();
-  bool perspective = orbit.perspective, trackball = context.state.trackball;
-  if (ImGui::Checkbox("perspective", &perspective)) context.send(perspective ? "perspective on" : "perspective off");
-  context.items.record_last("inside:perspective");
-  next_item_tooltip("what is farther away looks smaller   Alt+E");
+  option_box(context, "perspective", "inside:perspective", "perspective", context.state.orbit.perspective,
+             "what is farther away looks smaller   Alt+E");
   ImGui::SameLine(0, context.px(12));
-  if (ImGui::Checkbox("roll freely", &trackball)) context.send(trackball ? "trackball on" : "trackball off");
-  context.items.record_last("inside:trackball");
-  next_item_tooltip("a drag rolls the mesh as a ball instead of turning it about the upright axis");
+  option_box(context, "roll freely", "inside:trackball", "trackball", context.state.trackball,
+             "a drag rolls the mesh as a ball instead of turning it about the upright axis");
 }
 
 }  // namespace
@@ -237,8 +226,7 @@ void draw_clipping(PanelContext& context) {
            : *pane->cells_seen == all ? "all cells seen"
                                       : fmt::format("{} of {} cells", count(*pane->cells_seen), count(all)),
            false);
-  context.items.record_last("inside:count");
-  next_item_tooltip("marks of what was taken away are faint: of the worst element and of what is picked");
+  note_item(context, "inside:count", "marks of what was taken away are faint: of the worst element and of what is picked");
   draw_clip(context, pane->box);
   draw_peel(context);
   draw_qualities(context);
@@ -253,8 +241,7 @@ void draw_clipping(PanelContext& context) {
     context.send("show-all");
     if (isolated) context.send("filter off");
   }
-  context.items.record_last("inside:all");
-  next_item_tooltip("no plane, no peeling, nothing shrunk, no range of the histogram   Z");
+  note_item(context, "inside:all", "no plane, no peeling, nothing shrunk, no range of the histogram   Z");
   ImGui::EndDisabled();
   ImGui::Dummy({0, context.px(4)});
 }

@@ -31,8 +31,7 @@ void draw_title(PanelContext& context) {
   heading(context, state.vertex == kNoIndex ? "Grid inspection" : room ? whole.c_str() : vertex.c_str());
   ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - button);
   if (ImGui::SmallButton(" × ")) context.send("inspect off");
-  context.items.record_last("inspect:close");
-  next_item_tooltip("close   G");
+  note_item(context, "inspect:close", "close   G");
 }
 
 void draw_story(PanelContext& context, const Inspection& inspection) {
@@ -208,8 +207,7 @@ void draw_slice(PanelContext& context) {
     ImGui::PushStyleColor(ImGuiCol_Text, colour(axis == state.slice_axis ? context.palette.text : context.palette.dim));
     if (ImGui::Button(name)) context.send(fmt::format("grid-slice {}", name));
     ImGui::PopStyleColor();
-    context.items.record_last(fmt::format("slice:{}", name));
-    next_item_tooltip(fmt::format("slices at right angles to the {} axis", name));
+    note_item(context, fmt::format("slice:{}", name), fmt::format("slices at right angles to the {} axis", name));
   }
   ImGui::SameLine(0, context.px(8));
   const float button = ImGui::CalcTextSize("best").x + 2 * context.px(8);
@@ -223,8 +221,7 @@ void draw_slice(PanelContext& context) {
   ImGui::BeginDisabled(!state.slice);
   if (ImGui::Button("best")) context.send("grid-slice best");
   ImGui::EndDisabled();
-  context.items.record_last("slice:best");
-  next_item_tooltip("of each level the slice of the candidate that it chose");
+  note_item(context, "slice:best", "of each level the slice of the candidate that it chose");
 }
 
 /// Two bars, one over the other: before and after.

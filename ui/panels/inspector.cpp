@@ -59,13 +59,7 @@ void draw_mesh(PanelContext& context, const Frame& frame) {
   if (const RunView* run = context.run()) value_row(context, "free", count(run->free_vertices), {}, {}, "vertices that may move");
   const std::vector<std::string>& facts = context.derived.mesh_facts;
   if (!facts.empty()) dim_text(context, "found in the input:");
-  for (const std::string& fact : facts) {
-    ImGui::PushStyleColor(ImGuiCol_Text, colour_vector(context.palette.warning));
-    ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted(context.shown(fact).c_str());
-    ImGui::PopTextWrapPos();
-    ImGui::PopStyleColor();
-  }
+  for (const std::string& fact : facts) warning_text(context, context.shown(fact));
   const RunView* active = context.run();
   const bool fixed = active != nullptr && active->parameters.interfaces != InterfaceRule::Free;
   const std::string& interfaces = fixed ? context.derived.interfaces : context.derived.free_interfaces;
@@ -90,8 +84,8 @@ void draw_switch(PanelContext& context, const RunView& run, const HeldMinimum& h
     for (const std::string& command : held.commands()) context.send(command);
   ImGui::PopStyleVar();
   ImGui::EndDisabled();
-  context.items.record_last("held-by:switch");
-  next_item_tooltip(held.sentence() + (begun ? "\nClick: a new run with it, beside this one." : "\nClick: this run gets it."));
+  note_item(context, "held-by:switch",
+            held.sentence() + (begun ? "\nClick: a new run with it, beside this one." : "\nClick: this run gets it."));
   ImGui::SameLine();
   ImGui::SetCursorPosX(right - ImGui::CalcTextSize(gain.c_str()).x);
   dim_text(context, gain, false);
@@ -113,8 +107,7 @@ void draw_hold(PanelContext& context, const RunView& run) {
     ImGui::BeginDisabled(context.activity.busy);
     if (ImGui::SmallButton(kAsk)) context.send("held-by");
     ImGui::EndDisabled();
-    context.items.record_last("held-by:ask");
-    next_item_tooltip("looks at the worst element and tries what would free it; of a large mesh that takes some seconds");
+    note_item(context, "held-by:ask", "looks at the worst element and tries what would free it; of a large mesh that takes some seconds");
     dim_text(context, " ");
     return;
   }
@@ -132,8 +125,7 @@ void draw_hold(PanelContext& context, const RunView& run) {
   if (!shows) return;
   ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - button + ImGui::GetStyle().ItemSpacing.x);
   if (ImGui::SmallButton(kWhy)) context.send(context.state.holders ? "holders off" : "holders on");
-  context.items.record_last("held-by:why");
-  next_item_tooltip("shows the elements that hold one another, their forces and the cluster around them (Alt+O)");
+  note_item(context, "held-by:why", "shows the elements that hold one another, their forces and the cluster around them (Alt+O)");
 }
 
 /// `run`: whose minimum it is; null: nobody's.
@@ -154,22 +146,12 @@ void draw_statistics(PanelContext& context, const char* title, Metric metric, co
 }
 
 const char* held_word(HeldOn held) {
-  switch (held) {
-    case HeldOn::Corner:
-      return "fixed: corner";
-    case HeldOn::Hand:
-      return "fixed: corner by hand";
-    case HeldOn::Junction:
-      return "fixed: features meet";
-    case HeldOn::End:
-      return "fixed: feature ends";
-    case HeldOn::Touching:
-      return "fixed: parts touch";
-    case HeldOn::Named:
-      return "fixed: by the file";
-    default:
-      return "fixed: boundary";
-  }
+  constexpr const char* kBoundary = "fixed: boundary";
+  constexpr std::array<const char*, 9> kWords{
+      kBoundary,  // in the order of HeldOn
+      "fixed: corner", "fixed: features meet", "fixed: feature ends", "fixed: parts touch", "fixed: by the file", kBoundary,
+      kBoundary,       "fixed: corner by hand"};
+  return kWords[static_cast<std::size_t>(held)];
 }
 
 void draw_vertex(PanelContext& context, const Frame& frame, Index vertex) {
@@ -321,8 +303,7 @@ void draw_element(PanelContext& context, const Frame& frame, Index element) {
     next_item_tooltip("select this vertex");
   }
   if (ImGui::SmallButton("Inspect its worst corner")) context.send(fmt::format("inspect element {}", element));
-  context.items.record_last("why");
-  next_item_tooltip("looks into the search of its worst free corner");
+  note_item(context, "why", "looks into the search of its worst free corner");
   draw_metric_table(context);
   if (const RunView* run = context.run()) draw_element_edges(context, frame, *run, element);
 }
@@ -338,9 +319,10 @@ void draw_why(PanelContext& context, const Frame& frame, Index element, int row,
   ImGui::SetCursorScreenPos({right - size.x, at.y});
   if (ImGui::InvisibleButton("##why", size)) context.send(fmt::format("inspect element {}", element));
   context.items.record_last(fmt::format("why:{}", row));
-  if (!fixed && !context.items.boxes().contains("why?")) context.items.record_last("why?");
-  next_item_tooltip(fixed ? "All its corners are fixed: no smoothing can change it. It is part of the ceiling."
-                          : "looks into the search of its worst free corner: what limits it, and how much is left");
+  if (!fixed && !context.items.boxes().contains("why?"))
+    note_item(context, "why?",
+              fixed ? "All its corners are fixed: no smoothing can change it. It is part of the ceiling."
+                    : "looks into the search of its worst free corner: what limits it, and how much is left");
   ImGui::GetWindowDrawList()->AddText({right - size.x, at.y},
                                       colour(ImGui::IsItemHovered() ? context.palette.text
                                              : fixed                ? context.palette.dim

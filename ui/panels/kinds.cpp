@@ -26,8 +26,7 @@ void draw_button(PanelContext& context, const KindButton& one) {
   if (ImGui::SmallButton(one.label) && !one.command.empty()) context.send(one.command);
   ImGui::EndDisabled();
   if (one.on) ImGui::PopStyleColor();
-  context.items.record_last(one.item);
-  next_item_tooltip(one.tooltip);
+  note_item(context, one.item, one.tooltip);
 }
 
 float button_width(const char* label) { return ImGui::CalcTextSize(label).x + 2 * ImGui::GetStyle().FramePadding.x; }
@@ -123,14 +122,9 @@ std::vector<EdgeEnds> edges_of(const Frame& frame, Index element) {
 
 /// Why a vertex cannot be made to slide by hand; empty where it can.
 std::string why_stays(const Domain& domain, Index vertex) {
-  switch (domain.held_on(vertex)) {
-    case HeldOn::Nothing:
-    case HeldOn::Corner:
-    case HeldOn::Hand:
-      return {};
-    default:
-      return std::string(domain.why_held(vertex));
-  }
+  const HeldOn held = domain.held_on(vertex);
+  const bool can_slide = held == HeldOn::Nothing || held == HeldOn::Corner || held == HeldOn::Hand;
+  return can_slide ? std::string() : std::string(domain.why_held(vertex));
 }
 
 }  // namespace

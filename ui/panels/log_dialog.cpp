@@ -12,19 +12,8 @@ namespace dmoscope::ui {
 namespace {
 
 const char* state_word(LogLine::State state) {
-  switch (state) {
-    case LogLine::State::Pending:
-      return "  (waits or runs)";
-    case LogLine::State::Failed:
-      return "  (failed)";
-    case LogLine::State::Cancelled:
-      return "  (cancelled)";
-    case LogLine::State::Dropped:
-      return "  (cancelled before it began)";
-    case LogLine::State::Done:
-      break;
-  }
-  return "";
+  constexpr std::array<const char*, 5> kWords{"  (waits or runs)", "", "  (failed)", "  (cancelled)", "  (cancelled before it began)"};
+  return kWords[static_cast<std::size_t>(state)];  // in its order
 }
 
 render::Rgb ink_of(const PanelContext& context, const LogLine& line) {
@@ -103,8 +92,7 @@ void draw_log_dialog(PanelContext& context) {
   ImGui::EndChild();
   LogDialog& widgets = context.widgets.log;
   const bool save = ImGui::Button("Save as script");
-  context.items.record_last("log:save");
-  next_item_tooltip("a script that does the same again: dmoscope script FILE");
+  note_item(context, "log:save", "a script that does the same again: dmoscope script FILE");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-1);
   const bool entered = ImGui::InputText("##script", &widgets.script_name, ImGuiInputTextFlags_EnterReturnsTrue);
@@ -115,11 +103,9 @@ void draw_log_dialog(PanelContext& context) {
     for (const LogLine* line : lines) text += line->text + "\n";
     context.state.requests.clipboard = std::move(text);
   }
-  context.items.record_last("log:copy");
-  next_item_tooltip("the lines above, on the clipboard");
+  note_item(context, "log:copy", "the lines above, on the clipboard");
   ImGui::SameLine();
-  if (ImGui::Button("Close")) context.state.dialog = Dialog::None;
-  context.items.record_last("dialog:close");
+  close_button(context, "Close");
   end_dialog();
 }
 

@@ -81,8 +81,7 @@ void draw_notice(PanelContext& context, const Rect& rect) {
     const Offer& offer = notice.offers[k];
     ImGui::SetCursorScreenPos({left + rows.places[k].x, y + rows.places[k].y});
     if (ImGui::Button(offer.label.c_str())) context.send(offer.command);
-    context.items.record_last(offer.id);
-    next_item_tooltip(offer.tooltip);
+    note_item(context, offer.id, offer.tooltip);
   }
   ImGui::EndDisabled();
   ImGui::SetCursorScreenPos({left + rows.places.back().x, y + rows.places.back().y});

@@ -108,8 +108,7 @@ void draw_places_column(PanelContext& context) {
     const std::string title = fit_text(context.shown(all[k].title), ImGui::GetContentRegionAvail().x);
     if (ImGui::Selectable(title.c_str(), all[k].folder == context.widgets.open.folder, ImGuiSelectableFlags_DontClosePopups))
       enter_folder(context.widgets, all[k].folder);
-    context.items.record_last(fmt::format("place:{}", k));
-    next_item_tooltip(context.shown(all[k].folder));
+    note_item(context, fmt::format("place:{}", k), context.shown(all[k].folder));
     ImGui::PopID();
   }
   ImGui::Spacing();
@@ -148,8 +147,7 @@ void draw_open_dialog(PanelContext& context) {
   WidgetState& widgets = context.widgets;
   if (widgets.dialog_opened) begin_open(context);
   if (ImGui::Button("↑ up")) enter_folder(widgets, parent_folder(widgets.open.folder));
-  context.items.record_last("open:up");
-  next_item_tooltip("the folder above   Backspace");
+  note_item(context, "open:up", "the folder above   Backspace");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-1);
   const bool entered = path_field(context, "##path", widgets.open.text);
@@ -173,8 +171,7 @@ void draw_open_dialog(PanelContext& context) {
   const bool open = ImGui::Button("Open");
   context.items.record_last("open:open");
   ImGui::SameLine();
-  if (ImGui::Button("Cancel")) context.state.dialog = Dialog::None;
-  context.items.record_last("dialog:close");
+  close_button(context, "Cancel");
   ImGui::SameLine(0, context.px(24));
   if (ImGui::Checkbox("all files", &widgets.open.all_files)) enter_folder(widgets, widgets.open.folder);
   context.items.record_last("open:all");

@@ -19,18 +19,12 @@ struct TitleLayout {
 bool is_bold(const TitlePiece& piece) { return piece.role == TitlePiece::Role::Name || piece.role == TitlePiece::Role::Bad; }
 
 render::Rgb ink_of(const PanelContext& context, const TitlePiece& piece) {
-  switch (piece.role) {
-    case TitlePiece::Role::Dim:
-      return context.palette.dim;
-    case TitlePiece::Role::Bad:
-      return context.palette.error;
-    case TitlePiece::Role::Warning:
-      return context.palette.warning;
-    case TitlePiece::Role::Name:
-    case TitlePiece::Role::Plain:
-      break;
-  }
-  return context.palette.text;
+  using Role = TitlePiece::Role;
+  const Palette& colours = context.palette;
+  return piece.role == Role::Dim       ? colours.dim
+         : piece.role == Role::Bad     ? colours.error
+         : piece.role == Role::Warning ? colours.warning
+                                       : colours.text;
 }
 
 float width_of(const PanelContext& context, const TitlePiece& piece) {

@@ -18,27 +18,18 @@ void draw_method(PanelContext& context, const RunParameters& parameters) {
   float widest = 0;
   for (const MethodInfo& method : method_table()) widest = std::max(widest, ImGui::CalcTextSize(std::string(method.name).c_str()).x);
   labelled(context, "method", "how vertices are moved", combo_width(widest));
-  const bool open = ImGui::BeginCombo("##method", parameters.method.c_str());
-  context.items.record_last("method");
-  if (!open) return;
-  for (const MethodInfo& method : method_table()) {
-    if (ImGui::Selectable(std::string(method.name).c_str(), method.name == parameters.method)) {
+  Combo combo(context, "method", parameters.method);
+  if (!combo.open()) return;
+  for (const MethodInfo& method : method_table())
+    if (combo.entry(method.name, method.name, method.name == parameters.method,
+                    method.optimises ? std::string(method.doc) : fmt::format("{}; {}", method.doc, kMayMakeWorse)))
       context.send(fmt::format("method {}", method.name));
-    }
-    context.items.record_last(fmt::format("method:{}", method.name));
-    next_item_tooltip(method.optimises ? std::string(method.doc) : fmt::format("{}; {}", method.doc, kMayMakeWorse));
-  }
-  ImGui::EndCombo();
 }
 
 /// Of a method that promises nothing.
 void draw_method_note(PanelContext& context, const RunParameters& parameters) {
   if (method_info(parameters.method).optimises) return;
-  ImGui::PushStyleColor(ImGuiCol_Text, colour_vector(context.palette.warning));
-  ImGui::PushTextWrapPos(0);
-  ImGui::TextUnformatted(fmt::format("{}; Best goes back to the best iteration", kMayMakeWorse).c_str());
-  ImGui::PopTextWrapPos();
-  ImGui::PopStyleColor();
+  warning_text(context, fmt::format("{}; Best goes back to the best iteration", kMayMakeWorse));
   context.items.record_last("method-note");
 }
 
@@ -53,14 +44,10 @@ void real(PanelContext& context, const char* item, double value) {
 /// What may be chosen, one of a few words.
 void choice(PanelContext& context, const ParameterInfo& row, const std::string& now) {
   const std::string item(row.name);
-  const bool open = ImGui::BeginCombo(("##" + item).c_str(), now.c_str());
-  context.items.record_last(item);
-  if (!open) return;
-  for (const std::string_view word : row.choices) {
-    if (ImGui::Selectable(std::string(word).c_str(), word == now)) context.send(fmt::format("{} {}", item, word));
-    context.items.record_last(fmt::format("{}:{}", item, word));
-  }
-  ImGui::EndCombo();
+  Combo combo(context, item, now);
+  if (!combo.open()) return;
+  for (const std::string_view word : row.choices)
+    if (combo.entry(word, word, word == now)) context.send(fmt::format("{} {}", item, word));
 }
 
 void draw_parameter(PanelContext& context, const ParameterInfo& row, const RunParameters& parameters) {
@@ -90,44 +77,31 @@ void draw_backend(PanelContext& context, const RunView& run) {
   labelled(context, "backend", "what smooths: the processor, a CUDA device, or the best there is (auto)");
   const Backend chosen = run.parameters.backend;
   const std::string shown = chosen == Backend::Auto ? fmt::format("auto: {}", name(run.backend)) : std::string(name(chosen));
-  const bool open = ImGui::BeginCombo("##backend", shown.c_str());
-  context.items.record_last("backend");
+  Combo combo(context, "backend", shown);
   next_item_tooltip(run.backend_reason);
-  if (!open) return;
-  for (const Backend backend : {Backend::Auto, Backend::Cpu, Backend::Cuda}) {
-    const std::string word(name(backend));
-    if (ImGui::Selectable(word.c_str(), backend == chosen)) context.send("backend " + word);
-    context.items.record_last("backend:" + word);
-  }
-  ImGui::EndCombo();
+  if (!combo.open()) return;
+  for (const Backend backend : {Backend::Auto, Backend::Cpu, Backend::Cuda})
+    if (combo.entry(name(backend), name(backend), backend == chosen)) context.send(fmt::format("backend {}", name(backend)));
 }
 
 /// Of a mesh that has any.
 void draw_interfaces(PanelContext& context, const RunParameters& parameters) {
   if (!context.session.input || !context.session.input->interfaces.any()) return;
   labelled(context, "interfaces", "whether what lies between materials, and on lines, faces and points that the file names, stays");
-  const bool open = ImGui::BeginCombo("##interfaces", std::string(name(parameters.interfaces)).c_str());
-  context.items.record_last("interfaces");
+  Combo combo(context, "interfaces", std::string(name(parameters.interfaces)));
   const bool fixed = parameters.interfaces != InterfaceRule::Free;
   next_item_tooltip(fixed ? context.derived.interfaces : context.derived.free_interfaces);
-  if (!open) return;
-  for (const InterfaceRule rule : {InterfaceRule::Fixed, InterfaceRule::Free, InterfaceRule::Slide}) {
-    const std::string word(name(rule));
-    if (ImGui::Selectable(word.c_str(), rule == parameters.interfaces)) context.send("interfaces " + word);
-    context.items.record_last("interfaces:" + word);
-  }
-  ImGui::EndCombo();
+  if (!combo.open()) return;
+  for (const InterfaceRule rule : {InterfaceRule::Fixed, InterfaceRule::Free, InterfaceRule::Slide})
+    if (combo.entry(name(rule), name(rule), rule == parameters.interfaces)) context.send(fmt::format("interfaces {}", name(rule)));
 }
 
 void draw_order(PanelContext& context, const RunParameters& parameters) {
   labelled(context, "order", "in which order an iteration visits the vertices, before colouring");
   const bool shuffled = parameters.order.seed.has_value();
-  const bool open = ImGui::BeginCombo("##order", shuffled ? "shuffled" : "natural");
-  context.items.record_last("order");
-  if (open) {
-    if (ImGui::Selectable("natural", !shuffled)) context.send("order natural");
-    if (ImGui::Selectable("shuffled", shuffled)) context.send("order shuffle:1");
-    ImGui::EndCombo();
+  if (Combo combo(context, "order", shuffled ? "shuffled" : "natural"); combo.open()) {
+    if (combo.entry("natural", "natural", !shuffled)) context.send("order natural");
+    if (combo.entry("shuffled", "shuffled", shuffled)) context.send("order shuffle:1");
   }
   if (!shuffled) return;
   labelled(context, "seed", "of the shuffled order");
@@ -158,17 +132,11 @@ void draw_target(PanelContext& context, const RunView& run) {
   for (const TargetChoice& one : choices) widest = std::max(widest, ImGui::CalcTextSize(context.shown(one.title).c_str()).x);
   labelled(context, "target", "what elements are wished to be; the metric is 1 for one that is so", combo_width(widest));
   const auto current = std::ranges::find(choices, now, &TargetChoice::text);
-  const bool open = ImGui::BeginCombo("##target", context.shown(current != choices.end() ? current->title : now).c_str());
-  context.items.record_last("target");
-  if (!open) return;
-  for (const TargetChoice& one : choices) {
-    if (ImGui::Selectable(context.shown(one.title).c_str(), one.text == now)) context.send("target " + quote_word(one.text));
-    context.items.record_last(fmt::format("target:{}", one.text));
-    next_item_tooltip(one.doc);
-  }
-  if (ImGui::Selectable("another…")) context.state.dialog = Dialog::Formula;
-  context.items.record_last("target:other");
-  ImGui::EndCombo();
+  Combo combo(context, "target", context.shown(current != choices.end() ? current->title : now));
+  if (!combo.open()) return;
+  for (const TargetChoice& one : choices)
+    if (combo.entry(one.text, context.shown(one.title), one.text == now, one.doc)) context.send("target " + quote_word(one.text));
+  if (combo.entry("other", "another…", false)) context.state.dialog = Dialog::Formula;
 }
 
 }  // namespace

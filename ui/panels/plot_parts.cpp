@@ -37,8 +37,7 @@ void choice_box(PanelContext& context, const char* item, const std::vector<Choic
   }
   for (const Choice& choice : choices) {
     if (ImGui::Selectable(choice.label.c_str(), choice.chosen)) context.send(choice.command);
-    context.items.record_last(fmt::format("{}:{}", item, choice.label));
-    next_item_tooltip(choice.tip);
+    note_item(context, fmt::format("{}:{}", item, choice.label), choice.tip);
   }
   ImGui::EndCombo();
 }
@@ -100,8 +99,7 @@ std::vector<Choice> x_choices(const ViewState& state) {
 void draw_choices(PanelContext& context, const char* item, const std::vector<Choice>& choices) {
   for (const Choice& choice : choices) {
     if (ImGui::MenuItem(choice.label.c_str(), nullptr, choice.chosen)) context.send(choice.command);
-    context.items.record_last(fmt::format("{}:{}", item, choice.label));
-    next_item_tooltip(choice.tip);
+    note_item(context, fmt::format("{}:{}", item, choice.label), choice.tip);
   }
   if (!choices.empty()) ImGui::Separator();
 }

@@ -62,8 +62,7 @@ void draw_head(PanelContext& context, const std::vector<ShownColumn>& columns) {
     const float width = ImGui::GetContentRegionAvail().x, left = ImGui::GetCursorPosX();
     const ImVec2 at = ImGui::GetCursorScreenPos();
     if (ImGui::Selectable(fmt::format("##{}", column.name).c_str(), false)) context.send(next_sort(options, column));
-    context.items.record_last(fmt::format("run-table:{}", column.name));
-    next_item_tooltip(fmt::format("{}: {}\nclick to sort", column.title, column.doc));
+    note_item(context, fmt::format("run-table:{}", column.name), fmt::format("{}: {}\nclick to sort", column.title, column.doc));
     const float shift = column.is_word() ? 0.0F : std::max(0.0F, width - ImGui::CalcTextSize(text.c_str()).x);
     ImGui::GetWindowDrawList()->AddText({at.x + shift, at.y}, colour(sorted ? context.palette.text : context.palette.dim), text.c_str());
     ImGui::SetCursorPosX(left);

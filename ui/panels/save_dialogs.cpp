@@ -45,8 +45,7 @@ void draw_formats(PanelContext& context, std::string& name) {
         if (fs::path(name).extension() == ".gz") name = fs::path(name).replace_extension().string();
         name = fs::path(name).replace_extension(extensions.substr(0, extensions.find(' '))).string();
       }
-      context.items.record_last(fmt::format("export:{}", format.name));
-      next_item_tooltip(std::string(format.doc));
+      note_item(context, fmt::format("export:{}", format.name), std::string(format.doc));
     }
     ImGui::EndCombo();
   }
@@ -159,8 +158,7 @@ void draw_picture_choices(PanelContext& context, ScreenshotDialog& dialog) {
   }
   label("supersample");
   ImGui::SliderInt("##supersample", &dialog.supersample, 1, 8, "%d", ImGuiSliderFlags_AlwaysClamp);
-  context.items.record_last("screenshot:supersample");
-  next_item_tooltip("samples a pixel: smoother edges");
+  note_item(context, "screenshot:supersample", "samples a pixel: smoother edges");
   label("background");
   ImGui::Checkbox("transparent", &dialog.transparent);
   context.items.record_last("screenshot:transparent");

@@ -212,8 +212,7 @@ bool draw_save_buttons(PanelContext& context, const SaveForm& form, const char* 
     context.items.record_last(form.items + ":replace");
   }
   ImGui::SameLine();
-  if (ImGui::Button("Cancel")) context.state.dialog = Dialog::None;
-  context.items.record_last("dialog:close");
+  close_button(context, "Cancel");
   if (!go || judge(target, form.endings) != SaveVerdict::Ready) return false;
   target.replaced.clear();
   target.asked.clear();

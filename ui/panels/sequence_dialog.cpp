@@ -86,8 +86,7 @@ void draw_sequence_dialog(PanelContext& context) {
   const bool go = ImGui::Button(fmt::format("Save {} picture{}###go", pictures, pictures == 1 ? "" : "s").c_str());
   context.items.record_last("sequence:go");
   ImGui::SameLine();
-  if (ImGui::Button("Cancel")) context.state.dialog = Dialog::None;
-  context.items.record_last("dialog:close");
+  close_button(context, "Cancel");
   if ((go || entered) && !widgets.folder.empty()) {
     context.state.dialog = Dialog::None;
     context.send(command_of(widgets));

@@ -22,8 +22,7 @@ void draw_card(PanelContext& context, const Thumbnail& sample, const CardSize& s
   ImGui::PushID(sample.name.c_str());
   const ImVec2 at = ImGui::GetCursorScreenPos();
   if (ImGui::Button("##card", {width, card_height(context, size)}) && !context.activity.busy) context.send("generate " + sample.name);
-  context.items.record_last("sample:" + sample.name);
-  next_item_tooltip(sample.doc);
+  note_item(context, "sample:" + sample.name, sample.doc);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float inner = side - 2 * pad, left = at.x + (width - inner) / 2;
   const ImU32 edge = IM_COL32(0, 0, 0, 110);

@@ -105,8 +105,7 @@ void strip(PanelContext& context, const char* side_name, const Rect& rect, const
   if (open) ImGui::PushStyleColor(ImGuiCol_Button, colour_vector(context.palette.accent, 0.25F));
   if (ImGui::Button(label, {side, side})) context.send(fmt::format("unfold {} {}", side_name, open ? "off" : "on"));
   if (open) ImGui::PopStyleColor();
-  context.items.record_last(fmt::format("fold:{}", side_name));
-  next_item_tooltip(tooltip);
+  note_item(context, fmt::format("fold:{}", side_name), tooltip);
   end_panel();
 }
 
@@ -134,8 +133,8 @@ void draw_status(PanelContext& context, const Rect& rect) {
   if (const std::string speed = speed_sentence(context); !at_work && !speed.empty()) {
     ImGui::SameLine(0, context.px(16));
     dim_text(context, speed, false);
-    context.items.record_last("status-speed");
-    next_item_tooltip("of the last iteration, smoothing alone: vertices searched a second, those passed over not counted, and its time");
+    note_item(context, "status-speed",
+              "of the last iteration, smoothing alone: vertices searched a second, those passed over not counted, and its time");
   }
   if (activity.frames_per_second > 0.0) {
     ImGui::SameLine(0, context.px(16));

@@ -64,8 +64,7 @@ void card_button(PanelContext& context, const char* item, const char* label, con
   }
   const bool pressed = ImGui::Button(label);
   if (primary) ImGui::PopStyleColor(4);
-  context.items.record_last(item);
-  next_item_tooltip(tooltip);
+  note_item(context, item, tooltip);
   if (pressed) context.send(command);
 }
 

@@ -113,8 +113,7 @@ void draw_recover_dialog(PanelContext& context) {
     } else if (ImGui::RadioButton(row.c_str(), chosen == k)) {
       chosen = k;
     }
-    context.items.record_last(fmt::format("recover:{}", k));
-    next_item_tooltip(found[k].mesh);
+    note_item(context, fmt::format("recover:{}", k), found[k].mesh);
     ImGui::PopID();
   }
   ImGui::Spacing();

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cctype>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -44,6 +45,51 @@ void next_item_tooltip(const std::string& text) {
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
   }
+}
+
+void note_item(PanelContext& context, std::string_view item, const std::string& tooltip) {
+  context.items.record_last(item);
+  next_item_tooltip(tooltip);
+}
+
+void warning_text(const PanelContext& context, const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, colour_vector(context.palette.warning));
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+}
+
+Combo::Combo(PanelContext& context, std::string item, const std::string& shown, int flags)
+    : context_(context), item_(std::move(item)), open_(ImGui::BeginCombo(("##" + item_).c_str(), shown.c_str(), flags)) {
+  context.items.record_last(item_);
+}
+
+Combo::~Combo() {
+  if (open_) ImGui::EndCombo();
+}
+
+bool Combo::entry(std::string_view word, std::string_view title, bool chosen, const std::string& tooltip, bool possible) {
+  const bool clicked = ImGui::Selectable(std::string(title).c_str(), chosen, possible ? 0 : ImGuiSelectableFlags_Disabled);
+  note_item(context_, fmt::format("{}:{}", item_, word), tooltip);
+  return clicked;
+}
+
+void pair_field(PanelContext& context, const char* item, double first, double second, const char* command) {
+  double values[2] = {first, second};
+  ImGui::InputScalarN(fmt::format("##{}", item).c_str(), ImGuiDataType_Double, values, 2, nullptr, nullptr, "%.4g");
+  context.items.record_last(item);
+  if (ImGui::IsItemDeactivatedAfterEdit()) context.send(fmt::format("{} {} {}", command, full_number(values[0]), full_number(values[1])));
+}
+
+void option_box(PanelContext& context, const char* label, const char* item, const char* command, bool now, const std::string& tooltip) {
+  if (ImGui::Checkbox(label, &now)) context.send(fmt::format("{} {}", command, now ? "on" : "off"));
+  note_item(context, item, tooltip);
+}
+
+void close_button(PanelContext& context, const char* label) {
+  if (ImGui::Button(label)) context.state.dialog = Dialog::None;
+  context.items.record_last("dialog:close");
 }
 
 void draw_plate(const PanelContext& context, ImVec2 low, ImVec2 high) {
@@ -206,8 +252,7 @@ void metric_combo(PanelContext& context, const char* item, Metric current, const
   ImGui::Separator();
   for (const Metric metric : further_metrics(context.session)) choice(metric);
   if (ImGui::Selectable("a formula…")) context.state.dialog = Dialog::Formula;
-  context.items.record_last(fmt::format("{}:formula", item));
-  next_item_tooltip("write a metric of your own, or choose what elements are wished to be");
+  note_item(context, fmt::format("{}:formula", item), "write a metric of your own, or choose what elements are wished to be");
   ImGui::EndCombo();
 }
 

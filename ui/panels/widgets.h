@@ -28,6 +28,32 @@ void beside_or_below(const char* label, float gap = -1.0F);
 /// Of a button whose label is one of these: what stands beside it stays where it is.
 [[nodiscard]] float widest_button(std::initializer_list<const char*> labels);
 void next_item_tooltip(const std::string& text);
+/// The name of the last item for scripts, and what is said under the mouse.
+void note_item(PanelContext& context, std::string_view item, const std::string& tooltip);
+/// Text in the colour of warnings, in as many lines as it needs.
+void warning_text(const PanelContext& context, const std::string& text);
+/// A drop-down list; its entries are the items "ITEM:WORD".
+class Combo {
+ public:
+  Combo(PanelContext& context, std::string item, const std::string& shown, int flags = 0);
+  ~Combo();
+  Combo(const Combo&) = delete;
+  Combo& operator=(const Combo&) = delete;
+  [[nodiscard]] bool open() const noexcept { return open_; }
+  /// Whether it is clicked.
+  bool entry(std::string_view word, std::string_view title, bool chosen, const std::string& tooltip = {}, bool possible = true);
+
+ private:
+  PanelContext& context_;
+  std::string item_;
+  bool open_;
+};
+/// Two numbers that are sent as "COMMAND FIRST SECOND" once they were edited.
+void pair_field(PanelContext& context, const char* item, double first, double second, const char* command);
+/// A box that switches an option of the view, see view_options().
+void option_box(PanelContext& context, const char* label, const char* item, const char* command, bool now, const std::string& tooltip = {});
+/// Closes the open dialog.
+void close_button(PanelContext& context, const char* label);
 /// Text on a plate in the panel's colour is readable on any mesh.
 void draw_plate(const PanelContext& context, ImVec2 low, ImVec2 high);
 /// A row "label [widget]" whose widget, drawn next, fills the right part; where it wants more pixels than there are, a line of its own.

@@ -262,39 +262,22 @@ std::vector<std::string_view> menu_names() {
 }
 
 bool enabled(const Action& action, const Situation& now) {
-  switch (action.needs) {
-    case Needs::Nothing:
-      return true;
-    case Needs::Mesh:
-      return now.mesh;
-    case Needs::Idle:
-      return !now.busy;
-    case Needs::MeshAndIdle:
-      return now.mesh && !now.busy;
-    case Needs::Work:
-      return now.busy;
-    case Needs::SeveralRuns:
-      return now.mesh && !now.busy && now.runs > 1;
-    case Needs::Picked:
-      return now.picked;
-    case Needs::Leavable:
-      return now.picked || now.leavable;
-    case Needs::Selected:
-      return now.mesh && !now.busy && now.selected;
-    case Needs::Chosen:
-      return now.mesh && !now.busy && (now.selected || now.picked);
-    case Needs::Undo:
-      return !now.busy && !now.undo.empty();
-    case Needs::Redo:
-      return !now.busy && !now.redo.empty();
-    case Needs::Volume:
-      return now.mesh && now.volume;
-    case Needs::Planar:
-      return now.mesh && !now.volume;
-    case Needs::Better:
-      return now.mesh && !now.busy && now.better;
-  }
-  return false;
+  const bool ready = now.mesh && !now.busy;
+  const std::array<bool, 14> met{true,  // in the order of Needs
+                                 now.mesh,
+                                 ready,
+                                 now.busy,
+                                 ready && now.runs > 1,
+                                 now.picked,
+                                 ready && now.selected,
+                                 !now.busy && !now.undo.empty(),
+                                 !now.busy && !now.redo.empty(),
+                                 now.mesh && now.volume,
+                                 now.mesh && !now.volume,
+                                 ready && now.better,
+                                 now.picked || now.leavable,
+                                 ready && (now.selected || now.picked)};
+  return met[static_cast<std::size_t>(action.needs)];
 }
 
 std::string title_of(const Action& action, const Situation& now) {

@@ -11,23 +11,7 @@
 namespace dmoscope::ui {
 
 /// What must be so for an action to be possible.
-enum class Needs {
-  Nothing,
-  Mesh,
-  Idle,
-  MeshAndIdle,
-  Work,
-  SeveralRuns,
-  Picked,
-  Selected,
-  Undo,
-  Redo,
-  Volume,
-  Planar,
-  Better,
-  Leavable,
-  Chosen
-};
+enum class Needs { Nothing, Mesh, MeshAndIdle, Work, SeveralRuns, Picked, Selected, Undo, Redo, Volume, Planar, Better, Leavable, Chosen };
 
 struct Action {
   std::string_view id;       // "step-iteration"; also the name of its items

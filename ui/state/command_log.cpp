@@ -50,45 +50,14 @@ std::string one_line(std::string_view text) {
   return line;
 }
 
-LogLine::Kind kind_of(Message::Kind kind) {
-  switch (kind) {
-    case Message::Kind::Info:
-      return LogLine::Kind::Info;
-    case Message::Kind::Warning:
-      return LogLine::Kind::Warning;
-    case Message::Kind::Error:
-      break;
-  }
-  return LogLine::Kind::Error;
-}
+constexpr std::array kKinds{LogLine::Kind::Info, LogLine::Kind::Warning, LogLine::Kind::Error};  // in the order of Message::Kind
+LogLine::Kind kind_of(Message::Kind kind) { return kKinds[static_cast<std::size_t>(kind)]; }
 
-LogLine::State state_of(CommandEnd::Kind kind) {
-  switch (kind) {
-    case CommandEnd::Kind::Done:
-      return LogLine::State::Done;
-    case CommandEnd::Kind::Failed:
-      return LogLine::State::Failed;
-    case CommandEnd::Kind::Cancelled:
-      return LogLine::State::Cancelled;
-    case CommandEnd::Kind::Dropped:
-      break;
-  }
-  return LogLine::State::Dropped;
-}
-
-const char* why_not(CommandEnd::Kind kind) {
-  switch (kind) {
-    case CommandEnd::Kind::Failed:
-      return "failed";
-    case CommandEnd::Kind::Cancelled:
-      return "cancelled";
-    case CommandEnd::Kind::Dropped:
-      return "cancelled before it began";
-    case CommandEnd::Kind::Done:
-      break;
-  }
-  return "";
-}
+// In the order of CommandEnd::Kind.
+constexpr std::array kStates{LogLine::State::Done, LogLine::State::Failed, LogLine::State::Cancelled, LogLine::State::Dropped};
+constexpr std::array<const char*, 4> kReasons{"", "failed", "cancelled", "cancelled before it began"};
+LogLine::State state_of(CommandEnd::Kind kind) { return kStates[static_cast<std::size_t>(kind)]; }
+const char* why_not(CommandEnd::Kind kind) { return kReasons[static_cast<std::size_t>(kind)]; }
 
 }  // namespace
 

@@ -17,18 +17,7 @@ using ContentKind = PaneContent::Kind;
 
 }  // namespace
 
-std::size_t pane_count(PaneLayout layout) {
-  switch (layout) {
-    case PaneLayout::One:
-      return 1;
-    case PaneLayout::Four:
-      return 4;
-    case PaneLayout::Two:
-    case PaneLayout::Split:
-      break;
-  }
-  return 2;
-}
+std::size_t pane_count(PaneLayout layout) { return layout == PaneLayout::One ? 1 : layout == PaneLayout::Four ? 4 : 2; }
 
 void Panes::set_layout(PaneLayout wanted) {
   layout = wanted;
@@ -134,23 +123,11 @@ std::size_t Panes::pane_of_active() const {
 }
 
 std::string Panes::words(const PaneContent& content) const {
-  switch (content.kind) {
-    case ContentKind::Active:
-      return "active";
-    case ContentKind::Input:
-      return "input";
-    case ContentKind::MarkA:
-      return "mark a";
-    case ContentKind::MarkB:
-      return "mark b";
-    case ContentKind::Run: {
-      const auto place = std::ranges::find(run_ids, content.run) - run_ids.begin() + 1;
-      return content.iteration ? fmt::format("run {} {}", place, *content.iteration) : fmt::format("run {}", place);
-    }
-    case ContentKind::Free:
-      break;
-  }
-  return "auto";
+  constexpr std::array<const char*, 6> kWords{"auto", "active", "run", "input", "mark a", "mark b"};  // in the order of the kinds
+  std::string words = kWords[static_cast<std::size_t>(content.kind)];
+  if (content.kind == ContentKind::Run) words += fmt::format(" {}", std::ranges::find(run_ids, content.run) - run_ids.begin() + 1);
+  if (content.kind == ContentKind::Run && content.iteration) words += fmt::format(" {}", *content.iteration);
+  return words;
 }
 
 PaneContent Panes::parse(const std::vector<std::string>& words) const {

@@ -46,17 +46,10 @@ void Selection::remove(std::vector<Index> vertices) {
 
 Selection after_stroke(const Selection& selection, const Brush& brush) {
   Selection result = selection;
-  switch (brush.kind) {
-    case StrokeKind::Select:
-      result.assign(brush.stroke.vertices());
-      break;
-    case StrokeKind::Add:
-      result.add(brush.stroke.vertices());
-      break;
-    case StrokeKind::Remove:
-      result.remove(brush.stroke.vertices());
-      break;
-  }
+  const std::vector<Index>& touched = brush.stroke.vertices();
+  if (brush.kind == StrokeKind::Select) result.assign(touched);
+  if (brush.kind == StrokeKind::Add) result.add(touched);
+  if (brush.kind == StrokeKind::Remove) result.remove(touched);
   return result;
 }
 

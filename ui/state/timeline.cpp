@@ -56,17 +56,9 @@ std::optional<std::string> next_command(Playback& play, const SessionView& sessi
   if (now < play.due) return std::nullopt;
   const double interval = 1.0 / play.speed;
   play.due = std::max(play.due + interval, now);  // what could not be shown in time is not made up for
-  switch (play.kind) {
-    case Playback::Kind::Vertex:
-      return "step vertex";
-    case Playback::Kind::Class:
-      return "step class";
-    case Playback::Kind::Iteration:
-      return "step iteration";
-    case Playback::Kind::History:
-    case Playback::Kind::Off:
-      break;
-  }
+  if (play.kind == Playback::Kind::Vertex) return "step vertex";
+  if (play.kind == Playback::Kind::Class) return "step class";
+  if (play.kind == Playback::Kind::Iteration) return "step iteration";
   const RunView& run = session.runs[session.active];
   const std::uint64_t last = run.records.empty() ? 0 : run.records.back().iteration;
   const bool restart = std::exchange(play.from_start, false) && run.moment.iteration >= last;

@@ -37,27 +37,15 @@ std::string open_beside_command(const std::string& file) {
 }
 
 std::string command_to_open(OpenFor open_for, const std::string& file) {
-  switch (open_for) {
-    case OpenFor::Beside:
-      return open_beside_command(file);
-    case OpenFor::Surface:
-      return "surface " + quote_word(file);
-    case OpenFor::Alone:
-      break;
-  }
-  return open_command(file);
+  return open_for == OpenFor::Beside    ? open_beside_command(file)
+         : open_for == OpenFor::Surface ? "surface " + quote_word(file)
+                                        : open_command(file);
 }
 
 const char* title_to_open(OpenFor open_for) {
-  switch (open_for) {
-    case OpenFor::Beside:
-      return "Open a mesh beside";
-    case OpenFor::Surface:
-      return "Slide on the surface of a mesh";
-    case OpenFor::Alone:
-      break;
-  }
-  return "Open a mesh";
+  return open_for == OpenFor::Beside    ? "Open a mesh beside"
+         : open_for == OpenFor::Surface ? "Slide on the surface of a mesh"
+                                        : "Open a mesh";
 }
 
 std::vector<std::string> open_commands(const std::vector<std::filesystem::path>& files) {

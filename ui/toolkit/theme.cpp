@@ -144,17 +144,7 @@ void apply_colours(const Palette& p) {
 
 }  // namespace
 
-const Palette& palette(Theme theme) {
-  switch (theme) {
-    case Theme::Light:
-      return kLight;
-    case Theme::Contrast:
-      return kContrast;
-    case Theme::Dark:
-      break;
-  }
-  return kDark;
-}
+const Palette& palette(Theme theme) { return theme == Theme::Light ? kLight : theme == Theme::Contrast ? kContrast : kDark; }
 
 double contrast(render::Rgb a, render::Rgb b) {
   const double x = luminance(a), y = luminance(b);

@@ -9,6 +9,7 @@
 #include "render/draw_order.h"
 #include "ui/analysis/holding_colours.h"
 #include "ui/toolkit/screen_occupancy.h"
+#include "ui/viewports/cased_lines.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -81,21 +82,17 @@ void add_holders(render::Marks& marks, const MarkView& view, const JointCluster&
   const auto ends = [&](Index a, Index b) {
     return std::array{plane.place(positions[a]), render::place_near(plane, positions[b], positions[a])};
   };
-  std::vector<render::OverlayLine> inner;
-  const auto line = [&](Vec2<double> a, Vec2<double> b, float width, float casing_width) {
-    marks.lines.push_back({a, b, casing_width, casing});
-    inner.push_back({a, b, width, ink});
-  };
+  CasedLines lines(marks, ink, casing);
   const auto rim = rim_of(cluster, input);
   if (rim.size() <= kMostMarks)
-    for (const auto& [a, b] : rim) line(ends(a, b)[0], ends(a, b)[1], kRim, kRimCasing);
+    for (const auto& [a, b] : rim) lines.add(ends(a, b)[0], ends(a, b)[1], kRim, kRimCasing);
   const auto active = holders(cluster).first(std::min(kMostHolders, holders(cluster).size()));
   for (const JointCluster::Active& one : active) {
     const auto corners = input.mesh.elements.corners(one.element);
     if (thickness(input, positions, one.element) < view.units(kThinnestElement)) continue;
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const auto [p, q] = ends(corners[i], corners[(i + 1) % corners.size()]);
-      line(p, q, width_of(cluster, one), kActiveCasing);
+      lines.add(p, q, width_of(cluster, one), kActiveCasing);
     }
   }
   const double most = longest_force(cluster), least = view.units(kShortestForce);
@@ -107,13 +104,10 @@ void add_holders(render::Marks& marks, const MarkView& view, const JointCluster&
     const Vec2<double> way{factor * along.x, factor * along.y}, tip = from + way;
     const double size = std::hypot(way.x, way.y);
     if (size < least || !places.take(one.vertex, from)) continue;
-    line(from, tip, 1.5F, 3.5F);
     const double head = std::min(0.4 * size, view.units(8.0)) / size;
     const Vec2<double> back{-head * way.x, -head * way.y}, side{-0.5 * back.y, 0.5 * back.x};
-    line(tip, tip + back + side, 1.5F, 3.5F);
-    line(tip, tip + back - side, 1.5F, 3.5F);
+    lines.add_arrow(from, tip, back, side, 1.5F, 3.5F);
   }
-  marks.lines.insert(marks.lines.end(), inner.begin(), inner.end());
 }
 
 void add_space_holders(render::SpaceMarks& marks, const SpaceMarkView& view, const JointCluster& cluster, std::span<const Vec3> positions,
@@ -124,11 +118,7 @@ void add_space_holders(render::SpaceMarks& marks, const SpaceMarkView& view, con
   const double most = longest_force(cluster);
   if (!(most > 0.0)) return;
   const double unit = view.camera.units_per_pixel(view.projection.viewport());
-  std::vector<render::SpaceLine> inner;
-  const auto line = [&](Vec3 a, Vec3 b) {
-    marks.lines.push_back({a, b, 3.5F, casing});
-    inner.push_back({a, b, 1.5F, ink});
-  };
+  CasedLines lines(marks, ink, casing);
   const Vec2<double> half{0.5 * view.projection.viewport().x, 0.5 * view.projection.viewport().y};
   PlacesOfForces places({{-half.x, -half.y}, half}, kApart * view.scale);
   for (const JointCluster::Force& one : cluster.forces) {
@@ -136,15 +126,9 @@ void add_space_holders(render::SpaceMarks& marks, const SpaceMarkView& view, con
     const double pixels = view.pixels(from, tip);
     const auto at = view.projection.place(from);
     if (pixels < kShortestForce * view.scale || !at || !places.take(one.vertex, *at)) continue;
-    line(from, tip);
-    // The head lies flat before the eye.
-    const Vec3 back = -std::min(0.4, 8.0 * view.scale / pixels) * way, across = cross(way, view.camera.back());
-    const double size = length(across);
-    const Vec3 side = size > 0.0 ? 0.5 * length(back) / size * across : Vec3{};
-    line(tip, tip + back + side);
-    line(tip, tip + back - side);
+    const Vec3 back = -std::min(0.4, 8.0 * view.scale / pixels) * way;
+    lines.add_arrow(from, tip, back, view.across(way, back), 1.5F, 3.5F);
   }
-  marks.lines.insert(marks.lines.end(), inner.begin(), inner.end());
 }
 
 }  // namespace dmoscope::ui

@@ -26,12 +26,9 @@ struct InspectionLook {
 /// best.
 [[nodiscard]] float candidate_diameter(double spacing, double part);
 
-/// The same in the space of a volume.
+/// The same in space, in a volume or on a surface.
 void add_inspection_marks(render::SpaceMarks& marks, const InspectionState& state, const Inspection& inspection,
                           const InspectionLook& look);
-
-/// Of a vertex that slides on a surface: candidates lie there; crosses lie on none that counts, squares deviate too far.
-void add_surface_marks(render::SpaceMarks& marks, const InspectionState& state, const Inspection& inspection, const InspectionLook& look);
 
 /// Adds the star, and of the levels shown: the grid's outline, a dot or cross for every candidate, a ring around the one chosen, the next
 /// grid's outline, and the way from where the vertex stood.

@@ -5,6 +5,7 @@
 
 #include "render/draw_order.h"
 #include "ui/toolkit/screen_occupancy.h"
+#include "ui/viewports/cased_lines.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -83,11 +84,7 @@ std::size_t add_arrows(render::Marks& marks, const MarkView& view, const Displac
   const double least = view.units(4.0);
   std::size_t drawn = 0, left_out = 0;
   CellsTaken taken(window, view.units(14.0));
-  std::vector<render::OverlayLine> inner;
-  const auto line = [&](Vec2<double> a, Vec2<double> b) {
-    marks.lines.push_back({a, b, 3.0F, casing});
-    inner.push_back({a, b, 1.3F, ink});
-  };
+  CasedLines lines(marks, ink, casing);
   moved.for_each([&](const Displacements::One& one) {
     const Vec2<double> way = times(factor, one.way);
     const double length = length_of(way);
@@ -99,14 +96,11 @@ std::size_t add_arrows(render::Marks& marks, const MarkView& view, const Displac
       return true;
     }
     ++drawn;
-    line(one.from, tip);
     const double head = std::min(0.4 * length, view.units(7.0)) / length;
     const Vec2<double> back = times(-head, way), side = times(0.5, {-back.y, back.x});
-    line(tip, tip + back + side);
-    line(tip, tip + back - side);
+    lines.add_arrow(one.from, tip, back, side, 1.3F, 3.0F);
     return true;
   });
-  marks.lines.insert(marks.lines.end(), inner.begin(), inner.end());
   return left_out;
 }
 
@@ -114,7 +108,7 @@ void add_ghost(render::Marks& marks, const MarkView& view, const Mesh& mesh, con
                std::span<const Vec3> to, std::span<const Index> elements, render::Rgba ink, render::Rgba casing) {
   const render::Bounds2 window = view.window();
   const double least = view.units(1.0), shortest = view.units(8.0);
-  std::vector<render::OverlayLine> inner;
+  CasedLines lines(marks, ink, casing);
   const auto moved = [&](Index v) { return length_of(plane.offset(to[v], from[v])) >= least; };
   for (const Index e : elements) {
     const auto corners = mesh.elements.corners(e);
@@ -124,11 +118,9 @@ void add_ghost(render::Marks& marks, const MarkView& view, const Mesh& mesh, con
       if (a > b || !(moved(a) || moved(b))) continue;
       const Vec2<double> p = plane.place(from[a]), q = render::place_near(plane, from[b], from[a]);
       if (length_of(q - p) < shortest || !meets(window, p, q)) continue;
-      marks.lines.push_back({p, q, 2.6F, casing});
-      inner.push_back({p, q, 1.0F, ink});
+      lines.add(p, q, 1.0F, 2.6F);
     }
   }
-  marks.lines.insert(marks.lines.end(), inner.begin(), inner.end());
 }
 
 NextClass next_class(const Colouring& colouring, std::uint64_t visits) {

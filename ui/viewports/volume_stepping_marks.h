@@ -14,6 +14,8 @@ struct SpaceMarkView {
   double scale = 1.0;  // of the interface
   /// Pixels between the places of two points; 0 where one is behind the eye.
   [[nodiscard]] double pixels(Vec3 a, Vec3 b) const;
+  /// From the middle of an arrow's head to one of its ends: it lies flat before the eye, and is as broad as `back` is long.
+  [[nodiscard]] Vec3 across(Vec3 way, Vec3 back) const;
 };
 
 /// By how much arrows are scaled: `wanted`, or where that is 0 what makes the longest of `vertices` 40 pixels long, seen from the side.

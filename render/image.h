@@ -45,16 +45,4 @@ void write_png(const std::filesystem::path& path, const Image& image);
 /// Draws `top` over `bottom` with its left upper corner at (x, y); what does not fit is cut off.
 void blend_over(Image& bottom, const Image& top, int x, int y);
 
-/// How much two pictures differ.
-struct Difference {
-  bool same_size = false;
-  double off_share = 1.0;  // share of pixels with a channel that differs by more than 16
-  int largest = 255;       // largest difference of a channel
-  double ssim = 0.0;       // mean structural similarity of the luminance over 8 x 8 windows, 1: the same
-  /// The usual judgement in tests: same size, and less than `share` of the pixels off.
-  [[nodiscard]] bool alike(double share = 0.005) const noexcept { return same_size && off_share < share; }
-};
-/// Compares two pictures as if each lay on middle grey. Pictures of different sizes are simply different.
-[[nodiscard]] Difference compare(const Image& a, const Image& b);
-
 }  // namespace dmoscope::render

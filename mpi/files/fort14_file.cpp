@@ -14,7 +14,8 @@ namespace {
 
 class Fort14File final : public TextMeshFile {
  public:
-  using TextMeshFile::TextMeshFile;
+  Fort14File(const World& world, const std::filesystem::path& path)
+      : TextMeshFile(world, path, {.components = 2, .syntax = kFort14Syntax}) {}
 
   MeshBlock read(const FieldFilter& filter) override {
     const RangeFile& file = open();
@@ -57,38 +58,25 @@ class Fort14File final : public TextMeshFile {
   };
 
   [[nodiscard]] LineBlock lines(const RangeFile& file) const override { return read_lines(world(), file, body_, false); }
-  [[nodiscard]] CoordinateLayout layout() const override {
-    CoordinateLayout layout;
-    layout.components = 2;
-    layout.syntax = kFort14Syntax;
-    return layout;
-  }
 
   void read_head(const RangeFile& file) {
-    const std::string text = file.read(0, kLongestHead);
-    Progress unwatched;
-    Tokenizer tokens(text, name(), kFort14Syntax, unwatched);
-    static_cast<void>(tokens.rest_of_line());
-    if (tokens.at_end()) tokens.fail_at_end("number of elements");
-    const auto count = [&](std::string_view what) {
-      const std::int64_t found = tokens.read_integer(what);
-      if (found < 0 || found >= std::int64_t{kNoIndex}) tokens.fail(fmt::format("{} out of range: {}", what, found));
-      return static_cast<std::uint64_t>(found);
-    };
-    elements_ = count("number of elements");
-    nodes_ = count("number of vertices");
-    tokens.end_line();
-    body_ = tokens.offset();
+    with_tokens(file.read(0, kLongestHead), 1, [&](Tokenizer& tokens) {
+      static_cast<void>(tokens.rest_of_line());
+      if (tokens.at_end()) tokens.fail_at_end("number of elements");
+      elements_ = read_count(tokens, "number of elements");
+      nodes_ = read_count(tokens, "number of vertices");
+      tokens.end_line();
+      body_ = tokens.offset();
+    });
   }
 
   /// Visits the rank's lines by their numbers among all behind the head; false: it has seen enough.
   template <class Visit>
   void each_line(const LineBlock& lines, const Visit& visit) const {
-    Progress unwatched;
-    Tokenizer tokens(lines.text, name(), kFort14Syntax, unwatched);
-    tokens.seek(0, lines.first_line);
-    for (std::uint64_t i = first_; !tokens.at_end() && visit(tokens, i); ++i) {
-    }
+    with_tokens(lines.text, lines.first_line, [&](Tokenizer& tokens) {
+      for (std::uint64_t i = first_; !tokens.at_end() && visit(tokens, i); ++i) {
+      }
+    });
   }
 
   [[nodiscard]] Parsed parse(const LineBlock& lines) const {
@@ -135,17 +123,12 @@ class Fort14File final : public TextMeshFile {
       if (one.offset < begin.offset) begin = one;
     Strings strings;
     world().together([&] {
-      const std::string text = file.read(begin.offset, file.size() - begin.offset);
-      Progress unwatched;
-      Tokenizer tokens(text, name(), kFort14Syntax, unwatched);
-      tokens.seek(0, begin.line);
-      strings.groups = read_fort14_boundaries(
-          tokens,
-          [&](Tokenizer& own, std::string_view what) {
-            strings.numbers.push_back(own.read_integer(what));
-            return static_cast<Index>(strings.numbers.size() - 1);
-          },
-          nullptr);
+      const auto number = [&](Tokenizer& own, std::string_view what) {
+        strings.numbers.push_back(own.read_integer(what));
+        return static_cast<Index>(strings.numbers.size() - 1);
+      };
+      with_tokens(file.read(begin.offset, file.size() - begin.offset), begin.line,
+                  [&](Tokenizer& tokens) { strings.groups = read_fort14_boundaries(tokens, number, nullptr); });
     });
     return strings;
   }

@@ -12,7 +12,7 @@ namespace {
 
 class ObjFile final : public TextMeshFile {
  public:
-  using TextMeshFile::TextMeshFile;
+  ObjFile(const World& world, const std::filesystem::path& path) : TextMeshFile(world, path, {.syntax = kObjSyntax}) {}
 
   MeshBlock read(const FieldFilter& /*filter*/) override {
     const LineBlock mine = lines(open());
@@ -39,11 +39,6 @@ class ObjFile final : public TextMeshFile {
   };
 
   [[nodiscard]] LineBlock lines(const RangeFile& file) const override { return read_lines(world(), file, 0, true); }
-  [[nodiscard]] CoordinateLayout layout() const override {
-    CoordinateLayout layout;
-    layout.syntax = kObjSyntax;
-    return layout;
-  }
   void vertices(const LineBlock& lines, VertexLines& found) const override {
     each_statement(lines, [&](Tokenizer& tokens, std::string_view word) {
       if (word != "v") return;
@@ -55,13 +50,12 @@ class ObjFile final : public TextMeshFile {
 
   template <class Visit>
   void each_statement(const LineBlock& lines, const Visit& visit) const {
-    Progress unwatched;
-    Tokenizer tokens(lines.text, name(), kObjSyntax, unwatched);
-    tokens.seek(0, lines.first_line);
-    while (!tokens.at_end()) {
-      visit(tokens, tokens.token_on_line());
-      tokens.end_line();
-    }
+    with_tokens(lines.text, lines.first_line, [&](Tokenizer& tokens) {
+      while (!tokens.at_end()) {
+        visit(tokens, tokens.token_on_line());
+        tokens.end_line();
+      }
+    });
   }
 
   [[nodiscard]] Parsed parse(const LineBlock& lines) const {

@@ -14,7 +14,7 @@ constexpr TextSyntax kOffSyntax{.comment = '#'};
 
 class OffFile final : public TextMeshFile {
  public:
-  using TextMeshFile::TextMeshFile;
+  OffFile(const World& world, const std::filesystem::path& path) : TextMeshFile(world, path, {.syntax = kOffSyntax}) {}
 
   MeshBlock read(const FieldFilter& /*filter*/) override {
     const RangeFile& file = open();
@@ -37,44 +37,33 @@ class OffFile final : public TextMeshFile {
 
  private:
   [[nodiscard]] LineBlock lines(const RangeFile& file) const override { return read_lines(world(), file, body_, false); }
-  [[nodiscard]] CoordinateLayout layout() const override {
-    CoordinateLayout layout;
-    layout.syntax = kOffSyntax;
-    return layout;
-  }
 
   void read_head(const RangeFile& file) {
-    const std::string text = file.read(0, kLongestHead);
-    Progress unwatched;
-    Tokenizer tokens(text, name(), kOffSyntax, unwatched);
-    static_cast<void>(read_off_word(tokens));
-    const std::size_t after_word = tokens.offset(), line = tokens.line();
-    if (tokens.token_on_line() == "BINARY") tokens.fail("several ranks read OFF files in ASCII alone");
-    tokens.seek(after_word, line);
-    const auto count = [&](std::string_view what) {
-      if (tokens.at_end()) tokens.fail_at_end(what);
-      const std::int64_t found = tokens.read_integer(what);
-      if (found < 0 || found >= std::int64_t{kNoIndex}) tokens.fail(fmt::format("{} out of range: {}", what, found));
-      return static_cast<std::uint64_t>(found);
-    };
-    vertices_ = count("number of vertices");
-    faces_ = count("number of faces");
-    tokens.end_line();
-    body_ = tokens.offset();
+    with_tokens(file.read(0, kLongestHead), 1, [&](Tokenizer& tokens) {
+      static_cast<void>(read_off_word(tokens));
+      const std::size_t after_word = tokens.offset(), line = tokens.line();
+      if (tokens.token_on_line() == "BINARY") tokens.fail("several ranks read OFF files in ASCII alone");
+      tokens.seek(after_word, line);
+      for (auto [what, number] : {std::pair{"number of vertices", &vertices_}, {"number of faces", &faces_}}) {
+        if (tokens.at_end()) tokens.fail_at_end(what);
+        *number = read_count(tokens, what);
+      }
+      tokens.end_line();
+      body_ = tokens.offset();
+    });
   }
 
   /// Visits the rank's lines with tokens by their numbers among all that hold any: vertices, then faces.
   template <class Vertex, class Face>
   void each_line(const LineBlock& lines, const Vertex& vertex, const Face& face) const {
-    Progress unwatched;
-    Tokenizer tokens(lines.text, name(), kOffSyntax, unwatched);
-    tokens.seek(0, lines.first_line);
-    for (std::uint64_t i = first_; i < vertices_ + faces_ && !tokens.at_end(); ++i) {
-      if (i < vertices_)
-        vertex(tokens);
-      else if (!face(tokens))
-        return;
-    }
+    with_tokens(lines.text, lines.first_line, [&](Tokenizer& tokens) {
+      for (std::uint64_t i = first_; i < vertices_ + faces_ && !tokens.at_end(); ++i) {
+        if (i < vertices_)
+          vertex(tokens);
+        else if (!face(tokens))
+          return;
+      }
+    });
   }
 
   void parse(const LineBlock& lines, MeshBlock& block) const {

@@ -30,7 +30,7 @@ std::vector<std::string> TextMeshFile::write(const std::filesystem::path& target
     if (before.positions.size() != positions.size()) throw InputError(name(), 0, "the file has changed while it was smoothed");
     SourceFile source(path_, FileBytes(mine.text));
     std::string().swap(mine.text);
-    source.set_layout(layout());
+    source.set_layout(layout_);
     source.add_places(before.places);
     patch_part(out, target.string(), source, before.positions, positions);
   });

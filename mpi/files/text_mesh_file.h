@@ -5,7 +5,10 @@
 #include <string_view>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "core/io/reading/source_file.h"
+#include "core/io/reading/tokenizer.h"
 #include "mpi/files/shared_mesh_file.h"
 #include "mpi/reading/byte_range.h"
 
@@ -22,7 +25,8 @@ inline constexpr std::uint64_t kLongestHead = std::uint64_t{1} << 16U;
 
 class TextMeshFile : public SharedMeshFile {
  public:
-  TextMeshFile(const World& world, std::filesystem::path path) : world_(world), path_(std::move(path)) {}
+  TextMeshFile(const World& world, std::filesystem::path path, CoordinateLayout layout)
+      : world_(world), path_(std::move(path)), layout_(std::move(layout)) {}
   [[nodiscard]] std::vector<std::string> write(const std::filesystem::path& target, std::span<const Vec3> positions) final;
 
  protected:
@@ -30,7 +34,6 @@ class TextMeshFile : public SharedMeshFile {
   [[nodiscard]] virtual LineBlock lines(const RangeFile& file) const = 0;
   /// Adds the vertices of these, this rank alone; in the order of the block that read() gives.
   virtual void vertices(const LineBlock& lines, VertexLines& found) const = 0;
-  [[nodiscard]] virtual CoordinateLayout layout() const = 0;
 
   /// Opens the file; read() calls it first.
   [[nodiscard]] const RangeFile& open();
@@ -39,10 +42,25 @@ class TextMeshFile : public SharedMeshFile {
   void require_counts(const MeshBlock& block, std::uint64_t vertices, std::uint64_t elements) const;
   [[nodiscard]] const World& world() const noexcept { return world_; }
   [[nodiscard]] std::string name() const { return path_.string(); }
+  /// Calls visit(tokens) with the tokens of a rank's lines.
+  template <class Visit>
+  void with_tokens(std::string_view text, std::size_t first_line, const Visit& visit) const {
+    Progress unwatched;
+    Tokenizer tokens(text, name(), layout_.syntax, unwatched);
+    tokens.seek(0, first_line);
+    visit(tokens);
+  }
+  /// A number of things in the head. Throws InputError where an Index does not count them.
+  [[nodiscard]] static std::uint64_t read_count(Tokenizer& tokens, std::string_view what) {
+    const std::int64_t found = tokens.read_integer(what);
+    if (found < 0 || found >= std::int64_t{kNoIndex}) tokens.fail(fmt::format("{} out of range: {}", what, found));
+    return static_cast<std::uint64_t>(found);
+  }
 
  private:
   const World& world_;
   std::filesystem::path path_;
+  CoordinateLayout layout_;
   std::optional<RangeFile> file_;
   std::int64_t stamp_ = 0;
 };

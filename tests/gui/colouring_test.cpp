@@ -11,6 +11,7 @@
 
 #include "tests/gui/headless_test.h"
 #include "tests/support/meshes.h"
+#include "tests/support/picture_difference.h"
 #include "ui/analysis/counting_elements.h"
 #include "ui/analysis/derived.h"
 #include "ui/analysis/element_colours.h"

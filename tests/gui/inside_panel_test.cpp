@@ -12,6 +12,7 @@
 #include "core/io/mesh_io.h"
 #include "render/image.h"
 #include "tests/gui/headless_test.h"
+#include "tests/support/picture_difference.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/volume_grids.h"
 #include "ui/state/command_log.h"

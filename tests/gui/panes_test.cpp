@@ -6,6 +6,7 @@
 
 #include "render/image.h"
 #include "tests/gui/headless_test.h"
+#include "tests/support/picture_difference.h"
 #include "tests/support/temporary_folder.h"
 #include "ui/analysis/element_colours.h"
 #include "ui/commands/view_json.h"

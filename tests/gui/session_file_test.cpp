@@ -8,6 +8,7 @@
 
 #include "render/image.h"
 #include "tests/gui/headless_test.h"
+#include "tests/support/picture_difference.h"
 #include "tests/support/temporary_folder.h"
 #include "ui/commands/view_commands.h"
 

@@ -7,6 +7,7 @@
 #include <imgui_internal.h>
 
 #include "tests/gui/headless_test.h"
+#include "tests/support/picture_difference.h"
 #include "ui/state/palette_entries.h"
 #include "ui/state/situation.h"
 

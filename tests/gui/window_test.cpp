@@ -10,6 +10,7 @@
 #include "core/quality/metric.h"
 #include "render/context.h"
 #include "tests/gui/headless_test.h"
+#include "tests/support/picture_difference.h"
 
 namespace dmoscope::app {
 namespace {

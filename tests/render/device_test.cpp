@@ -7,6 +7,7 @@
 #include "core/base/progress.h"
 #include "fixture.h"
 #include "tests/support/fake_picture.h"
+#include "tests/support/picture_difference.h"
 
 namespace dmoscope::render {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "fixture.h"
 #include "render/egl_order.h"
+#include "tests/support/picture_difference.h"
 
 namespace dmoscope::render {
 namespace {

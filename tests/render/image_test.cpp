@@ -7,6 +7,7 @@
 
 #include "core/base/error.h"
 #include "render/legend.h"
+#include "tests/support/picture_difference.h"
 
 namespace dmoscope::render {
 namespace {

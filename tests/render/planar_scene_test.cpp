@@ -4,6 +4,7 @@
 #include "fixture.h"
 #include "render/gl.h"
 #include "render/scene.h"
+#include "tests/support/picture_difference.h"
 
 namespace dmoscope::render {
 namespace {

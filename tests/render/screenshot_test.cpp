@@ -1,6 +1,7 @@
 #include "render/screenshot.h"
 
 #include "fixture.h"
+#include "tests/support/picture_difference.h"
 
 namespace dmoscope::render {
 namespace {

@@ -12,6 +12,7 @@
 #include "render/live_picture.h"
 #include "render/screenshot.h"
 #include "tests/render/volume_picture.h"
+#include "tests/support/picture_difference.h"
 #include "tests/support/volume_grids.h"
 
 namespace dmoscope::render {

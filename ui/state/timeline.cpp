@@ -41,13 +41,6 @@ void drop_stale_marks(Timeline& timeline, const SessionView& session) {
   if (timeline.shown_mark() == nullptr) timeline.shown = Shown::Now;
 }
 
-std::string mark_text(std::string_view letter, const Frame& frame) {
-  std::string text = fmt::format("{} · it {}", letter, count(frame.moment.iteration));
-  if (frame.moment.visits > 0) text += fmt::format(" + {} visits", count(frame.moment.visits));
-  if (frame.moment.edits > 0) text += fmt::format(" + {}", counted(frame.moment.edits, "edit", "edits"));
-  return text;
-}
-
 std::optional<std::string> next_command(Playback& play, const SessionView& session, double now) {
   if (play.kind == Playback::Kind::Off || session.active >= session.runs.size()) {
     play.kind = Playback::Kind::Off;

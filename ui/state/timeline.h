@@ -44,9 +44,6 @@ struct Timeline {
 /// Forgets marks on another input than the session's.
 void drop_stale_marks(Timeline& timeline, const SessionView& session);
 
-/// "A · it 3", with the visits of an iteration in its midst.
-[[nodiscard]] std::string mark_text(std::string_view letter, const Frame& frame);
-
 /// The command that is due at `now` (seconds), if any; the session is idle. Ends the playing of the history at its last iteration. The
 /// next one is due 1 / speed later.
 [[nodiscard]] std::optional<std::string> next_command(Playback& play, const SessionView& session, double now);

@@ -11,7 +11,6 @@
 #include "core/base/error.h"
 #include "core/base/unknown_value.h"
 #include "core/mesh/generate.h"
-#include "core/numeric/simd.h"
 #include "core/quality/metric.h"
 #include "core/run/recipe.h"
 #include "core/smooth/execution/accelerator.h"

@@ -1,7 +1,5 @@
 #include "library/include/dmoscope/trace.h"
 
-#include <algorithm>
-
 #include "core/inspect/visit_trace.h"
 #include "core/run/run.h"
 #include "library/mesh_data.h"

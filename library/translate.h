@@ -2,7 +2,6 @@
 // The program's errors, as the library's users know them.
 
 #include <string>
-#include <utility>
 
 #include "core/base/error.h"
 #include "library/include/dmoscope/error.h"

@@ -1,10 +1,8 @@
 #pragma once
 // Colours of quality: perceptually uniform, colour-blind safe maps.
 
-#include <optional>
 #include <span>
 #include <string_view>
-#include <vector>
 
 #include "render/image.h"
 

@@ -1,7 +1,6 @@
 #include "render/draw_order.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "core/base/error.h"

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <span>
-#include <vector>
 
 #include "render/draw_order.h"
 #include "render/fill.h"

@@ -1,7 +1,6 @@
 #include "render/face_painter.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "render/element_painter.h"
 

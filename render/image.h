@@ -1,11 +1,8 @@
 #pragma once
 // Pictures in memory: PNG, downsampling, comparison.
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <span>
 #include <string>
 #include <vector>
 

@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 #include <future>
-#include <iterator>
 #include <utility>
 #include <vector>
 

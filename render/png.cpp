@@ -1,7 +1,6 @@
 // The only source that sees stb's implementation.
 #include <algorithm>
 #include <climits>
-#include <cstdlib>
 #include <fstream>
 #include <iterator>
 

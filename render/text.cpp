@@ -1,6 +1,5 @@
 #include "render/text.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <string>

@@ -2,7 +2,6 @@
 // Text drawn into pictures without OpenGL (FreeType, DejaVu Sans).
 
 #include <memory>
-#include <string>
 #include <string_view>
 
 #include "render/image.h"

@@ -1,7 +1,6 @@
 #include "render/volume_pick.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 

@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "app/common/console.h"
 #include "core/run/size_course.h"
 

@@ -1,8 +1,6 @@
 #include "app/common/run_options.h"
 
-#include <array>
 #include <limits>
-#include <string_view>
 #include <tuple>
 
 #include <CLI/CLI.hpp>
@@ -12,7 +10,7 @@
 #include "app/common/text.h"
 #include "core/base/error.h"
 #include "core/base/unknown_value.h"
-#include "core/commands/session_commands.h"
+#include "core/base/words.h"
 #include "core/mesh/vertex_words.h"
 #include "core/quality/metric.h"
 #include "core/reference/edge_words.h"

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "app/common/provenance.h"
-#include "app/common/text.h"
 #include "core/inspect/held_minimum.h"
 #include "core/inspect/joint_hold.h"
 #include "core/run/crossing_faces.h"

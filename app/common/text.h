@@ -1,8 +1,6 @@
 #pragma once
 // Numbers, tables and JSON as the subcommands print them.
 
-#include <cstdint>
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>

@@ -1,7 +1,6 @@
 #pragma once
 // The results of a comparison.
 
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>

@@ -1,7 +1,6 @@
 // dmoscope-mpi: the verbs that many processes do together. dmoscope starts it where mpirun started dmoscope.
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <new>

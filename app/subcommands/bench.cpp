@@ -1,6 +1,5 @@
 // dmoscope bench: how fast this machine smooths, against the plain search in double.
 
-#include <filesystem>
 #include <memory>
 #include <vector>
 

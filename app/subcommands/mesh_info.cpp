@@ -2,9 +2,6 @@
 
 #include <array>
 #include <limits>
-#include <memory>
-
-#include <fmt/format.h>
 
 #include "app/common/console.h"
 #include "app/common/text.h"

@@ -30,7 +30,6 @@
 #include "core/reference/domain.h"
 #include "core/run/parameters.h"
 #include "core/session/csv.h"
-#include "core/smooth/displace.h"
 
 namespace dmoscope::app {
 namespace {

@@ -1,11 +1,9 @@
 // dmoscope smooth: reads a mesh, smooths it, writes it.
 
-#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>

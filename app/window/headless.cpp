@@ -1,7 +1,5 @@
 #include "app/window/headless.h"
 
-#include <algorithm>
-
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 

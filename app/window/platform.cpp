@@ -1,7 +1,5 @@
 #include "app/window/platform.h"
 
-#include <cmath>
-#include <exception>
 #include <new>
 #include <utility>
 

@@ -1,10 +1,7 @@
 #pragma once
 // Dear ImGui's context and its drawing, shared by the window and its twin without a screen.
 
-#include <functional>
-#include <memory>
 #include <optional>
-#include <string>
 
 #include "render/context.h"
 #include "render/framebuffer.h"

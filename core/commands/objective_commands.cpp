@@ -1,12 +1,8 @@
 // The session's commands: what the active run aims at besides its metric's minimum.
 
 #include <array>
-#include <string_view>
 #include <tuple>
 
-#include <fmt/format.h>
-
-#include "core/base/unknown_value.h"
 #include "core/commands/command_rows.h"
 
 namespace dmoscope {

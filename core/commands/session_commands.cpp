@@ -1,7 +1,6 @@
 #include "core/commands/session_commands.h"
 
 #include <algorithm>
-#include <array>
 #include <map>
 
 #include <fmt/format.h>

@@ -1,7 +1,6 @@
 #include "core/inspect/element_fit.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <span>

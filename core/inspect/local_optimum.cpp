@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "core/inspect/quality_field.h"
 #include "core/inspect/require_star.h"

@@ -1,7 +1,6 @@
 #include "core/inspect/quality_field.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 

@@ -1,7 +1,6 @@
 #pragma once
 // Records what a search reports while it runs.
 
-#include <optional>
 #include <vector>
 
 #include "core/inspect/visit_trace.h"

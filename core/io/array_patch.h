@@ -1,10 +1,8 @@
 #pragma once
 // Writing a file of arrays (Exodus, CGNS, XDMF's HDF5) again with the coordinates that moved.
 
-#include <array>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/base/vec.h"

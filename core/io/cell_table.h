@@ -2,7 +2,6 @@
 // Cells of every dimension side by side, as Gmsh and MEDIT files hold them: those of the highest dimension are the mesh's elements, the
 // others become groups of vertices, edges and faces.
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>

@@ -1,8 +1,6 @@
 #include "core/mesh/generate.h"
 
 #include <array>
-#include <limits>
-#include <string>
 
 #include <fmt/format.h>
 

@@ -1,7 +1,6 @@
 // grid and random: meshes whose positions are drawn vertex by vertex.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <unordered_set>
 

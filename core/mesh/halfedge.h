@@ -4,7 +4,6 @@
 // of boundary curves, odd edges) comes from edges.h; the tests compare the two.
 
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "core/mesh/mesh.h"

@@ -2,7 +2,6 @@
 // A nodal field of a planar mesh as a function of the place.
 
 #include <cstddef>
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>

@@ -2,7 +2,6 @@
 // Vertex stars in CSR form, and the boundary.
 
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 

@@ -2,7 +2,6 @@
 // Matrices of 2 x 2 and 3 x 3, in double: those that a map of the plane or of space is, and symmetric ones, such as metric tensors.
 
 #include <array>
-#include <cstddef>
 
 namespace dmoscope {
 

@@ -2,7 +2,6 @@
 // How far from the input whatever slides may bring the edges of curves and the faces of surfaces: the rule of single visits and of joint
 // moves alike.
 
-#include <algorithm>
 #include <optional>
 
 #include "core/mesh/position_view.h"

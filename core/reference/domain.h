@@ -1,7 +1,6 @@
 #pragma once
 // Where the vertices of a mesh may go that slide: the curves and, of a volume, the surfaces of the input.
 
-#include <array>
 #include <memory>
 #include <span>
 #include <string>

@@ -1,7 +1,6 @@
 #include "core/run/hints.h"
 
 #include <algorithm>
-#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>

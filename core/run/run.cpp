@@ -1,7 +1,5 @@
 #include "core/run/run.h"
 
-#include <tuple>
-
 #include <fmt/format.h>
 
 #include "core/base/memory.h"

@@ -2,7 +2,6 @@
 // What a person should know of runs that came to their end with elements inverted, or with faces that cross each other, worked out once for
 // each end.
 
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>

@@ -1,10 +1,8 @@
 #pragma once
 // What holds the minima of a session's runs, worked out once for each moment.
 
-#include <cstdint>
 #include <functional>
 #include <memory>
-#include <utility>
 #include <vector>
 
 #include "core/run/hints.h"

@@ -1,6 +1,5 @@
 #include "core/session/position_text.h"
 
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>

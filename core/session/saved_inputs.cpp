@@ -2,7 +2,6 @@
 
 #include <bit>
 #include <string>
-#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,10 +1,8 @@
 #include "core/session/state_file.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <optional>
 #include <tuple>
 #include <utility>

@@ -1,7 +1,6 @@
 #pragma once
 // Boundary layers: stacks of stretched quadrilaterals, wedges or hexahedra that grow from a boundary.
 
-#include <cstddef>
 #include <vector>
 
 #include "core/mesh/mesh.h"

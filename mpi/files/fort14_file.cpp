@@ -1,7 +1,6 @@
 // ADCIRC's fort.14 by many ranks.
 
 #include <algorithm>
-#include <array>
 
 #include <fmt/format.h>
 

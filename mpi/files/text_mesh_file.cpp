@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
 #include "core/io/writing/patch_writer.h"
 #include "mpi/files/shared_output.h"
 

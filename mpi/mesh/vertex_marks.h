@@ -1,7 +1,6 @@
 #pragma once
 // Vertices that a person names, in a mesh that many ranks have.
 
-#include <array>
 #include <string>
 #include <vector>
 

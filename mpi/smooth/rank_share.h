@@ -2,7 +2,6 @@
 // A rank's share of a mesh as core asks for it.
 
 #include <memory>
-#include <optional>
 
 #include "core/input/mesh_share.h"
 #include "mpi/mesh/halo.h"

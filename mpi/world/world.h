@@ -1,13 +1,9 @@
 #pragma once
 // The processes of an MPI job, called ranks, and what they ask each other.
 
-#include <array>
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <functional>
-#include <limits>
 #include <span>
 #include <string>
 #include <type_traits>

@@ -1,7 +1,6 @@
 #pragma once
 // What there is to say of a formula while it is typed, and a picture of it.
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>

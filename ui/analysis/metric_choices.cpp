@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
 #include "core/quality/defined_metric.h"
 #include "core/target/target_table.h"
 

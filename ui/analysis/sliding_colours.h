@@ -2,8 +2,6 @@
 // What elements are coloured by that sliding is about: how far the boundary is from the input's, and how free elements are. Part of
 // colour_elements().
 
-#include <optional>
-
 #include "ui/analysis/element_colours.h"
 
 namespace dmoscope::ui {

@@ -3,8 +3,6 @@
 
 #include <memory>
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "core/view/view.h"
 #include "ui/state/view_state.h"

@@ -1,8 +1,6 @@
 #include "ui/commands/inspection_commands.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 

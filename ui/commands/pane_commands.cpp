@@ -1,4 +1,3 @@
-#include <algorithm>
 
 #include "ui/commands/command_words.h"
 

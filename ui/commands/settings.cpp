@@ -1,7 +1,6 @@
 #include "ui/commands/settings.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <optional>
 

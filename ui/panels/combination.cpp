@@ -1,5 +1,4 @@
 // Left, below the parameters: what the active run aims at besides its metric's minimum.
-#include <array>
 
 #include <fmt/format.h>
 

@@ -1,6 +1,5 @@
 // Right, for volume meshes: what of the mesh is seen, and from where.
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include <fmt/format.h>

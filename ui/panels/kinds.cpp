@@ -1,6 +1,5 @@
 // Of what kind vertices and edges are where vertices slide, and what changes that: in the inspector, and in a viewport's menu.
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>

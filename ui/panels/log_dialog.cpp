@@ -1,5 +1,4 @@
 // F6: what was done and said, and the script of it.
-#include <algorithm>
 
 #include <fmt/format.h>
 #include <imgui.h>

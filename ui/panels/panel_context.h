@@ -2,13 +2,11 @@
 // What panels read, what they keep between frames, and how they send commands.
 
 #include <array>
-#include <cmath>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "core/commands/commands.h"

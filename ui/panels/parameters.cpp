@@ -1,6 +1,5 @@
 // Left: the parameters of the active run.
 #include <algorithm>
-#include <array>
 
 #include <fmt/format.h>
 

@@ -1,6 +1,5 @@
 #include "ui/panels/save_rows.h"
 
-#include <algorithm>
 #include <filesystem>
 
 #include <fmt/format.h>

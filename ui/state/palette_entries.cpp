@@ -1,7 +1,5 @@
 #include "ui/state/palette_entries.h"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "core/commands/session_commands.h"

@@ -2,7 +2,6 @@
 // What is seen of the plots, as plain data.
 
 #include <array>
-#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <optional>

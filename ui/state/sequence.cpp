@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/commands/commands.h"
 
 namespace dmoscope::ui {
 namespace {

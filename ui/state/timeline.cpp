@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "ui/state/format.h"
 #include "ui/state/run_names.h"
 
 namespace dmoscope::ui {

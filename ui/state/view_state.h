@@ -4,7 +4,6 @@
 #include <array>
 #include <deque>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>

@@ -2,7 +2,6 @@
 // One viewport: what it shows, drawn into a picture of its own.
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 

@@ -2,7 +2,6 @@
 // What the parts of Abaqus' input file (.inp), which CalculiX reads as well, share.
 // https://docs.software.vt.edu/abaqusv2024/English/ (Keywords; Elements: node ordering and face numbering)
 
-#include <cstdint>
 #include <optional>
 #include <string_view>
 

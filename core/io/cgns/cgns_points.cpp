@@ -1,9 +1,7 @@
 // CGNS's tree, its zones and their points.
 
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <cstring>
 #include <unordered_map>
 #include <utility>
 

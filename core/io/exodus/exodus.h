@@ -2,11 +2,9 @@
 // Exodus II files (.e .exo .g .ex2), which are netCDF files of any kind.
 // https://sandialabs.github.io/seacas-docs/
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <string>
 #include <string_view>
 
 #include "core/io/array_patch.h"

@@ -1,7 +1,6 @@
 // Reads Exodus II: element blocks, node sets and side sets are groups, results of the last time step are fields.
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <memory>
 #include <string>

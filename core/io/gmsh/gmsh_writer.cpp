@@ -7,8 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "core/io/gmsh/gmsh.h"
 #include "core/io/mesh_writer.h"
 #include "core/io/writing/one_line.h"

@@ -1,7 +1,6 @@
 #include "core/io/nastran/nastran_cards.h"
 
 #include <algorithm>
-#include <array>
 
 #include <fmt/format.h>
 

@@ -1,9 +1,7 @@
 // Writes Nastran's bulk data: anew, and again with nodes that moved.
 
-#include <algorithm>
 #include <array>
 #include <atomic>
-#include <bit>
 #include <set>
 #include <string>
 #include <vector>

@@ -1,6 +1,5 @@
 #include "core/io/reading/data_lines.h"
 
-#include <algorithm>
 #include <limits>
 
 #include <fmt/format.h>

@@ -1,7 +1,6 @@
 #pragma once
 // Many lines of one kind, parsed by several threads.
 
-#include <algorithm>
 #include <cstddef>
 #include <string_view>
 #include <vector>

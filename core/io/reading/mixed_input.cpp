@@ -1,7 +1,6 @@
 #include "core/io/reading/mixed_input.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 
 #include <fmt/format.h>

@@ -1,7 +1,6 @@
 #include "core/io/vtu/vtu_data.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <optional>
 #include <span>

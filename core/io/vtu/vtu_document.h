@@ -3,7 +3,6 @@
 // Format: https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html
 
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>

@@ -1,9 +1,7 @@
 // XDMF files whose numbers are in an HDF5 file beside them: their points, and writing both again.
 
-#include <algorithm>
 #include <filesystem>
 #include <string>
-#include <utility>
 
 #include <fmt/format.h>
 

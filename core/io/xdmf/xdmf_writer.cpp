@@ -1,10 +1,7 @@
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <string>
 #include <vector>
-
-#include <fmt/format.h>
 
 #include "core/base/xml_text.h"
 #include "core/io/writing/text_writer.h"

@@ -1,7 +1,6 @@
 #pragma once
 // Smoothing: vertices move so that the worst cell becomes as good as it can; cells and boundary stay.
 
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>

@@ -10,12 +10,10 @@
 #include "app/common/output_checks.h"
 #include "app/common/text.h"
 #include "app/pictures/plot_file.h"
-#include "app/subcommands/bench_draw.h"
 #include "app/subcommands/bench_measure.h"
+#include "app/subcommands/bench_pictures.h"
 #include "app/subcommands/bench_plan.h"
 #include "app/subcommands/bench_report.h"
-#include "app/subcommands/bench_seek.h"
-#include "app/subcommands/bench_window.h"
 #include "app/subcommands/subcommands.h"
 
 namespace dmoscope::app {

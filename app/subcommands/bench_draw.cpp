@@ -1,5 +1,3 @@
-#include "app/subcommands/bench_draw.h"
-
 #include <algorithm>
 #include <vector>
 
@@ -8,6 +6,7 @@
 #include "app/common/console.h"
 #include "app/common/machine.h"
 #include "app/common/text.h"
+#include "app/subcommands/bench_pictures.h"
 #include "core/base/error.h"
 #include "core/mesh/generate.h"
 

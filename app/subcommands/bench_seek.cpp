@@ -1,5 +1,3 @@
-#include "app/subcommands/bench_seek.h"
-
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -7,6 +5,7 @@
 #include "app/common/console.h"
 #include "app/common/machine.h"
 #include "app/common/text.h"
+#include "app/subcommands/bench_pictures.h"
 #include "core/base/error.h"
 
 #ifdef DMOSCOPE_HAVE_GUI

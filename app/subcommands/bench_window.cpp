@@ -1,5 +1,3 @@
-#include "app/subcommands/bench_window.h"
-
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -9,6 +7,7 @@
 #include "app/common/console.h"
 #include "app/common/machine.h"
 #include "app/common/text.h"
+#include "app/subcommands/bench_pictures.h"
 #include "core/base/error.h"
 #include "core/base/words.h"
 

@@ -117,9 +117,7 @@ void draw_keys_dialog(PanelContext& context) {
     ImGui::TableNextColumn();
     ImGui::TextColored(colour_vector(context.palette.accent), "%s", key.c_str());
     ImGui::TableNextColumn();
-    ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted(what.c_str());
-    ImGui::PopTextWrapPos();
+    wrapped_text(what);
   };
   const auto table = [&](const char* name) {
     ImGui::Spacing();
@@ -174,9 +172,7 @@ void draw_about_dialog(PanelContext& context) {
 
 void draw_error_dialog(PanelContext& context) {
   if (!begin_dialog(context, info_of(Dialog::Error).title, 42)) return;
-  ImGui::PushTextWrapPos(0);
-  ImGui::TextUnformatted(context.shown(context.state.error_text).c_str());
-  ImGui::PopTextWrapPos();
+  wrapped_text(context.shown(context.state.error_text));
   context.items.record_last("error:text");
   ImGui::Spacing();
   if (ImGui::Button("Copy text")) context.state.requests.clipboard = context.state.error_text;

@@ -15,12 +15,6 @@
 namespace dmoscope::ui {
 namespace {
 
-void wrapped(const std::string& text) {
-  ImGui::PushTextWrapPos(0);
-  ImGui::TextUnformatted(text.c_str());
-  ImGui::PopTextWrapPos();
-}
-
 void draw_title(PanelContext& context) {
   const InspectionState& state = context.state.inspection;
   const float button = ImGui::CalcTextSize("×").x + 2 * context.px(8);
@@ -36,8 +30,8 @@ void draw_title(PanelContext& context) {
 
 void draw_story(PanelContext& context, const Inspection& inspection) {
   const VisitSummary& trace = *inspection.visit();
-  if (const std::string other = other_method_sentence(inspection); !other.empty()) wrapped(other);
-  if (const std::string stuck = stuck_sentence(inspection); !stuck.empty()) wrapped(stuck);
+  if (const std::string other = other_method_sentence(inspection); !other.empty()) wrapped_text(other);
+  if (const std::string stuck = stuck_sentence(inspection); !stuck.empty()) wrapped_text(stuck);
   const auto row = [&context, &trace](const StarState& star, const char* when) {
     const bool inverted = !(star.jacobian > 0.0);
     number_row(context, fmt::format("{} {}", inverted ? "least Jacobian" : trace.worst_phrase(), when).c_str(), quality_of(star),
@@ -388,9 +382,9 @@ void draw_inspection(PanelContext& context) {
   const InspectionState& state = context.state.inspection;
   const Inspection& inspection = context.inspection;
   if (state.vertex == kNoIndex) {
-    wrapped(state.note.empty() ? "Click a vertex to look into its search; L goes to the one that the run visits next." : state.note);
+    wrapped_text(state.note.empty() ? "Click a vertex to look into its search; L goes to the one that the run visits next." : state.note);
   } else if (inspection.visit() == nullptr) {
-    wrapped(inspection.trouble);
+    wrapped_text(inspection.trouble);
   } else {
     draw_story(context, inspection);
     if (inspection.level_count() > 0) {

@@ -38,9 +38,7 @@ std::string first_words(const std::string& title) {
 void draw_mesh(PanelContext& context, const Frame& frame) {
   const Mesh& mesh = frame.input->mesh;
   heading(context, "Mesh");
-  ImGui::PushTextWrapPos(0);
-  ImGui::TextUnformatted(context.shown(mesh.name).c_str());
-  ImGui::PopTextWrapPos();
+  wrapped_text(context.shown(mesh.name));
   if (!frame.input->path.empty()) next_item_tooltip(context.shown(frame.input->path.string()));
   if (!mesh.title.empty() && mesh.title != mesh.name) {
     dim_text(context, fit_text(context.shown(first_words(mesh.title)), ImGui::GetContentRegionAvail().x), false);
@@ -59,7 +57,7 @@ void draw_mesh(PanelContext& context, const Frame& frame) {
   if (const RunView* run = context.run()) value_row(context, "free", count(run->free_vertices), {}, {}, "vertices that may move");
   const std::vector<std::string>& facts = context.derived.mesh_facts;
   if (!facts.empty()) dim_text(context, "found in the input:");
-  for (const std::string& fact : facts) warning_text(context, context.shown(fact));
+  for (const std::string& fact : facts) wrapped_text(context.shown(fact), context.palette.warning);
   const RunView* active = context.run();
   const bool fixed = active != nullptr && active->parameters.interfaces != InterfaceRule::Free;
   const std::string& interfaces = fixed ? context.derived.interfaces : context.derived.free_interfaces;
@@ -270,9 +268,7 @@ void draw_metric_table(PanelContext& context) {
   for (const Row& row : rows) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted(std::string(row.metric->title).c_str());
-    ImGui::PopTextWrapPos();
+    wrapped_text(std::string(row.metric->title));
     metric_tooltip(context, *row.metric);
     context.items.record_last(fmt::format("metric:{}", row.metric->name));
     right_text(short_number(row.now), full_number(row.now), false);

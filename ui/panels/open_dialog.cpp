@@ -153,9 +153,7 @@ void draw_open_dialog(PanelContext& context) {
   const bool entered = path_field(context, "##path", widgets.open.text);
   context.items.record_last("open:path");
   if (!widgets.open.error.empty()) {
-    ImGui::PushTextWrapPos(0);
-    ImGui::TextColored(colour_vector(context.palette.error), "%s", context.shown(widgets.open.error).c_str());
-    ImGui::PopTextWrapPos();
+    wrapped_text(context.shown(widgets.open.error), context.palette.error);
   }
   const float bottom = ImGui::GetFrameHeightWithSpacing() + context.px(4);
   const float recent = 13 * context.em();

@@ -28,7 +28,7 @@ void draw_method(PanelContext& context, const RunParameters& parameters) {
 /// Of a method that promises nothing.
 void draw_method_note(PanelContext& context, const RunParameters& parameters) {
   if (method_info(parameters.method).optimises) return;
-  warning_text(context, fmt::format("{}; Best goes back to the best iteration", kMayMakeWorse));
+  wrapped_text(fmt::format("{}; Best goes back to the best iteration", kMayMakeWorse), context.palette.warning);
   context.items.record_last("method-note");
 }
 

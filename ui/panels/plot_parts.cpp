@@ -198,12 +198,7 @@ static SaveEndings plot_endings(const PanelContext& context) {
 void draw_plot_dialog(PanelContext& context) {
   if (!begin_dialog(context, "Save the plot", 40)) return;
   PlotDialog& dialog = context.widgets.plot_dialog;
-  const auto label = [&](const char* text) {
-    ImGui::AlignTextToFramePadding();
-    dim_text(context, text, false);
-    ImGui::SameLine(8 * context.em());
-    ImGui::SetNextItemWidth(-1);
-  };
+  const auto label = [&](const char* text) { row_label(context, text, 8); };
   const SaveForm form{dialog.save, plot_endings(context), Dialog::Plot, "plot", 8};
   if (context.widgets.dialog_opened) begin_save(context, dialog.save, name_beside(context, "-plot", form.endings.endings.front()));
   const bool entered = draw_save_rows(context, form);

@@ -31,10 +31,7 @@ SaveEndings endings_of(const PanelContext& context, int what) {
 
 void draw_formats(PanelContext& context, std::string& name) {
   const FormatInfo* current = format_by_extension(mesh_extension(name));
-  ImGui::AlignTextToFramePadding();
-  dim_text(context, "format", false);
-  ImGui::SameLine(6 * context.em());
-  ImGui::SetNextItemWidth(-1);
+  row_label(context, "format", 6);
   const bool open = ImGui::BeginCombo("##format", current == nullptr ? "by the file's name" : std::string(current->title).c_str());
   if (!open) context.items.record_last("export:format");
   if (open) {
@@ -63,12 +60,10 @@ bool writes_over_input(const PanelContext& context) {
 void ask_over_input(PanelContext& context) {
   ExportDialog& dialog = context.widgets.exporting;
   const std::string copy = original_name(context.frame()->input->path, 1).filename().string();
-  ImGui::PushTextWrapPos(0);
-  ImGui::TextColored(colour_vector(context.palette.warning),
-                     "This is the file that the mesh was read from. It will hold the smoothed mesh then; what it holds now is kept beside "
-                     "it as %s (or under the next number).",
-                     copy.c_str());
-  ImGui::PopTextWrapPos();
+  wrapped_text(
+      "This is the file that the mesh was read from. It will hold the smoothed mesh then; what it holds now is kept beside it as " + copy +
+          " (or under the next number).",
+      context.palette.warning);
   ImGui::Spacing();
   const bool go = ImGui::Button("Write over it, keep a copy");
   context.items.record_last("export:over");
@@ -137,12 +132,7 @@ void draw_save_session_dialog(PanelContext& context) {
 namespace {
 
 void draw_picture_choices(PanelContext& context, ScreenshotDialog& dialog) {
-  const auto label = [&](const char* text) {
-    ImGui::AlignTextToFramePadding();
-    dim_text(context, text, false);
-    ImGui::SameLine(8 * context.em());
-    ImGui::SetNextItemWidth(-1);
-  };
+  const auto label = [&](const char* text) { row_label(context, text, 8); };
   label("what");
   if (ImGui::RadioButton("the mesh", !dialog.window)) dialog.window = false;
   context.items.record_last("screenshot:mesh");

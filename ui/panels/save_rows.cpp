@@ -185,16 +185,11 @@ bool draw_save_rows(PanelContext& context, const SaveForm& form) {
 bool draw_save_buttons(PanelContext& context, const SaveForm& form, const char* verb, bool entered) {
   SaveTarget& target = form.rows.target;
   if (!target.trouble.empty()) {
-    ImGui::PushTextWrapPos(0);
-    ImGui::TextColored(colour_vector(context.palette.error), "%s", context.shown(target.trouble).c_str());
-    ImGui::PopTextWrapPos();
+    wrapped_text(context.shown(target.trouble), context.palette.error);
   }
   const bool asks = !target.asked.empty();
   if (asks) {
-    ImGui::PushTextWrapPos(0);
-    ImGui::TextColored(colour_vector(context.palette.warning), "%s is there already. Replace it?",
-                       context.shown(fs::path(target.asked).filename().string()).c_str());
-    ImGui::PopTextWrapPos();
+    wrapped_text(context.shown(fs::path(target.asked).filename().string()) + " is there already. Replace it?", context.palette.warning);
   }
   ImGui::Spacing();
   // While it asks, Enter and the usual button do nothing: what is replaced is replaced by a button of its own, which Enter does not press.

@@ -12,13 +12,6 @@
 namespace dmoscope::ui {
 namespace {
 
-void label(PanelContext& context, const char* text) {
-  ImGui::AlignTextToFramePadding();
-  dim_text(context, text, false);
-  ImGui::SameLine(9 * context.em());
-  ImGui::SetNextItemWidth(-1);
-}
-
 std::uint64_t last_iteration(const PanelContext& context) {
   const RunView* run = context.run();
   return run == nullptr || run->records.empty() ? 0 : run->records.back().iteration;
@@ -38,28 +31,28 @@ std::string command_of(const SequenceDialog& widgets) {
 void draw_choices(PanelContext& context, SequenceDialog& widgets) {
   const int last = static_cast<int>(std::min<std::uint64_t>(last_iteration(context), 1'000'000'000));
   int range[2] = {widgets.from, widgets.to};
-  label(context, "iterations");
+  row_label(context, "iterations", 9);
   if (ImGui::InputInt2("##range", range)) {
     widgets.from = std::clamp(range[0], 0, last);
     widgets.to = std::clamp(range[1], 0, last);
   }
   next_item_tooltip(fmt::format("from and to; the history has 0 to {}", last));
-  label(context, "every");
+  row_label(context, "every", 9);
   if (ImGui::InputInt("##every", &widgets.every)) widgets.every = std::max(1, widgets.every);
   next_item_tooltip("a picture of every iteration, every second, ...; the last one is always there");
-  label(context, "what");
+  row_label(context, "what", 9);
   if (ImGui::RadioButton("the mesh", !widgets.window)) widgets.window = false;
   ImGui::SameLine();
   if (ImGui::RadioButton("the whole window", widgets.window)) widgets.window = true;
   if (!widgets.window) {
     int size[2] = {widgets.width, widgets.height};
-    label(context, "size, pixels");
+    row_label(context, "size, pixels", 9);
     if (ImGui::InputInt2("##size", size)) {
       widgets.width = std::clamp(size[0], 1, 32768);
       widgets.height = std::clamp(size[1], 1, 32768);
     }
   }
-  label(context, "old frames");
+  row_label(context, "old frames", 9);
   ImGui::Checkbox("replace those in the folder", &widgets.overwrite);
   context.items.record_last("sequence:overwrite");
 }
@@ -77,7 +70,7 @@ void draw_sequence_dialog(PanelContext& context) {
   }
   dim_text(context, "Goes to one iteration after another and saves a picture of each: frame-0000.png, frame-0001.png, ...");
   ImGui::Spacing();
-  label(context, "folder");
+  row_label(context, "folder", 9);
   const bool entered = ImGui::InputText("##folder", &widgets.folder, ImGuiInputTextFlags_EnterReturnsTrue);
   context.items.record_last("sequence:folder");
   draw_choices(context, widgets);

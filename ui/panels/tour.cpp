@@ -48,9 +48,7 @@ void begin_card(const PanelContext& context, const Card& card, const Rect& rect)
   ImGui::PopStyleColor(2);
   ImGui::PopStyleVar(3);
   heading(context, card.title.c_str());
-  ImGui::PushTextWrapPos(0);
-  ImGui::TextUnformatted(card.text.c_str());
-  ImGui::PopTextWrapPos();
+  wrapped_text(card.text);
   ImGui::SetCursorPosY(card.height - context.px(12) - ImGui::GetFrameHeight());
 }
 

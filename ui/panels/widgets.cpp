@@ -51,12 +51,19 @@ void note_item(PanelContext& context, std::string_view item, const std::string& 
   next_item_tooltip(tooltip);
 }
 
-void warning_text(const PanelContext& context, const std::string& text) {
-  ImGui::PushStyleColor(ImGuiCol_Text, colour_vector(context.palette.warning));
+void wrapped_text(const std::string& text, std::optional<render::Rgb> ink) {
+  if (ink) ImGui::PushStyleColor(ImGuiCol_Text, colour_vector(*ink));
   ImGui::PushTextWrapPos(0);
   ImGui::TextUnformatted(text.c_str());
   ImGui::PopTextWrapPos();
-  ImGui::PopStyleColor();
+  if (ink) ImGui::PopStyleColor();
+}
+
+void row_label(const PanelContext& context, const char* text, float width_em) {
+  ImGui::AlignTextToFramePadding();
+  dim_text(context, text, false);
+  ImGui::SameLine(width_em * context.em());
+  ImGui::SetNextItemWidth(-1);
 }
 
 Combo::Combo(PanelContext& context, std::string item, const std::string& shown, int flags)

@@ -30,8 +30,10 @@ void beside_or_below(const char* label, float gap = -1.0F);
 void next_item_tooltip(const std::string& text);
 /// The name of the last item for scripts, and what is said under the mouse.
 void note_item(PanelContext& context, std::string_view item, const std::string& tooltip);
-/// Text in the colour of warnings, in as many lines as it needs.
-void warning_text(const PanelContext& context, const std::string& text);
+/// Text in as many lines as it needs; `ink`: in another colour than the panel's.
+void wrapped_text(const std::string& text, std::optional<render::Rgb> ink = {});
+/// A label before a field that fills the rest of the row.
+void row_label(const PanelContext& context, const char* text, float width_em);
 /// A drop-down list; its entries are the items "ITEM:WORD".
 class Combo {
  public:

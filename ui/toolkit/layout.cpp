@@ -21,7 +21,6 @@ Layout compute_layout(const Panels& panels, float width, float height, float em,
     bottom = std::min({static_cast<float>(panels.bottom_height) * em, 0.4F * inner, inner - kLeastMeshHeight * em});
     if (bottom < kLeastPlots * em) {
       out.timeline_only = inner >= (kTimeline + kLeastMeshHeight) * em;
-      out.bottom_folded = !out.timeline_only;
       bottom = out.timeline_only ? kTimeline * em : 0.0F;
     }
   }

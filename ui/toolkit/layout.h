@@ -11,7 +11,6 @@ struct Layout {
   Rect left_strip, right_strip;  // instead of the panels where the window is too small
   bool folded = false;           // side panels are strips, and open over the mesh
   bool timeline_only = false;    // too low for the plots
-  bool bottom_folded = false;    // too low for the timeline, too
 };
 
 /// All in pixels. `em`: the interface font's height; `menu`: the menu bar's. The mesh keeps at least 24 em of width; widths and

@@ -35,7 +35,7 @@ View make_view(const Layout& layout, const Camera2D& camera, Vec2<double> viewpo
 
 }  // namespace
 
-PlanarScene::PlanarScene() : impl_(std::make_unique<Impl>()) {}
+PlanarScene::PlanarScene() : Scene(75'000.0), impl_(std::make_unique<Impl>()) {}
 PlanarScene::~PlanarScene() = default;
 PlanarScene::PlanarScene(PlanarScene&&) noexcept = default;
 PlanarScene& PlanarScene::operator=(PlanarScene&&) noexcept = default;
@@ -312,13 +312,6 @@ void PlanarScene::draw_marks(Framebuffer& target, const Camera& seen_from, const
   s.gather_marks(camera, style, std::get<Marks>(marks));
   begin_marks();
   s.marks.flush(view, style.scale);
-}
-
-double PlanarScene::suggested_detail(std::size_t element_count, bool is_software, bool moving) const noexcept {
-  // Elements that llvmpipe on two cores draws as squares well within 100 ms.
-  constexpr double kAffordable = 75'000.0;
-  if (!is_software || !moving || element_count == 0) return 1.0;
-  return std::min(1.0, kAffordable / static_cast<double>(element_count));
 }
 
 }  // namespace dmoscope::render

@@ -47,18 +47,13 @@ class PlanarScene final : public Scene {
   /// Which vertices are fixed (RunView::fixed), for Style::vertices; empty: all free. Forgotten when another mesh is shown.
   void set_fixed(std::span<const std::uint8_t> fixed);
 
-  /// What is shown instead of quality; null: quality. Forgotten when another mesh is shown. Throws UsageError when it does not have as many
-  /// values as the mesh has elements or vertices.
   void set_shading(std::shared_ptr<const Shading> shading) override;
-  /// Which elements count; forgotten when another mesh is shown. Throws UsageError when the members are not as many as the elements.
   void set_selection(const Selection& selection) override;
 
-  /// Grows with every change of what is drawn, camera, style and marks apart.
   [[nodiscard]] std::uint64_t revision() const noexcept override;
   [[nodiscard]] bool empty() const noexcept override;
   [[nodiscard]] Index element_count() const noexcept;
   [[nodiscard]] std::size_t drawn_count() const noexcept override { return element_count(); }
-  [[nodiscard]] double suggested_detail(std::size_t count, bool is_software, bool moving) const noexcept override;
   /// Box of the vertices used by elements, in the plane; empty when nothing is shown. That of the positions shown last, or while light
   /// frames are shown of those that were last on the host.
   [[nodiscard]] const Bounds2& bounds() const noexcept;
@@ -71,18 +66,12 @@ class PlanarScene final : public Scene {
   /// and the wireframe is left out: the same picture for the same detail, coarser. Throws Error.
   void draw(Framebuffer& target, const Camera2D& camera, const Style& style, const Marks& marks = {}, double detail = 1.0);
 
-  /// The same in two steps: clears `target` and draws all but the marks, and draws these over it. Returns whether every element in view was
-  /// drawn. Throws Error.
   bool draw_elements(Framebuffer& target, const Camera& camera, const Style& style, double detail = 1.0) override;
   void draw_marks(Framebuffer& target, const Camera& camera, const Style& style, const SceneMarks& marks) override;
-
-  /// draw_elements at full detail, bit by bit: at most `most` elements more, and waits until they are drawn. Camera, style and revision()
-  /// must be those of the slices before. Returns whether it was the last slice. Throws Error.
   bool draw_slice(Framebuffer& target, const Camera& camera, const Style& style, SliceProgress& progress, Index most) override;
   void draw_part(Framebuffer& target, const Camera& camera, const Style& style, const SceneMarks& marks, Vec2<double> viewport,
                  const PicturePart& part) override;
 
-  /// What is at `pixel` (of a viewport of that size) by geometry in double, not by colours. `radius`: how far a vertex may be, in pixels.
   /// Milliseconds even for millions of elements; of a device-resident frame once a frame as long as it takes to bring all of it to the
   /// host, and nothing when the device does not give it.
   [[nodiscard]] Pick pick(const Camera& camera, Vec2<double> viewport, Vec2<double> pixel, double radius = 8.0) const override;

@@ -1,6 +1,7 @@
 #pragma once
 // What every mesh on the OpenGL side offers, planar or volume: it is shown, coloured, drawn in one go or bit by bit, and picked from.
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <variant>
@@ -72,7 +73,9 @@ class Scene {
   [[nodiscard]] virtual std::size_t drawn_count() const noexcept = 0;
   /// Share of `count` of them worth drawing, (0, 1]: 1 except on software OpenGL while something moves (a drag, a run that is drawn live),
   /// where it is what keeps a frame below about 100 ms.
-  [[nodiscard]] virtual double suggested_detail(std::size_t count, bool is_software, bool moving) const noexcept = 0;
+  [[nodiscard]] double suggested_detail(std::size_t count, bool is_software, bool moving) const noexcept {
+    return is_software && moving && count > 0 ? std::min(1.0, affordable_ / static_cast<double>(count)) : 1.0;
+  }
 
   /// Clears `target` and draws all but the marks. detail in (0, 1]: below 1 a coarser picture of that share. Returns whether all in view
   /// was drawn. Throws Error.
@@ -92,9 +95,13 @@ class Scene {
   [[nodiscard]] virtual std::vector<Label> labels(const Camera& camera, Vec2<double> viewport, const LabelWish& wish) const = 0;
 
  protected:
-  Scene() = default;
+  /// `affordable`: elements or faces that llvmpipe on two cores draws, coarsely, well within 100 ms.
+  explicit Scene(double affordable) : affordable_(affordable) {}
   Scene(Scene&&) noexcept = default;
   Scene& operator=(Scene&&) noexcept = default;
+
+ private:
+  double affordable_;
 };
 
 }  // namespace dmoscope::render

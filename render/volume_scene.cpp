@@ -90,7 +90,7 @@ struct VolumeScene::Impl {
   void draw_marks(const Stage& stage, const SpaceMarks& wanted);
 };
 
-VolumeScene::VolumeScene() : impl_(std::make_unique<Impl>()) {}
+VolumeScene::VolumeScene() : Scene(60'000.0), impl_(std::make_unique<Impl>()) {}
 VolumeScene::~VolumeScene() = default;
 VolumeScene::VolumeScene(VolumeScene&&) noexcept = default;
 VolumeScene& VolumeScene::operator=(VolumeScene&&) noexcept = default;
@@ -482,13 +482,6 @@ std::optional<Vec3> VolumeScene::point_at(const OrbitCamera& camera, Vec2<double
   const auto hit = first_hit(s.seen_faces(), ray);
   if (!hit) return std::nullopt;
   return ray.from + hit->along * ray.direction;
-}
-
-double VolumeScene::suggested_detail(std::size_t face_count, bool is_software, bool moving) const noexcept {
-  // Faces that llvmpipe on two cores draws well within 100 ms.
-  constexpr double kAffordable = 60'000.0;
-  if (!is_software || !moving || face_count == 0) return 1.0;
-  return std::min(1.0, kAffordable / static_cast<double>(face_count));
 }
 
 }  // namespace dmoscope::render

@@ -52,12 +52,10 @@ class VolumeScene final : public Scene {
   void set_pool(ThreadPool* pool) noexcept;
 
   [[nodiscard]] bool empty() const noexcept override;
-  /// Grows with every change of what is drawn, camera, style and marks apart.
   [[nodiscard]] std::uint64_t revision() const noexcept override;
   /// What is seen: faces, cuts, number of cells.
   [[nodiscard]] const ClippedFaces& faces() const noexcept;
   [[nodiscard]] std::size_t drawn_count() const noexcept override { return faces().faces.size(); }
-  [[nodiscard]] double suggested_detail(std::size_t count, bool is_software, bool moving) const noexcept override;
   /// Whether a cell, or some cell around a vertex, is seen: not taken away, though others may hide it. True where there is none such.
   [[nodiscard]] bool sees_cell(Index cell) const;
   [[nodiscard]] bool sees_vertex(Index vertex) const;

@@ -2,6 +2,7 @@
 // What a run can be told, and the table of it: command line, commands, session files, titles and the window's panel loop over the rows. To
 // add a parameter is a field where it is read, and a row.
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,12 +14,22 @@
 #include "core/quality/metric.h"
 #include "core/reference/standing.h"
 #include "core/run/phases.h"
-#include "core/run/visit_order.h"
 #include "core/search/parameters.h"
 #include "core/smooth/execution/accelerator.h"
 #include "core/smooth/execution/method_table.h"
 
 namespace dmoscope {
+
+/// In which order an iteration visits the free vertices, before colouring.
+struct VisitOrder {
+  std::optional<std::uint64_t> seed;  // none: natural; else shuffled with this seed
+  friend bool operator==(const VisitOrder&, const VisitOrder&) = default;
+};
+
+/// "natural" or "shuffle:SEED".
+[[nodiscard]] std::string to_text(const VisitOrder& order);
+/// Throws UsageError.
+[[nodiscard]] VisitOrder parse_order(std::string_view word);
 
 struct RunParameters {
   std::string method = "dmo";

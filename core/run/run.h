@@ -26,7 +26,6 @@
 #include "core/run/phase_start.h"
 #include "core/run/phases.h"
 #include "core/run/position_buffer.h"
-#include "core/run/pursuit.h"
 #include "core/search/parameters.h"
 #include "core/smooth/execution/executor.h"
 #include "core/smooth/size_field.h"
@@ -34,6 +33,14 @@
 namespace dmoscope {
 
 enum class StepUnit { Vertex, Class, Iteration };
+
+/// What a run of iterations that is under way is after: of Run::iterate and Run::until_converged, while they are at work.
+struct Pursuit {
+  std::uint64_t from = 0, last = 0;  // it began at the end of iteration `from`, and ends at the latest with that of `last`
+  bool until_converged = false;
+  /// Of until_converged: it ends after so many more iterations without a gain; none while it does not end by that.
+  std::optional<std::uint64_t> patience_left{};
+};
 
 /// When "until converged" stops.
 struct ConvergenceLimits {

@@ -10,7 +10,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/volume_grids.h"
 #include "ui/analysis/inspection.h"
-#include "ui/viewports/feature_marks.h"
+#include "ui/viewports/mesh_marks.h"
 
 namespace dmoscope::app {
 namespace {

@@ -1,6 +1,4 @@
 // Targets over picked elements: the drawn ellipses against the stretch and direction that were asked for.
-#include "ui/viewports/target_marks.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -11,6 +9,7 @@
 #include "core/run/parameters.h"
 #include "tests/support/meshes.h"
 #include "tests/support/volume_grids.h"
+#include "ui/viewports/mesh_marks.h"
 
 namespace dmoscope::app {
 namespace {

@@ -11,7 +11,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/volume_grids.h"
 #include "ui/state/actions.h"
-#include "ui/viewports/inverted_marks.h"
+#include "ui/viewports/mesh_marks.h"
 
 namespace dmoscope::app {
 namespace {

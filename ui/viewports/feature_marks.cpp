@@ -1,6 +1,6 @@
-#include "ui/viewports/feature_marks.h"
-
 #include <algorithm>
+
+#include "ui/viewports/mesh_marks.h"
 
 namespace dmoscope::ui {
 namespace {

@@ -1,5 +1,3 @@
-#include "ui/viewports/hold_marks.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +8,7 @@
 #include "ui/analysis/holding_colours.h"
 #include "ui/toolkit/screen_occupancy.h"
 #include "ui/viewports/cased_lines.h"
+#include "ui/viewports/mesh_marks.h"
 
 namespace dmoscope::ui {
 namespace {

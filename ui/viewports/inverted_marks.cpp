@@ -1,10 +1,9 @@
-#include "ui/viewports/inverted_marks.h"
-
 #include <cmath>
 
 #include "render/colour_map.h"
 #include "render/draw_order.h"
 #include "ui/toolkit/screen_occupancy.h"
+#include "ui/viewports/mesh_marks.h"
 
 namespace dmoscope::ui {
 

@@ -9,8 +9,7 @@
 #include "ui/commands/size_point.h"
 #include "ui/toolkit/theme.h"
 #include "ui/viewports/inspection_marks.h"
-#include "ui/viewports/inverted_marks.h"
-#include "ui/viewports/target_marks.h"
+#include "ui/viewports/mesh_marks.h"
 
 namespace dmoscope::ui {
 

@@ -1,10 +1,9 @@
-#include "ui/viewports/step_flash.h"
-
 #include <algorithm>
 #include <iterator>
 
 #include "render/draw_order.h"
 #include "ui/toolkit/theme.h"
+#include "ui/viewports/mesh_marks.h"
 
 namespace dmoscope::ui {
 namespace {

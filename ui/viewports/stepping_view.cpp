@@ -9,9 +9,7 @@
 
 #include "core/inspect/joint_hold.h"
 #include "ui/state/format.h"
-#include "ui/viewports/feature_marks.h"
-#include "ui/viewports/hold_marks.h"
-#include "ui/viewports/step_flash.h"
+#include "ui/viewports/mesh_marks.h"
 
 namespace dmoscope::ui {
 namespace {

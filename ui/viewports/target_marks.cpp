@@ -1,5 +1,3 @@
-#include "ui/viewports/target_marks.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +7,7 @@
 #include "core/base/error.h"
 #include "core/inspect/target_shape.h"
 #include "render/draw_order.h"
+#include "ui/viewports/mesh_marks.h"
 
 namespace dmoscope::ui {
 

@@ -348,11 +348,7 @@ class AbaqusReader {
   }
 
   void finish() {
-    CoordinateLayout layout;
-    layout.components = coordinates_ == 2 ? 2 : 3;
-    layout.syntax = kAbaqusSyntax;
-    layout.width = kAbaqusNumber;
-    source_.set_layout(layout);
+    source_.set_layout({.components = coordinates_ == 2 ? 2 : 3, .syntax = kAbaqusSyntax, .width = kAbaqusNumber});
     numbered_.finish(mesh_);
     const std::vector<OriginLabels> unlabelled(types_.size(), OriginLabels{{}, false});
     const std::vector<Index> rows = split_cells(numbered_.cells(), unlabelled, mesh_, source_);

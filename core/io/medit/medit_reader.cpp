@@ -96,10 +96,7 @@ class MeditReader {
   void dimension() {
     dimension_ = static_cast<int>(tokens_.read_integer("dimension"));
     if (dimension_ != 2 && dimension_ != 3) tokens_.fail(fmt::format("Dimension {}: only 2 and 3 dimensions are read", dimension_));
-    CoordinateLayout layout;
-    layout.components = dimension_;
-    layout.syntax = kMeditSyntax;
-    source_.set_layout(layout);
+    source_.set_layout({.components = dimension_, .syntax = kMeditSyntax});
   }
 
   int reference() {

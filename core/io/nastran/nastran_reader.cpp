@@ -182,9 +182,7 @@ class NastranReader {
     if (numbered_.node_count() == 0) {
       throw InputError(source_.path().string(), 0, "the file has no GRID card (it was taken for Nastran's bulk data)");
     }
-    CoordinateLayout layout;
-    layout.width = kNastranNumber;
-    source_.set_layout(layout);
+    source_.set_layout({.syntax = {}, .width = kNastranNumber});
     numbered_.finish(mesh_);
     for (OriginLabels& labels : labels_) {
       const auto name = names_.find(labels.labels.front().code);

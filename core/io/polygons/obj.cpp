@@ -37,9 +37,7 @@ class ObjReader {
  public:
   ObjReader(SourceFile& source, Progress& progress)
       : source_(source), tokens_(source.bytes(), source.path().string(), kObjSyntax, progress) {
-    CoordinateLayout layout;
-    layout.syntax = kObjSyntax;
-    source.set_layout(layout);
+    source.set_layout({.syntax = kObjSyntax});
   }
 
   Mesh read() {

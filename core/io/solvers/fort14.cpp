@@ -56,10 +56,7 @@ class Reader {
  public:
   Reader(SourceFile& source, Progress& progress)
       : source_(source), tokens_(source.bytes(), source.path().string(), kFort14Syntax, progress) {
-    CoordinateLayout layout;
-    layout.components = 2;
-    layout.syntax = kFort14Syntax;
-    source.set_layout(layout);
+    source.set_layout({.components = 2, .syntax = kFort14Syntax});
   }
 
   Mesh read() {

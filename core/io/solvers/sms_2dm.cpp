@@ -55,9 +55,7 @@ class Sms2dmReader {
  public:
   Sms2dmReader(SourceFile& source, Progress& progress)
       : source_(source), tokens_(source.bytes(), source.path().string(), k2dmSyntax, progress), numbered_(source) {
-    CoordinateLayout layout;
-    layout.components = 2;
-    source.set_layout(layout);
+    source.set_layout({.components = 2, .syntax = {}});
   }
 
   Mesh read() {

@@ -90,10 +90,7 @@ class Su2Reader {
     // A negative count is refused where it stands. Without one the elements are read all the same: their place says more about a
     // truncated file than the missing key does.
     vertices_ = find_key(source_.bytes(), "NPOIN") ? std::max<std::int64_t>(value_of("NPOIN"), 0) : kNoIndex;
-    CoordinateLayout layout;
-    layout.components = dimension_;
-    layout.syntax = kSu2Syntax;
-    source_.set_layout(layout);
+    source_.set_layout({.components = dimension_, .syntax = kSu2Syntax});
     while (!tokens_.at_end()) section();
     finish();
     return std::move(mesh_);

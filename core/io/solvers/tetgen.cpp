@@ -90,10 +90,7 @@ class TetgenReader {
     const std::size_t shortest = 2 * (1 + static_cast<std::size_t>(dimension_) + columns + static_cast<std::size_t>(markers));
     const std::size_t count = tokens.check_count(declared, "number of vertices", shortest);
     tokens.end_line();
-    CoordinateLayout layout;
-    layout.components = dimension_;
-    layout.syntax = kTetgenSyntax;
-    source_.set_layout(layout);
+    source_.set_layout({.components = dimension_, .syntax = kTetgenSyntax});
     reserve_large(mesh_.positions, count);
     source_.reserve_places(count);
     std::vector<Field> fields = fields_of(Field::On::Vertices, columns, markers == 1, count);

@@ -68,10 +68,7 @@ class XdmfReader {
     if (values.size() % each != 0) document_.fail(item, fmt::format("{} numbers are no points of {} coordinates", values.size(), each));
     const std::size_t count = values.size() / each;
     if (count >= kNoIndex) document_.fail(item, "too many points");
-    CoordinateLayout layout;
-    layout.components = static_cast<int>(each);
-    layout.syntax = xdmf_text_syntax();
-    source_.set_layout(layout);
+    source_.set_layout({.components = static_cast<int>(each), .syntax = xdmf_text_syntax()});
     source_.reserve_places(count);
     mesh_.positions.reserve(count);
     for (std::size_t v = 0; v < count; ++v) {

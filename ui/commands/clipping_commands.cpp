@@ -12,8 +12,7 @@ namespace {
 
 /// The box of the mesh on show.
 render::Bounds3 box_of_volume(const CommandHost& host) {
-  const auto view = host.session();
-  if (!view || !view->input) throw UsageError("no mesh is open");
+  const auto view = open_view(host);
   if (!view->input->in_space()) throw UsageError("this mesh has no inside: it is not one of volume elements");
   render::Bounds3 box;
   for (const Vec3& p : view->frame ? view->frame->positions : view->input->mesh.positions) box.include(p);

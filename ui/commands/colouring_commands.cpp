@@ -131,9 +131,7 @@ void add_filter_commands(CommandTable& table, ViewState& state, const CommandHos
                 throw UsageError(words[0] + " has no categories; filter LOW HIGH takes a range of quality");
               require(words, isolation.by == ColourBy::Inverted ? 1 : 2, 2);
               isolation.name = words.size() > 1 ? words[1] : "inverted";
-              const auto view = host.session();
-              if (!view || !view->input) throw UsageError("no mesh is open");
-              if (const auto why = why_unknown(isolation, *view->input)) throw UsageError(*why);
+              if (const auto why = why_unknown(isolation, *open_view(host)->input)) throw UsageError(*why);
               state.colouring.isolated = std::move(isolation);
             });
   table.add({"worst-view", "worst-view N|off|toggle", "only the N worst elements count, 1 to 100"}, {1, 1}, [&state](Arguments words) {

@@ -18,6 +18,13 @@ namespace dmoscope::ui {
   throw UsageError(fmt::format("\"{}\": expected {}", word, expected));
 }
 
+/// What is shown of the session. Throws UsageError where no mesh is open.
+inline std::shared_ptr<const SessionView> open_view(const CommandHost& host) {
+  auto view = host.session();
+  if (!view || !view->input) throw UsageError("no mesh is open");
+  return view;
+}
+
 /// on, off or toggle (also: no word).
 inline bool switched(Arguments words, std::size_t at, bool now) {
   if (words.size() <= at || words[at] == "toggle") return !now;

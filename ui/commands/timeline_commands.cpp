@@ -13,9 +13,7 @@ void set_mark(Timeline& timeline, const CommandHost& host, const std::string& wo
   }
   static constexpr std::array<std::pair<std::string_view, Mark Timeline::*>, 2> marks{{{"a", &Timeline::a}, {"b", &Timeline::b}}};
   Mark Timeline::*mark = choose(word, marks);
-  const auto view = host.session();
-  if (!view) throw UsageError("no mesh is open");
-  timeline.*mark = mark_of(*view);
+  timeline.*mark = mark_of(*open_view(host));
 }
 
 void flip(ViewState& state, Arguments words) {
@@ -48,11 +46,6 @@ void set_speed(Playback& play, const std::string& word) {
   play.speed = std::clamp(wanted, Playback::kSlowest, Playback::kFastest);
 }
 
-void require_mesh(const CommandHost& host) {
-  const auto view = host.session();
-  if (!view || !view->input) throw UsageError("no mesh is open");
-}
-
 }  // namespace
 
 void add_timeline_commands(CommandTable& table, ViewState& state, const CommandHost& host) {
@@ -61,13 +54,13 @@ void add_timeline_commands(CommandTable& table, ViewState& state, const CommandH
   table.add({"flip", "flip [a|b|now]", "shows A and B in turn, or what is said"}, {0, 1},
             [&state](Arguments words) { flip(state, words); });
   table.add({"play", "play [on|off|toggle]", "shows the history, iteration by iteration"}, {0, 1}, [&state, &host](Arguments words) {
-    require_mesh(host);
+    (void)open_view(host);
     const bool on = switched(words, 0, state.timeline.play.kind != Playback::Kind::Off);
     start(state, on ? Playback::Kind::History : Playback::Kind::Off);
   });
   table.add({"play-steps", "play-steps vertex|class|iteration|off", "steps again and again, until stopped"}, {1, 1},
             [&state, &host](Arguments words) {
-              require_mesh(host);
+              (void)open_view(host);
               static constexpr std::array<std::pair<std::string_view, Playback::Kind>, 4> kinds{{{"vertex", Playback::Kind::Vertex},
                                                                                                  {"class", Playback::Kind::Class},
                                                                                                  {"iteration", Playback::Kind::Iteration},

@@ -36,19 +36,14 @@ constexpr auto kDialogs = std::to_array<std::pair<std::string_view, Dialog>>({{"
                                                                               {"unsaved", Dialog::Unsaved},
                                                                               {"recover", Dialog::Recover}});
 
-const InputMesh& input_of(const CommandHost& host) {
-  const auto view = host.session();
-  if (!view || !view->input) throw UsageError("no mesh is open");
-  return *view->input;
-}
-
 Picked parse_pick(const CommandHost& host, Arguments words) {
   if (words.size() == 1 && words[0] == "none") return {};
   require(words, 2, 2);
   static constexpr std::array<std::pair<std::string_view, Picked::Kind>, 2> kinds{
       {{"vertex", Picked::Kind::Vertex}, {"element", Picked::Kind::Element}}};
   Picked picked{choose(words[0], kinds), kNoIndex};
-  const Mesh& mesh = input_of(host).mesh;
+  const auto view = open_view(host);
+  const Mesh& mesh = view->input->mesh;
   const std::uint64_t id = to_count(words[1]);
   const std::uint64_t size = picked.kind == Picked::Kind::Vertex ? mesh.vertex_count() : mesh.elements.size();
   if (id >= size)
@@ -195,8 +190,7 @@ void add_session_shortcuts(CommandTable& table, ViewState& state, const CommandH
     if (view && view->runs.size() > 1) host.post(fmt::format("select-run {}", (view->active + 1) % view->runs.size() + 1));
   });
   table.add({"next-metric", "next-metric", "shows the next metric that is defined for the mesh"}, {0, 0}, [&host](Arguments) {
-    const auto view = host.session();
-    if (!view || !view->input) throw UsageError("no mesh is open");
+    (void)open_view(host);
     host.post("show next");  // not by name: of several presses in a row each goes one further
   });
   (void)state;

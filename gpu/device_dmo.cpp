@@ -4,7 +4,7 @@
 #include <array>
 #include <span>
 
-#include "core/smooth/methods/composite_dmo.h"
+#include "core/smooth/visit/star_judge.h"
 #include "gpu/bodies.h"
 #include "gpu/defined/device_metric.h"
 #include "gpu/device_mesh.h"

@@ -1,5 +1,5 @@
 #pragma once
-// The bodies of the kernels for two aims: combined metrics, and the phase that raises the mean. The CPU's CompositeRule is their like.
+// The bodies of the kernels for two aims: combined metrics, and the phase that raises the mean. On the processor Visit does it.
 
 #include "core/smooth/two_aims.h"
 #include "gpu/lane.h"
@@ -18,7 +18,7 @@ DMOSCOPE_LANE_INLINE DMOSCOPE_ANYWHERE decltype(auto) with_metric_in(Metric metr
     return formulas::with_volume_metric(metric, f);
 }
 
-/// What the search maximises: see CompositeScore.
+/// What the search maximises: see StarScore.
 template <Metric M, class Frame>
 class TwoAimsScore {
  public:

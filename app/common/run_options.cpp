@@ -91,8 +91,7 @@ void add_run_options(CLI::App& subcommand, RunOptions& options) {
       .add_option("--then", options.then,
                   "After the minimum has converged: joint (joint moves, which raise the minimum further), mean (raise the mean without "
                   "lowering the minimum), or both")
-      ->type_name("mean|joint|joint,mean")
-      ->excludes(combine);
+      ->type_name("mean|joint|joint,mean");
   std::string recipes = "Method and phases under one name:";
   for (const Recipe& one : recipe_table())
     recipes +=

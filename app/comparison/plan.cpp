@@ -95,9 +95,9 @@ void add_every(ComparisonPlan& plan, const std::string& what, const RunOptions& 
     plan.contenders.push_back(std::move(contender));
   };
   if (what == "method") {
-    // A combination is dmo's; the others are there to compare it with.
+    // Those that no two aims can guide are there to compare with.
     for (const MethodInfo& method : method_table())
-      add(fmt::format("{}{}", method.name, !open.combine.empty() && !method.combines ? ",alone" : ""));
+      add(fmt::format("{}{}", method.name, !open.combine.empty() && (!method.optimises || method.joint) ? ",alone" : ""));
   } else if (what == "metric") {
     if (!open.combine.empty()) throw UsageError("--every metric: with --combine all runs have its metrics");
     for (const MetricInfo& metric : metric_table()) add(fmt::format("{}:{}", open.method, metric.name));

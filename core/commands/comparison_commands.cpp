@@ -127,7 +127,7 @@ std::vector<RunParameters> every_method(const RunParameters& like) {
   for (const MethodInfo& method : method_table()) {
     wanted.push_back(like);
     wanted.back().method = method.name;
-    if (method.name != like.method) wanted.back().combination.reset();  // which is a method's own
+    if (!method.optimises) wanted.back().combination.reset();  // no objective guides it
   }
   return wanted;
 }

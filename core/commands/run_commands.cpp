@@ -9,6 +9,7 @@
 #include "core/base/thread_count.h"
 #include "core/base/unknown_value.h"
 #include "core/commands/command_rows.h"
+#include "core/smooth/execution/method_table.h"
 
 namespace dmoscope {
 
@@ -18,7 +19,7 @@ void add_run(CommandContext& context, Arguments arguments) {
   RunParameters parameters = context.session.active().parameters();
   const std::size_t colon = arguments[0].find(':');
   parameters.method = arguments[0].substr(0, colon);
-  if (parameters.method != context.session.active().parameters().method) parameters.combination.reset();  // which is a method's own
+  if (!method_info(parameters.method).optimises || colon != std::string::npos) parameters.combination.reset();
   if (colon != std::string::npos) parameters.metric = parse_metric(arguments[0].substr(colon + 1));
   context.session.add_run(std::move(parameters));
 }

@@ -390,7 +390,7 @@ class Look {
   void visit(Smoother& smoother, std::uint64_t count, std::span<Vec3> positions, ThreadPool* pool) const {
     constexpr std::uint64_t kBlock = 65536;  // vertices between two questions whether to go on
     for (int round = 0; round < kRounds; ++round) {
-      smoother.begin({static_cast<std::uint64_t>(round), std::nullopt, q_.untangling});
+      smoother.begin({.iteration = static_cast<std::uint64_t>(round), .untangling = q_.untangling});
       std::uint64_t moved = 0;
       for (std::uint64_t first = 0; first < count; first += kBlock) {
         asking_.check();

@@ -10,9 +10,10 @@
 #include "core/base/error.h"
 #include "core/inspect/recorder.h"
 #include "core/quality/metric_phrase.h"
+#include "core/reference/deviation_bound.h"
 #include "core/reference/overlay.h"
 #include "core/smooth/execution/method_table.h"
-#include "core/smooth/methods/slide.h"
+#include "core/smooth/visit/star_judge.h"
 
 namespace dmoscope {
 

@@ -12,9 +12,9 @@
 #include "core/quality/metric_phrase.h"
 #include "core/smooth/kernels/targets/target_visit.h"
 #include "core/smooth/kernels/targets/tetrahedron_targets.h"
-#include "core/smooth/methods/defined_dmo.h"
 #include "core/smooth/methods/defined_search.h"
-#include "core/smooth/methods/fast_volume_search.h"
+#include "core/smooth/methods/star_kernels.h"
+#include "core/smooth/methods/volume_star_search.h"
 
 namespace dmoscope {
 
@@ -126,7 +126,7 @@ class Look {
       return star_state<M>(mesh_, positions_, trace_.vertex, place);
   }
 
-  /// As DefinedDmo does it. What it chose in level L is what it finds in L levels and does not find in L - 1.
+  /// As DefinedKernel does it. What it chose in level L is what it finds in L levels and does not find in L - 1.
   bool search_by_formula() requires(M == kDefinedMetric) {
     if (!(trace_.before.jacobian > 0.0)) return false;
     const DefinedSearch<Frame> search(*star_judge_, parameters_);
@@ -218,14 +218,14 @@ class Look {
     return true;
   }
 
-  /// As FastVolumeSearch does it.
+  /// As FastVolumeKernel does it.
   bool search_by_volume_kernel() {
     StarIn<Frame, double> star;
     gather_star(MeshStar(mesh_, positions_, trace_.vertex), star);
     const Objective<M, false, double, Value::Metric, StarViewIn<Frame, double>> objective(star);
     return search_by_volume_kernel(VolumeStarSearch(M, parameters_), {}, objective);
   }
-  /// As TargetVolumeDmo does it.
+  /// As TargetVolumeKernel does it.
   bool search_by_target_kernel() {
     const auto star = mesh_.star(trace_.vertex);
     const TetrahedronTargets targets(judge_->targets(), input_.mesh, star);
@@ -284,18 +284,23 @@ class Look {
     end([this](Vec3 target) { return confirm(target); });
   }
 
-  /// As RuleSmoother does it with a CompositeRule.
+  /// As the visits by two aims do it.
   void search_for_both() {
+    StarJudge<Frame> judge(input_, *composite_);
+    judge.begin({.untangling = untangling_});
     StarIn<Frame, double> star;
-    gather_star(MeshStar(mesh_, positions_, trace_.vertex), star);
+    judge.gather(positions_, trace_.vertex, star);
     Recorder<Offset> recorder(star.scale);
-    CompositeRule<Frame> search(input_, *composite_, parameters_);
-    search.begin({.untangling = untangling_});
     trace_.combined = true;
-    trace_.untangling = search.search_plainly(star, positions_, trace_.vertex, recorder).untangling;
+    trace_.untangling = judge.is_tangled(star);
+    if (!untangling_.repair || trace_.untangling) {
+      const Offset middle = trace_.untangling ? middle_of<Offset>(StarViewIn<Frame, double>(star)) : Offset{};
+      (void)grid_search<double>(judge.score_of(star, positions_, trace_.vertex, trace_.untangling), star.box, parameters_, recorder, Solo{},
+                                trace_.untangling ? &middle : nullptr);
+    }
     trace_.value_phrase = (trace_.untangling ? untangling_phrase(kVolume, untangling_) : "") + both_phrase(*composite_);
     take(std::move(recorder), [this](Offset offset) { return stored(offset); });
-    end([&](Vec3 target) { return search.confirm(positions_, trace_.vertex, target); });
+    end([&](Vec3 target) { return judge.confirm(positions_, trace_.vertex, target); });
   }
 
   [[nodiscard]] bool has_corners() const {

@@ -12,7 +12,7 @@
 #include "core/input/input_mesh.h"
 #include "core/mesh/position_view.h"
 #include "core/search/parameters.h"
-#include "core/smooth/methods/composite_dmo.h"
+#include "core/smooth/visit/star_judge.h"
 
 namespace dmoscope {
 

@@ -27,12 +27,12 @@ struct ElementFrames {
   std::span<const Vec3> normals{};  // of a surface, by element: see InputMesh::surface_normals
 
   /// Corners as (x, y, z): of a planar element relative to its first in its plane (z = 0); of one of a surface likewise, in the plane of
-  /// the element; of a volume element where they stand. at(vertex): its position.
+  /// the element; of a volume element where they stand. at(vertex): its position. Returns that plane.
   template <class At>
-  void gather(std::span<const Index> corners, Index element, int dimension, const At& at, std::array<Vec3, 8>& out) const {
+  Plane gather(std::span<const Index> corners, Index element, int dimension, const At& at, std::array<Vec3, 8>& out) const {
     if (dimension == 3) {
       for (std::size_t i = 0; i < corners.size(); ++i) out[i] = at(corners[i]);
-      return;
+      return {};
     }
     const Vec3 origin = at(corners[0]);
     if (geometry.shape == Shape::Planar) {
@@ -40,7 +40,7 @@ struct ElementFrames {
         const Vec2<double> p = geometry.plane.offset(at(corners[i]), origin);
         out[i] = {p.x, p.y, 0.0};
       }
-      return;
+      return geometry.plane;
     }
     std::array<Vec3, 4> way{};
     for (std::size_t i = 0; i < corners.size(); ++i) way[i] = at(corners[i]) - origin;
@@ -55,6 +55,7 @@ struct ElementFrames {
       const Vec2<double> p = plane.project(way[i]);
       out[i] = {p.x, p.y, 0.0};
     }
+    return plane;
   }
 };
 

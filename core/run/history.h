@@ -33,6 +33,7 @@ struct IterationRecord {
   double seconds = 0.0;        // this iteration's smoothing alone
   std::uint64_t searched = 0;  // vertices visited without those passed over, see Smoother::searched; 0 also where that is not known
   std::optional<JointFigures> joint{};
+  std::optional<double> second{};  // the movable minimum of a combination's second metric, where a phase may come that keeps it
 };
 
 /// Positions that lie far from the host (on a device) are worth bringing only to keep them where that takes but a modest share of the time:
@@ -50,8 +51,12 @@ class History {
   void record_input(const IterationRecord& record, std::shared_ptr<const std::vector<Vec3>> positions);
   /// Records the end of the next iteration. One that has a record already keeps it (a repeated iteration gives the same bits).
   void record(const IterationRecord& record);
-  /// Gives the last recorded iteration other statistics: the run goes from its end to another state.
-  void amend_last(const Statistics& statistics) { records_.change().back().statistics = statistics; }
+  /// Gives the last recorded iteration the statistics of another: the run goes from its end to another state.
+  void amend_last(const IterationRecord& other) {
+    IterationRecord& last = records_.change().back();
+    last.statistics = other.statistics;
+    last.second = other.second;
+  }
   /// Whether keep() would keep the positions of this iteration: those of multiples of stride() are kept, where the budget has room for any.
   [[nodiscard]] bool wants(std::uint64_t iteration) const;
   /// Keeps positions, unless they are kept already or not wanted. When the budget is full the stride doubles and positions in between are

@@ -77,7 +77,7 @@ Run::Run(std::shared_ptr<const InputMesh> input, RunParameters parameters, std::
       blocks_(block_plan()),
       history_(history_bytes),
       first_phase_(parameters_) {
-  history_.record_input({0, statistics(), 0, 0.0}, {input_, &input_->mesh.positions});
+  history_.record_input({.statistics = statistics(), .second = second_minimum()}, {input_, &input_->mesh.positions});
 }
 
 Run::~Run() = default;
@@ -125,6 +125,14 @@ Statistics Run::statistics() const {
   if (executor_.smoother)
     if (const auto found = asking_device([this] { return executor_.smoother->statistics(); })) return *found;
   return compute_statistics(input_->quality_context(), positions(), parameters_.metric, immovable_, pool_.get());
+}
+
+std::optional<double> Run::second_minimum() const {
+  const auto* second = parameters_.combination ? std::get_if<Metric>(&parameters_.combination->second) : nullptr;
+  if (second == nullptr || !parameters_.then_mean) return std::nullopt;
+  const QualityContext context = input_->quality_context();
+  if (input_->share) return input_->share->statistics(context, positions(), *second, immovable_, pool_.get()).movable_minimum;
+  return compute_statistics(context, positions(), *second, immovable_, pool_.get()).movable_minimum;
 }
 
 std::shared_ptr<const DevicePicture> Run::picture(Metric shown) const {
@@ -216,13 +224,13 @@ void Run::recover() {
 void Run::record(const RunProgress& done) {
   const std::uint64_t iteration = at_.moment.iteration;
   if (iteration < history_.records().size()) return;  // been here before
-  history_.record({iteration, statistics(), done.moved, done.seconds, done.searched, done.joint});
+  history_.record({iteration, statistics(), done.moved, done.seconds, done.searched, done.joint, second_minimum()});
   unkept_seconds_ += done.seconds;
   if (next_phase(parameters_) != nullptr) {
     const auto since = first_phase_end();
     if (since == iteration)
       if (const auto best = next_phase_start(parameters_, history_.records(), iteration)) {
-        history_.amend_last(history_.records()[*best].statistics);
+        history_.amend_last(history_.records()[*best]);
         return;  // begin_next_phase() brings the positions
       }
     if (!since) first_phase_.take(history_.records(), positions());

@@ -232,6 +232,7 @@ class Run {
   [[nodiscard]] bool copy_unkept(std::vector<Vec3>& copy) const;
   [[nodiscard]] bool attempts_to_untangle(std::uint64_t iteration) const;
   [[nodiscard]] bool can_be_certified() const;
+  [[nodiscard]] std::optional<double> second_minimum() const;
   [[nodiscard]] bool minimum_is_certified(double movable_minimum, Progress& progress);
   [[nodiscard]] bool knows_joint_moves() const;
   Outcome advance(const ConvergenceLimits& limits, bool stop_when_still, std::uint64_t from, Progress& progress,

@@ -32,7 +32,10 @@ bool untangles_jointly(std::span<const IterationRecord> records, std::uint64_t i
 Sweep sweep_after(std::span<const IterationRecord> records, std::uint64_t iteration, std::optional<std::uint64_t> mean_since, bool strays) {
   const Statistics& now = records[iteration].statistics;
   Sweep sweep{.iteration = iteration};
-  if (mean_since && *mean_since <= iteration) sweep.floor = now.movable_minimum;
+  if (mean_since && *mean_since <= iteration) {
+    sweep.floor = now.movable_minimum;
+    sweep.second_floor = records[iteration].second;
+  }
   if (now.inverted == 0) return sweep;
   const std::uint64_t since = iterations_since_untangled(records, iteration);
   const std::uint64_t in_cycle = since % UntanglingPlan::kCycle;

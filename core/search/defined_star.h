@@ -108,6 +108,9 @@ class DefinedStar {
 
   [[nodiscard]] double scale() const { return star_.scale; }
   [[nodiscard]] const auto& star() const { return star_; }
+  [[nodiscard]] const DefinedStarJudge<Frame>& judge() const { return judge_; }
+  [[nodiscard]] PositionView positions() const { return positions_; }
+  [[nodiscard]] Index vertex() const { return vertex_; }
 
   /// An element of the star. E: StarTriangle<double> and so on.
   template <class E>
@@ -164,6 +167,23 @@ class DefinedStar {
     const DefinedStar& star_;
   };
 
+  /// While it exists the star is asked for these places alone, in any order, each after take(): it then judges an element at all of them
+  /// when it is first asked for one.
+  class Listed {
+   public:
+    Listed(const DefinedStar& star, std::span<const Offset> offsets) : star_(star) {
+      for (const Offset& p : offsets) star_.level_.places.push_back(star_.place(p));
+      star_.forget();
+    }
+    ~Listed() { star_.level_.places.clear(); }
+    Listed(const Listed&) = delete;
+    Listed& operator=(const Listed&) = delete;
+    void take(std::size_t i) { star_.level_.candidate = i; }
+
+   private:
+    const DefinedStar& star_;
+  };
+
   /// Of an element with the vertex at an offset, in units of scale(); during a level of Levels at the candidate that comes.
   [[nodiscard]] double quality(std::size_t number, Offset p) const {
     if (level_.places.empty()) return judge_.quality(order_[number], positions_, vertex_, place(p));
@@ -177,15 +197,44 @@ class DefinedStar {
   /// kInverted where an element is inverted there: no metric goes below that.
   [[nodiscard]] double least(Offset p) const {
     const Vec3 there = place(p);
-    const auto at = [&](Index v) { return v == vertex_ ? there : positions_[v]; };
     double least = std::numeric_limits<double>::max();
     for (const Incidence& one : order_) {
-      const double jacobian = visit_shape(judge_.mesh.frame_of(one.element), judge_.mesh.corners_of(one.element), at,
-                                          [&](const auto& shape) { return formulas::smallest_jacobian_around(shape, one.corner); });
-      if (!(jacobian > 0.0)) return kInverted;
+      if (!(jacobian(one, there) > 0.0)) return kInverted;
       least = std::min(least, judge_.quality(one, positions_, vertex_, there));
     }
     return std::max(least, kInverted);
+  }
+  /// At each of some offsets; what is no more than `enough` may come out greater than it is, but never above that.
+  void least(std::span<const Offset> offsets, double enough, double* out) const {
+    thread_local std::vector<Vec3> places;  // kept: a visit allocates nothing
+    thread_local std::vector<std::size_t> left;
+    thread_local std::vector<double> qualities;
+    left.resize(offsets.size());
+    for (std::size_t i = 0; i < offsets.size(); ++i) left[i] = i, out[i] = std::numeric_limits<double>::max();
+    for (const Incidence& one : order_) {
+      places.clear();
+      std::size_t kept = 0;
+      for (const std::size_t i : left) {
+        const Vec3 there = place(offsets[i]);
+        if (!(jacobian(one, there) > 0.0)) {
+          out[i] = kInverted;
+          continue;
+        }
+        left[kept++] = i;
+        places.push_back(there);
+      }
+      left.resize(kept);
+      qualities.resize(kept);
+      judge_.qualities(one, positions_, vertex_, places, qualities.data());
+      kept = 0;
+      for (std::size_t k = 0; k < left.size(); ++k) {
+        const std::size_t i = left[k];
+        out[i] = std::min(out[i], qualities[k]);
+        if (out[i] > enough) left[kept++] = i;
+      }
+      left.resize(kept);
+    }
+    for (std::size_t i = 0; i < offsets.size(); ++i) out[i] = std::max(out[i], kInverted);
   }
   static constexpr double kInverted = -1e9;
   [[nodiscard]] double mean(Offset p) const {
@@ -204,9 +253,18 @@ class DefinedStar {
   void begin(const CandidateGrid<double, Offset>& grid) const {
     level_.places.clear();
     for (int i = 0; i < grid.points; ++i) grid.for_slice(i, [this](int /*index*/, const Offset& p) { level_.places.push_back(place(p)); });
+    forget();
+  }
+  void forget() const {
     level_.candidate = 0;
     level_.qualities.resize(order_.size());
     for (auto& known : level_.qualities) known.clear();
+  }
+  /// The least of an element's corners that change with the vertex.
+  [[nodiscard]] double jacobian(const Incidence& one, Vec3 there) const {
+    const auto at = [&](Index v) { return v == vertex_ ? there : positions_[v]; };
+    return visit_shape(judge_.mesh.frame_of(one.element), judge_.mesh.corners_of(one.element), at,
+                       [&](const auto& shape) { return formulas::smallest_jacobian_around(shape, one.corner); });
   }
   [[nodiscard]] Vec3 place(Offset p) const {
     const Offset offset = times(p, star_.scale);

@@ -15,11 +15,12 @@ std::string number(double value) { return std::isfinite(value) ? fmt::format("{}
 
 std::string stats_label(const RunParameters& parameters) {
   const auto& p = parameters;
-  if (!p.combination)
-    return fmt::format("{}:{}{}{}", p.method, info(p.metric).name, p.then_joint ? ":then-joint" : "", p.then_mean ? ":then-mean" : "");
+  const std::string phases = fmt::format("{}{}", p.then_joint ? ":then-joint" : "", p.then_mean ? ":then-mean" : "");
+  if (!p.combination) return fmt::format("{}:{}{}", p.method, info(p.metric).name, phases);
   const SizeFunction* size = p.combination->size();
   const std::string how = size != nullptr ? to_text(*size) : std::string();
-  return fmt::format("{}:{}{}{}", p.method, to_text(p.metric, *p.combination), how.empty() ? "" : ":", how.substr(0, how.find(':')));
+  return fmt::format("{}:{}{}{}{}", p.method, to_text(p.metric, *p.combination), how.empty() ? "" : ":", how.substr(0, how.find(':')),
+                     phases);
 }
 
 std::string stats_csv(std::span<const std::string> titles, std::span<const std::vector<IterationRecord>* const> records,

@@ -151,7 +151,8 @@ RunParameters to_parameters(const Json& json) {
   return p;
 }
 
-/// [minimum, mean, movable minimum, ceiling, worst element, inverted, moved, seconds], and of joint moves what joint_json() says.
+/// [minimum, mean, movable minimum, ceiling, worst element, inverted, moved, seconds]; of joint moves what joint_json() says; the second
+/// metric's movable minimum, where it is known.
 Json json_of(const IterationRecord& r) {
   const Statistics& s = r.statistics;
   Json json{number_in_json(s.minimum),
@@ -163,15 +164,21 @@ Json json_of(const IterationRecord& r) {
             r.moved,
             number_in_json(r.seconds)};
   if (r.joint) json.push_back(joint_json(*r.joint));
+  if (r.second) json.push_back(number_in_json(*r.second));
   return json;
 }
 
 IterationRecord to_record(const Json& json, std::uint64_t iteration) {
-  if (!json.is_array() || json.size() < 8 || json.size() > 9) throw UsageError("a record of an iteration has 8 values, or 9");
+  if (!json.is_array() || json.size() < 8 || json.size() > 10) throw UsageError("a record of an iteration has 8 to 10 values");
   IterationRecord record{iteration, {}, to_whole(json[6]), to_double(json[7])};
   record.statistics = {to_double(json[0]), to_double(json[1]), to_double(json[2]), to_double(json[3]), kNoIndex, to_index(json[5])};
   if (to_whole(json[4]) != kNoIndex) record.statistics.worst_element = to_index(json[4]);
-  if (json.size() == 9) record.joint = to_joint_figures(json[8]);
+  for (std::size_t i = 8; i < json.size(); ++i) {
+    if (json[i].is_number() || json[i].is_string())
+      record.second = to_double(json[i]);
+    else
+      record.joint = to_joint_figures(json[i]);
+  }
   return record;
 }
 

@@ -22,6 +22,8 @@ struct Sweep {
   std::uint64_t iteration = 0;  // of the run; 0: from the input on
   /// Second phase: raise the mean quality of the stars, with this as their floor: the least quality of the elements that can move.
   std::optional<double> floor{};
+  /// And the least of a combination's second metric, which that phase keeps as well.
+  std::optional<double> second_floor{};
   /// While the mesh has inverted elements.
   Untangling untangling{};
   friend bool operator==(const Sweep&, const Sweep&) = default;

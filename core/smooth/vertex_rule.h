@@ -42,23 +42,7 @@ struct RuleMesh {
         step, [&](Offset by) { return displaced(view.frame, place, by, single); }, confirm);
     return move.gains ? std::optional(move.to) : std::nullopt;
   }
-  /// By an offset in units of a star's scale: where it gains by it, and nowhere else (promise 1).
-  template <Metric M>
-  [[nodiscard]] std::optional<Vec3> moved_if_gaining(PositionView positions, Index vertex, Offset found, double scale) const {
-    return moved_if_gaining<M>(positions, vertex, times(found, scale));
-  }
-  template <Metric M>
-  [[nodiscard]] std::optional<Vec3> moved_if_gaining(PositionView positions, Index vertex, Offset offset) const {
-    return moved_if(positions[vertex], offset, [&](Vec3 target) { return confirm_at<M>(view, positions, vertex, target, untangling); });
-  }
 };
-
-/// Calls f.template operator()<M, Frame>() with the metric and the frame of a mesh.
-template <class F>
-decltype(auto) with_metric_and_frame(const InputMesh& input, Metric metric, F&& f) {
-  if (input.is_volume()) return formulas::with_volume_metric(metric, [&]<Metric M>() { return f.template operator()<M, Space>(); });
-  return formulas::with_planar_metric(metric, [&]<Metric M>() { return f.template operator()<M, Plane>(); });
-}
 
 /// Calls body(begin, end) for the part of [first, first + count) that lies in each class.
 template <class Body>

@@ -8,7 +8,7 @@
 #include "core/formula/evaluator.h"
 #include "core/smooth/kernels/targets/star_targets.h"
 #include "core/smooth/kernels/targets/tetrahedron_targets.h"
-#include "core/smooth/methods/defined_dmo.h"
+#include "core/smooth/methods/star_kernels.h"
 #include "gpu/defined/formula_source.h"
 #include "gpu/defined/program_table.h"
 

@@ -7,7 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/quality/defined_metric.h"
-#include "core/smooth/methods/defined_dmo.h"
+#include "core/smooth/methods/star_kernels.h"
 #include "tests/gpu/same_bits.h"
 #include "tests/gpu/volumes.h"
 #include "tests/smooth/zoo.h"

@@ -3,7 +3,7 @@
 #include "tests/gpu/two_aims.h"
 
 #include "core/run/run.h"
-#include "core/smooth/methods/composite_dmo.h"
+#include "core/smooth/visit/star_judge.h"
 #include "gpu/host_queue.h"
 #include "gpu/two_aims_bodies.h"
 #include "tests/gpu/meshes.h"

@@ -13,8 +13,9 @@
 #include "core/mesh/generate.h"
 #include "core/mesh/random.h"
 #include "core/run/run.h"
-#include "core/smooth/methods/composite_dmo.h"
-#include "core/smooth/methods/dmo.h"
+#include "core/smooth/methods/grid.h"
+#include "core/smooth/visit/star_judge.h"
+#include "core/smooth/visit/visit.h"
 #include "tests/smooth/promises.h"
 #include "tests/support/meshes.h"
 
@@ -112,8 +113,10 @@ Point best_place(const Plain& mesh, Index vertex, const std::function<Worth(Poin
 /// threshold, and below.
 std::pair<int, int> compare(const InputMesh& mesh, const CompositeObjective& composite, const SecondAim& second) {
   const Plain plain{mesh, mesh.mesh.positions};
-  const CompositeRule<Plane> search(mesh, composite, {});
-  CompositeRule<Plane>::Scratch scratch;
+  SmoothingTask task;
+  task.input = std::shared_ptr<const InputMesh>(std::shared_ptr<void>(), &mesh);
+  const Visit<Plane, Grid> search(task, composite, Grid(task, composite));
+  Visit<Plane, Grid>::Scratch scratch;
   std::pair<int, int> counts{};
   for (Index v = 0; v < mesh.mesh.vertex_count(); ++v) {
     if (mesh.topology.boundary()[v] != 0) continue;
@@ -132,7 +135,7 @@ std::pair<int, int> compare(const InputMesh& mesh, const CompositeObjective& com
   return counts;
 }
 
-TEST(CompositeRule, FindsTheBestInTheOrderOfTheTwoAims) {
+TEST(VisitByTwoAims, FindsTheBestInTheOrderOfTheTwoAims) {
   const auto mesh = input(lattice(12, 0.35, 5));
   const auto least_angle = [](const std::vector<Plain::Corners>& star, Point) {
     double least = INFINITY;
@@ -144,7 +147,7 @@ TEST(CompositeRule, FindsTheBestInTheOrderOfTheTwoAims) {
   EXPECT_GT(below, 5);
 }
 
-TEST(CompositeRule, RaisesTheMeanAboveTheFloor) {
+TEST(VisitByTwoAims, RaisesTheMeanAboveTheFloor) {
   const auto mesh = input(lattice(12, 0.35, 6));
   const auto mean = [](const std::vector<Plain::Corners>& star, Point) {
     double sum = 0.0;
@@ -156,7 +159,7 @@ TEST(CompositeRule, RaisesTheMeanAboveTheFloor) {
   EXPECT_GT(below, 5);
 }
 
-TEST(CompositeRule, GoesForTheWeightedMeanOfTheNeighbours) {
+TEST(VisitByTwoAims, GoesForTheWeightedMeanOfTheNeighbours) {
   const auto mesh = input(lattice(12, 0.35, 7));
   const Vec3 point{0.3, 0.4, 0.0};
   const auto size = std::make_shared<const SizeField>(mesh, SizeFunction{SizeFunction::Kind::Distance, point, {}});
@@ -212,7 +215,7 @@ void expect_gains_as_promised(const CompositeObjective& composite, const SecondA
     if (before.jacobian <= 0.0)
       expected = after.jacobian > before.jacobian && after.inverted <= before.inverted &&
                  (!composite.raise_mean() || (after.first >= before.first && rises));
-    const bool gains = CompositeRule<Plane>(*wheel, composite, {}).confirm(wheel->mesh.positions, 0, there) == Confirmation::Gains;
+    const bool gains = StarJudge<Plane>(*wheel, composite).confirm(wheel->mesh.positions, 0, there) == Confirmation::Gains;
     EXPECT_EQ(gains, expected) << trial;
     allowed += gains ? 1 : 0;
     refused_below += beyond(before.first) && rises && !beyond(after.first) ? 1 : 0;
@@ -223,7 +226,7 @@ void expect_gains_as_promised(const CompositeObjective& composite, const SecondA
   EXPECT_TRUE(!composite.raise_mean() || refused_tangled > 20);
 }
 
-TEST(CompositeRule, AVertexGainsAsPromised) {
+TEST(VisitByTwoAims, AVertexGainsAsPromised) {
   expect_gains_as_promised(composite_objective(Metric::MeanRatio, {0.5, Metric::MinAngle}, nullptr),
                            [](const std::vector<Plain::Corners>& star, Point) {
                              double least = INFINITY;

@@ -36,7 +36,7 @@ RunParameters parameters_of(const MethodInfo& method, Metric metric = Metric::Me
 
 std::vector<MethodInfo> others_of_any_metric() {
   std::vector<MethodInfo> methods = others();
-  std::erase_if(methods, [](const MethodInfo& method) { return method.mean_ratio_only || !method.optimises; });
+  std::erase_if(methods, [](const MethodInfo& method) { return !method.optimises; });
   return methods;
 }
 

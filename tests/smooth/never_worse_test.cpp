@@ -22,8 +22,12 @@ using testing::lattice;
 using testing::make_run;
 using testing::Spoiling;
 
-/// Elements with a corner whose edges span an area or volume of at most `limit`, or with such a place inside among 9^3, written down once
-/// more.
+double least_inside(ElementKind kind, std::span<const Index> v, std::span<const Vec3> at) {
+  const double least = test::least_inside(kind, v, at);
+  return std::abs(least) < 5e-3 ? test::least_inside(kind, v, at, 32) : least;
+}
+/// Elements with a corner whose edges span an area or volume of at most `limit`, or with such a place inside among 9^3, or 33^3 where one
+/// of them is near to it, written down once more.
 Index count_below(const InputMesh& input, std::span<const Vec3> at, double limit) {
   const auto corner = [&](Index a, Index b, Index c) { return cross(at[b] - at[a], at[c] - at[a]).z; };
   const auto spat = [&](Index a, Index b, Index c, Index d) { return dot(cross(at[b] - at[a], at[c] - at[a]), at[d] - at[a]); };
@@ -43,14 +47,14 @@ Index count_below(const InputMesh& input, std::span<const Vec3> at, double limit
         least = spat(v[0], v[1], v[2], v[3]);
         break;
       case ElementKind::Hexahedron:
-        least = test::least_inside(elements.kind(e), v, at);
+        least = least_inside(elements.kind(e), v, at);
         for (std::size_t i = 0; i < 4; ++i) {
           least = std::min(least, spat(v[i], v[(i + 1) % 4], v[(i + 3) % 4], v[i + 4]));
           least = std::min(least, spat(v[i + 4], v[(i + 3) % 4 + 4], v[(i + 1) % 4 + 4], v[i]));
         }
         break;
       case ElementKind::Wedge:
-        least = test::least_inside(elements.kind(e), v, at);
+        least = least_inside(elements.kind(e), v, at);
         for (std::size_t i = 0; i < 3; ++i) {
           least = std::min(least, spat(v[i], v[(i + 1) % 3], v[(i + 2) % 3], v[i + 3]));
           least = std::min(least, spat(v[i + 3], v[(i + 2) % 3 + 3], v[(i + 1) % 3 + 3], v[i]));
@@ -139,7 +143,6 @@ std::vector<MethodInfo> optimisers() {
 TEST_P(NeverWorse, OnTangledPlanarMeshesByEveryMetric) {
   Tried tried;
   for (const Metric metric : testing::all_metrics()) {
-    if (GetParam().mean_ratio_only && metric != Metric::MeanRatio) continue;
     for_spoiled(planar_meshes(6), metric, 6, [&](const auto& mesh, const std::string& what) {
       if (!testing::can_optimise(GetParam(), metric, *mesh)) return;
       RunParameters parameters{.method = std::string(GetParam().name), .metric = metric};
@@ -159,7 +162,6 @@ TEST_P(NeverWorse, OnTangledVolumes) {
                                  {"mixed", test::volume_grid(3, Fill::Mixed, 0.15), 3.0}};
   Tried tried;
   for (const Metric metric : {Metric::MeanRatio, Metric::ScaledJacobian}) {
-    if (GetParam().mean_ratio_only && metric != Metric::MeanRatio) continue;
     for_spoiled(meshes, metric, 2, [&](const auto& mesh, const std::string& what) {
       expect_never_worse(mesh, {.method = std::string(GetParam().name), .metric = metric, .search = {.grid_points = 4}}, 6, what, tried);
     });

@@ -81,7 +81,6 @@ std::vector<RunParameters> every_way() {
   std::vector<RunParameters> ways;
   for (const MethodInfo& method : method_table())
     for (const Metric metric : {Metric::MeanRatio, Metric::MinAngle}) {
-      if (method.mean_ratio_only && metric != Metric::MeanRatio) continue;
       RunParameters way;
       way.method = method.name;
       way.metric = metric;

@@ -159,7 +159,7 @@ TEST(SlidingInSpaceTogether, FindsTheLattice) {
 }
 
 TEST(SlidingInSpaceByOthers, KeepTheirPromisesAfterEveryIteration) {
-  for (const char* method : {"smart-laplace", "pattern-search", "laplace"})
+  for (const char* method : {"smart-laplace", "pattern-search", "laplace", "dvr", "active-set"})
     EXPECT_GT(expect_kept_by(method, volume_specimens(), kSanitized ? 5 : 2, kSanitized ? 1 : 2), kSanitized ? 5U : 50U) << method;
 }
 

@@ -1,74 +1,186 @@
-// How an iteration is cut into calls of visit() changes nothing.
+// Every method with every objective on every kind of place: what each mix must do, whatever it is made of.
 
-#include <cstring>
-#include <memory>
-#include <vector>
+#include <algorithm>
+#include <cmath>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "core/mesh/colouring.h"
-#include "core/smooth/execution/method_table.h"
-#include "core/smooth/smoother.h"
-#include "tests/support/meshes.h"
+#include "core/mesh/generate.h"
+#include "core/smooth/methods/dvr.h"
+#include "core/smooth/visit/defined_pieces.h"
+#include "tests/smooth/promises.h"
+#include "tests/support/plain_surface.h"
+#include "tests/support/volume_grids.h"
 
-namespace dmoscope {
+namespace dmoscope::testing {
 namespace {
 
-constexpr int kIterations = 3;
-
-class Visit : public ::testing::TestWithParam<Precision> {
- protected:
-  Visit() {
-    std::vector<Index> free;
-    for (Index v = 0; v < input_->mesh.vertex_count(); ++v)
-      if (input_->topology.boundary()[v] == 0) free.push_back(v);
-    colouring_ = std::make_shared<const Colouring>(colour_vertices(input_->mesh, input_->topology, free));
-  }
-
-  /// Positions after some iterations, each cut after the visits of `cuts`, which ends with the number of all.
-  [[nodiscard]] std::vector<Vec3> smoothed(const std::vector<std::uint64_t>& cuts, ThreadPool* pool, std::uint64_t& moved) const {
-    const auto smoother = make_smoother({.input = input_, .colouring = colouring_, .search = {.precision = GetParam()}, .pool = pool});
-    std::vector<Vec3> positions = input_->mesh.positions;
-    moved = 0;
-    for (int i = 0; i < kIterations; ++i) {
-      std::uint64_t first = 0;
-      for (const std::uint64_t cut : cuts) {
-        moved += smoother->visit(first, cut - first, positions, pool);
-        first = cut;
-      }
-    }
-    smoother->store(positions, pool);
-    return positions;
-  }
-
-  std::shared_ptr<const InputMesh> input_ = testing::input(testing::lattice(40, 0.4, 5, testing::Cells::Mixed));
-  std::shared_ptr<const Colouring> colouring_;
-};
-
-TEST_P(Visit, AnyStretchGivesWhatTheClassesGive) {
-  const std::uint64_t all = colouring_->order.size();
-  ASSERT_GT(colouring_->class_count(), 3U);
-  const std::vector<std::uint64_t> classes(colouring_->class_offsets.begin() + 1, colouring_->class_offsets.end());
-  std::uint64_t expected_moved = 0;
-  const std::vector<Vec3> expected = smoothed(classes, nullptr, expected_moved);
-  EXPECT_GT(expected_moved, all);
-
-  std::vector<std::uint64_t> sevens;
-  for (std::uint64_t cut = 7; cut < all; cut += 7) sevens.push_back(cut);
-  sevens.push_back(all);
-  const std::vector<std::uint64_t> whole{all}, odd{classes[0] - 1, classes[2] + 1, all};
-  ThreadPool two(2);
-  for (ThreadPool* pool : {static_cast<ThreadPool*>(nullptr), &two})
-    for (const auto& cuts : {whole, odd, sevens, classes}) {
-      std::uint64_t moved = 0;
-      const std::vector<Vec3> found = smoothed(cuts, pool, moved);
-      EXPECT_EQ(std::memcmp(found.data(), expected.data(), found.size() * sizeof(Vec3)), 0) << cuts.size() << " calls";
-      EXPECT_EQ(moved, expected_moved) << cuts.size() << " calls";
-    }
+std::shared_ptr<const InputMesh> sample(std::string_view kind, std::size_t size) {
+  Progress progress;
+  return input(generate_mesh(kind, size, 3, progress));
 }
 
-INSTANTIATE_TEST_SUITE_P(Precisions, Visit, ::testing::Values(Precision::Float, Precision::Double),
-                         [](const auto& p) { return p.param == Precision::Float ? "Float" : "Double"; });
+/// The least of a metric and its mean, and how many elements are inverted.
+Statistics judged(const InputMesh& mesh, std::span<const Vec3> positions, Metric metric) {
+  return compute_statistics(mesh.quality_context(), positions, metric, std::span<const Index>(), nullptr);
+}
+
+constexpr const char* kOptimisers[] = {"dmo", "smart-laplace", "dvr", "pattern-search", "active-set"};
+constexpr const char* kSamples[] = {"random", "quads", "mixed", "can", "tetrahedra", "hexahedra", "solids"};
+
+/// No visit lowers its star's first metric below what it was or the threshold, nor the second where the first is beyond it and stays.
+TEST(TwoAims, NoVisitOfAnyMethodGivesUpTheFirst) {
+  constexpr double kThreshold = 0.45;
+  constexpr Metric kFirst = Metric::MeanRatio, kSecond = Metric::ScaledJacobian;
+  Progress progress;
+  for (const char* kind : kSamples)
+    for (const char* method : kOptimisers)
+      for (const BoundaryRule boundary : {BoundaryRule::Fixed, BoundaryRule::Slide}) {
+        const auto mesh = sample(kind, 60);
+        dmoscope::Run run =
+            make_run(mesh, {.method = method, .metric = kFirst, .combination = Combination{kThreshold, kSecond}, .boundary = boundary});
+        const std::string what = fmt::format("{} on {}, boundary {}", method, kind, name(boundary));
+        std::size_t moved = 0;
+        for (int iteration = 0; iteration < 2; ++iteration) {
+          const std::vector<Index> order = run.colouring().order;
+          for (const Index v : order) {
+            const Vec3 old = run.positions()[v];
+            const auto state = [&](Metric metric) { return star_state(*mesh, run.positions(), metric, v); };
+            const StarState first = state(kFirst), second = state(kSecond);
+            run.step(StepUnit::Vertex, progress);
+            if (run.positions()[v] == old) continue;
+            ++moved;
+            if (!(first.jacobian > 0.0)) continue;
+            const StarState now = state(kFirst);
+            ASSERT_GT(now.jacobian, 0.0) << what;
+            if (first.quality <= kThreshold) {
+              ASSERT_GT(now.quality, first.quality) << what;
+            } else {
+              ASSERT_GT(now.quality, kThreshold) << what;
+              ASSERT_GT(state(kSecond).quality, second.quality) << what;
+            }
+          }
+        }
+        EXPECT_GT(moved, 3U) << what;
+      }
+}
+
+/// Then the mean: neither least falls.
+TEST(TwoAims, TheMeanPhaseKeepsBothMinima) {
+  constexpr Metric kSecond = Metric::ScaledJacobian;
+  Progress progress;
+  int rises = 0, runs = 0;
+  for (const char* kind : {"random", "quads", "mixed", "can", "tetrahedra", "hexahedra"})
+    for (const double threshold : {0.2, 0.5}) {
+      const auto mesh = sample(kind, 80);
+      RunParameters parameters{.combination = Combination{threshold, kSecond}};
+      dmoscope::Run first = make_run(mesh, parameters);
+      (void)first.until_converged({}, progress);
+      parameters.then_mean.emplace();
+      dmoscope::Run both = make_run(mesh, parameters);
+      (void)both.until_converged({}, progress);
+      const std::string what = fmt::format("{} above {}", kind, threshold);
+      for (const Metric metric : {Metric::MeanRatio, kSecond})
+        EXPECT_GE(judged(*mesh, both.positions(), metric).minimum, judged(*mesh, first.positions(), metric).minimum - 1e-12) << what;
+      const double before = judged(*mesh, first.positions(), Metric::MeanRatio).mean, after = both.statistics().mean;
+      EXPECT_GE(after, before - 1e-12) << what;
+      rises += after > before ? 1 : 0;
+      ++runs;
+    }
+  EXPECT_GT(2 * rises, runs);
+}
+
+TEST(TwoAims, TheMeanWouldUndoADensity) {
+  RunParameters parameters{.combination = Combination{0.5, SizeFunction{}}};
+  parameters.then_mean.emplace();
+  EXPECT_THROW((void)make_run(sample("random", 60), parameters), UsageError);
+}
+
+/// On the line through a vertex: as good as the best of a look at ten thousand places.
+TEST(Dvr, ComesNearTheBestPlaceOnTheLineByAnyMetric) {
+  const auto mesh = input(lattice(6, 0.3, 8));
+  Progress progress;
+  for (const MetricInfo& entry : metric_table()) {
+    if (!defined_for_all(entry.metric, mesh->mesh)) continue;
+    dmoscope::Run run = make_run(mesh, {.method = "dvr", .metric = entry.metric});
+    const Index v = run.colouring().order[0];
+    const Vec2<double> d = dvr_direction(run.parameters().options, 0);
+    std::vector<Vec3> positions = mesh->mesh.positions;
+    const Vec3 here = positions[v];
+    double best = 0.0;
+    for (int i = -5000; i <= 5000; ++i) {
+      positions[v] = here + (i / 5000.0 * 0.2) * Vec3{d.x, d.y, 0.0};
+      const StarState state = star_state(*mesh, positions, entry.metric, v);
+      if (state.jacobian > 0.0) best = std::max(best, state.quality);
+    }
+    run.step(StepUnit::Vertex, progress);
+    const Vec3 way = run.positions()[v] - here;
+    EXPECT_NEAR(way.x * d.y - way.y * d.x, 0.0, 1e-12) << entry.name;
+    EXPECT_GE(star_state(*mesh, run.positions(), entry.metric, v).quality, best - 1e-3) << entry.name;
+  }
+}
+
+/// How the least changes with the vertex, found by two places next to each other, is among how its pieces say that they do.
+template <class Frame>
+void expect_slopes(const InputMesh& mesh, Metric metric, int& compared) {
+  const StarJudge<Frame> judge(mesh, single_objective(metric));
+  const std::vector<Vec3>& positions = mesh.mesh.positions;
+  JudgedStar<Frame> star;
+  std::vector<StarPiece<Frame>> pieces;
+  for (Index v = 0; v < positions.size(); ++v) {
+    if (mesh.topology.boundary()[v] != 0 || mesh.topology.star(v).empty()) continue;
+    judge.gather(positions, v, star);
+    if (judge.is_tangled(star)) continue;
+    const auto score = judge.score_of(star, positions, v, false);
+    pieces.clear();
+    score.append_pieces({}, pieces);
+    double least = HUGE_VAL, next = HUGE_VAL;
+    const StarPiece<Frame>* lowest = nullptr;
+    for (const StarPiece<Frame>& piece : pieces) {
+      if (piece.value < least)
+        next = least, least = piece.value, lowest = &piece;
+      else
+        next = std::min(next, piece.value);
+    }
+    if (lowest == nullptr || next - least < 1e-3) continue;  // at a kink both sides differ
+    const double here = score({});
+    if (here > least + 1e-9) continue;  // a corner elsewhere is the least
+    EXPECT_NEAR(here, least, 1e-9);
+    constexpr double kStep = 1e-6;
+    const auto slope = [&](Vec3 way) {
+      CandidateList two;
+      two.add(kStep * way), two.add(-kStep * way);
+      using Offset = OffsetIn<Frame, double>;
+      return (score(two.get<Offset>(0)) - score(two.get<Offset>(1))) / (2 * kStep);
+    };
+    const auto gradient = [&] {
+      if constexpr (std::is_same_v<Frame, Plane>)
+        return Vec3{lowest->gradient.x, lowest->gradient.y, 0.0};
+      else
+        return lowest->gradient;
+    }();
+    for (const Vec3 way : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0.3, -0.8, std::is_same_v<Frame, Plane> ? 0.0 : 0.5}})
+      EXPECT_NEAR(slope(way), dot(way, gradient), 2e-4 * (1.0 + length(gradient))) << info(metric).name << ", vertex " << v;
+    ++compared;
+  }
+}
+TEST(StarPieces, RiseAsTheyTell) {
+  const auto hilly = [](Vec3 p) { return Vec3{p.x, p.y, 0.1 * std::sin(4 * p.x) * std::cos(3 * p.y)}; };
+  const Metric formulas[] = {Metric::MeanRatio, Metric::ScaledJacobian, Metric::MinAngle, parse_metric("formula:2*det/norm^2"),
+                             parse_metric("mean-ratio@input:2")};
+  int flat = 0, curved = 0, solid = 0;
+  for (const Metric metric : formulas) {
+    const auto plane = input(lattice(7, 0.35, 47));
+    expect_slopes<Plane>(*plane, metric, flat);
+    expect_slopes<Curved>(*input(mapped(plane->mesh, hilly)), metric, curved);
+    if (info(metric).defined_for(ElementKind::Tetrahedron))
+      expect_slopes<Space>(*input(test::volume_grid(3, test::Fill::Tetrahedra, 0.25)), metric, solid);
+  }
+  EXPECT_GT(flat, 50);
+  EXPECT_GT(curved, 50);
+  EXPECT_GT(solid, 10);
+}
 
 }  // namespace
-}  // namespace dmoscope
+}  // namespace dmoscope::testing

@@ -7,7 +7,7 @@
 #include "core/mesh/generate.h"
 #include "core/mesh/random.h"
 #include "core/smooth/execution/method_table.h"
-#include "core/smooth/methods/volume_dvr.h"
+#include "core/smooth/methods/dvr.h"
 #include "tests/smooth/promises.h"
 #include "tests/support/volume_grids.h"
 
@@ -52,7 +52,6 @@ TEST_P(VolumePromises, NoVisitMakesAnythingWorseAndFixedVerticesKeepTheirBits) {
   for (const Specimen& specimen : volumes()) {
     for (const Metric metric : {Metric::MeanRatio, Metric::Condition, Metric::RadiusRatio}) {
       if (!testing::defined_for_all(metric, specimen.mesh)) continue;
-      if (method_info(GetParam()).mean_ratio_only && metric != Metric::MeanRatio) continue;
       RunParameters parameters;
       parameters.method = GetParam();
       parameters.metric = metric;

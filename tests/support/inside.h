@@ -10,15 +10,14 @@
 
 namespace dmoscope::test {
 
-/// Its least value at 9^3 places of a hexahedron or wedge, corners among them; +infinity for other kinds.
-inline double least_inside(ElementKind kind, std::span<const Index> v, std::span<const Vec3> at) {
-  constexpr int kParts = 8;
+/// Its least value at 9^3 places of a hexahedron or wedge, or as many as there are parts, corners among them; +infinity for other kinds.
+inline double least_inside(ElementKind kind, std::span<const Index> v, std::span<const Vec3> at, int parts = 8) {
   double least = HUGE_VAL;
   const auto p = [&](std::size_t i) { return at[v[i]]; };
-  for (int i = 0; i <= kParts; ++i)
-    for (int j = 0; j <= kParts; ++j)
-      for (int k = 0; k <= kParts; ++k) {
-        const double x = static_cast<double>(i) / kParts, y = static_cast<double>(j) / kParts, z = static_cast<double>(k) / kParts;
+  for (int i = 0; i <= parts; ++i)
+    for (int j = 0; j <= parts; ++j)
+      for (int k = 0; k <= parts; ++k) {
+        const double x = static_cast<double>(i) / parts, y = static_cast<double>(j) / parts, z = static_cast<double>(k) / parts;
         if (kind == ElementKind::Hexahedron) {
           const auto mean = [](double s, double t, Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
             return (1 - t) * ((1 - s) * a + s * b) + t * ((1 - s) * c + s * d);

@@ -99,30 +99,35 @@ void draw_size(PanelContext& context, const RunView& run, const SizeFunction& si
 namespace {
 
 bool joint_possible(const RunView& run) {
-  return run.input && !method_info(run.parameters.method).joint && why_not_joint(*run.input, run.parameters.metric).empty();
+  return run.input && !run.parameters.combination && !method_info(run.parameters.method).joint &&
+         why_not_joint(*run.input, run.parameters.metric).empty();
+}
+
+void draw_phases(PanelContext& context, const RunView& run) {
+  const RunParameters& p = run.parameters;
+  bool then_joint = p.then_joint.has_value(), then_mean = p.then_mean.has_value();
+  const auto say_then = [&] {
+    RunParameters wanted;
+    if (then_joint) wanted.then_joint.emplace();
+    if (then_mean) wanted.then_mean.emplace();
+    context.send("then " + then_words(wanted));
+  };
+  if (joint_possible(run)) {
+    if (ImGui::Checkbox("then joint", &then_joint)) say_then();
+    note_item(context, "then-joint",
+              "once the minimum has converged, moves vertices together where single ones gain nothing, until nothing does");
+  }
+  if (p.combination && p.combination->size() != nullptr) return;  // which the mean would undo
+  if (ImGui::Checkbox("then mean", &then_mean)) say_then();
+  note_item(context, "then-mean", "once the minimum has converged, raises the mean quality, with the minimum as floor");
 }
 
 }  // namespace
 
 void draw_composite(PanelContext& context, const RunView& run) {
   const RunParameters& p = run.parameters;
-  if (!p.combination) {
-    bool then_joint = p.then_joint.has_value(), then_mean = p.then_mean.has_value();
-    const auto say_then = [&] {
-      RunParameters wanted;
-      if (then_joint) wanted.then_joint.emplace();
-      if (then_mean) wanted.then_mean.emplace();
-      context.send("then " + then_words(wanted));
-    };
-    if (joint_possible(run)) {
-      if (ImGui::Checkbox("then joint", &then_joint)) say_then();
-      note_item(context, "then-joint",
-                "once the minimum has converged, moves vertices together where single ones gain nothing, until nothing does");
-    }
-    if (ImGui::Checkbox("then mean", &then_mean)) say_then();
-    note_item(context, "then-mean", "once the minimum has converged, raises the mean quality, with the minimum as floor");
-  }
-  if (!method_info(p.method).combines || p.then_mean || p.then_joint) return;
+  draw_phases(context, run);
+  if (!method_info(p.method).optimises || method_info(p.method).joint || p.then_joint) return;
   bool combined = p.combination.has_value();
   if (ImGui::Checkbox("combine", &combined)) {
     if (combined)

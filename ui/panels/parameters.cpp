@@ -67,9 +67,11 @@ void draw_parameter(PanelContext& context, const ParameterInfo& row, const RunPa
 
 /// What the run's method can be told, and nothing else.
 void draw_options(PanelContext& context, const RunParameters& parameters, bool surface) {
-  for (const ParameterInfo& row : parameter_table())
-    if (row.in_session && row.reader != nullptr && row.read_by(parameters, surface) && !(row.volume_only && !context.state.in_space))
+  for (const ParameterInfo& row : parameter_table()) {
+    const bool is_option = row.reader != nullptr || row.sliding_only || row.name == "boundary";
+    if (row.in_session && is_option && row.read_by(parameters, surface) && !(row.volume_only && !context.state.in_space))
       draw_parameter(context, row, parameters);
+  }
 }
 
 void draw_backend(PanelContext& context, const RunView& run) {

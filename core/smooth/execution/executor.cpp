@@ -32,6 +32,7 @@ std::string obstacle_of_defined(const SmoothingTask& task) {
 std::string obstacle(const Acceleration& acceleration, const SmoothingTask& task) {
   if (!method_info(task.method).accelerated) return fmt::format("{} runs on the CPU alone", task.method);
   if (const std::string why = obstacle_of_defined(task); !why.empty()) return why;
+  if (task.combination && task.then_mean) return "a phase that raises the mean keeps two minima on the CPU alone";
   if (task.slides || task.input->is_surface()) return "vertices slide on the CPU alone";
   if (task.size && !task.size->formula()) return "sizes out of a nodal field are looked up on the CPU alone";
   if (task.search.precision == Precision::Double && !task.input->is_volume() && !task.combination && is_built_in(task.metric))

@@ -15,12 +15,12 @@
 #include "core/joint/joint_clusters.h"
 #include "core/smooth/methods/active_set_ascent.h"
 #include "core/smooth/methods/angle_based.h"
-#include "core/smooth/methods/composite_dmo.h"
 #include "core/smooth/methods/dmo.h"
 #include "core/smooth/methods/dvr.h"
 #include "core/smooth/methods/laplace.h"
 #include "core/smooth/methods/pattern_search.h"
 #include "core/smooth/methods/then_mean.h"
+#include "core/smooth/visit/star_judge.h"
 
 namespace dmoscope {
 
@@ -30,21 +30,17 @@ constexpr auto kMethods = std::to_array<MethodInfo>(
       .doc = "Discrete mesh optimization: best candidate of a grid, three levels (Zint and Grosso 2018)",
       .make = make_dmo_smoother,
       .untangles = true,
-      .combines = true,
       .accelerated = true,
-      .searches_grid = true,
-      .slides = true},
+      .searches_grid = true},
      {.name = "laplace",
       .doc = "Laplacian smoothing: to the mean of the edge neighbours, whatever becomes of the elements",
       .make = make_laplace_smoother,
       .optimises = false,
       .untangles = true,
-      .slides = true,
       .relaxes = true},
      {.name = "smart-laplace",
       .doc = "Laplacian smoothing, only where the vertex gains (Freitag 1997)",
       .make = make_smart_laplace_smoother,
-      .slides = true,
       .relaxes = true},
      {.name = "angle-based",
       .doc = "Angle-based smoothing: to the mean of the places that halve the ring's angles, whatever becomes of the elements (Zhou and "
@@ -57,12 +53,10 @@ constexpr auto kMethods = std::to_array<MethodInfo>(
      {.name = "dvr",
       .doc = "Directional vertex relaxation: to the best place on a line, one direction an iteration (Rangarajan and Lew 2017)",
       .make = make_dvr_smoother,
-      .mean_ratio_only = true,
       .has_directions = true},
      {.name = "pattern-search",
       .doc = "Compass search: the best of four steps, which grow or shrink (Park and Shontz 2010)",
-      .make = make_pattern_search_smoother,
-      .slides = true},
+      .make = make_pattern_search_smoother},
      {.name = "active-set",
       .doc = "Active-set ascent: along the steepest way on which none of the worst elements loses (Freitag, Jones and Plassmann 1995)",
       .make = make_active_set_smoother},
@@ -70,27 +64,14 @@ constexpr auto kMethods = std::to_array<MethodInfo>(
       .doc = "Joint moves: a cluster of vertices together, by an interior point, until nothing can raise the worst element",
       .make = make_dmo_smoother,
       .untangles = true,
-      .slides = true,
       .joint = true}});
-
-/// "dmo, laplace, smart-laplace, pattern-search and joint"; the last one not on curved surfaces.
-std::string those_that_slide(bool on_curved_surfaces = false) {
-  std::vector<std::string_view> names;
-  for (const MethodInfo& method : kMethods)
-    if (method.slides && !(method.joint && on_curved_surfaces)) names.push_back(method.name);
-  return fmt::format("{} and {}", fmt::join(names.begin(), names.end() - 1, ", "), names.back());
-}
-
-void require_sliding(const SmoothingTask& task) {
-  if (!method_info(task.method).slides)
-    throw UsageError(fmt::format("only {} slide vertices along boundaries and interfaces, not {}", those_that_slide(), task.method));
-  if (task.input->geometry.plane.period > 0.0) throw UsageError("nothing slides in meshes that go round in longitude");
-}
 
 void require_possible(const Combination& combination, const SmoothingTask& task) {
   validate(task.metric, combination);
-  if (!method_info(task.method).combines) throw UsageError(fmt::format("only dmo combines metrics, not {}", task.method));
-  if (task.then_mean) throw UsageError("a combination has a second aim of its own, which a phase that raises the mean would undo");
+  if (!method_info(task.method).optimises)
+    throw UsageError(fmt::format("{} moves vertices whatever becomes of the elements: no objective guides it", task.method));
+  if (task.then_mean && combination.size() != nullptr)
+    throw UsageError("a phase that raises the mean would undo the density of a combination");
   if (combination.size() != nullptr && task.input->geometry.shape != Shape::Planar)
     throw UsageError(fmt::format("sizes are of planar meshes in this version, and the mesh is a {}",
                                  task.input->is_volume() ? "volume" : "curved surface"));
@@ -118,13 +99,10 @@ void require_possible(const SmoothingTask& task) {
   validate(task.search);
   validate(task.options);
   require_defined(task.metric, *task.input);
-  if (method.mean_ratio_only && task.metric != Metric::MeanRatio)
-    throw UsageError(fmt::format("{} optimises only the mean ratio, not {}", method.name, info(task.metric).name));
-  if (method.planar_only && task.input->is_volume()) throw UsageError(fmt::format("{} is defined only for planar meshes", method.name));
+  if (method.planar_only && task.input->is_volume())
+    throw UsageError(fmt::format("{} is defined only for planar meshes and surfaces", method.name));
   if (task.combination) require_possible(*task.combination, task);
-  if (task.input->is_surface() && !method.slides)
-    throw UsageError(fmt::format("only {} smooth curved surfaces, not {}", those_that_slide(true), method.name));
-  if (task.slides) require_sliding(task);
+  if (task.slides && task.input->geometry.plane.period > 0.0) throw UsageError("nothing slides in meshes that go round in longitude");
   if (method.joint && task.then_joint) throw UsageError("joint moves cannot follow joint moves");
   if (method.joint || task.then_joint) {
     if (task.combination) throw UsageError("joint moves have one aim, and a combination two");
@@ -134,7 +112,7 @@ void require_possible(const SmoothingTask& task) {
 
 std::unique_ptr<Smoother> make_smoother(const SmoothingTask& task) {
   require_possible(task);
-  std::unique_ptr<Smoother> smoother = task.combination ? make_composite_smoother(task) : method_info(task.method).make(task);
+  std::unique_ptr<Smoother> smoother = method_info(task.method).make(task);
   if (task.then_mean) smoother = then_mean(std::move(smoother), task);
   return task.input->share ? task.input->share->among_others(std::move(smoother), task) : std::move(smoother);
 }

@@ -14,17 +14,14 @@ namespace dmoscope {
 struct MethodInfo {
   std::string_view name, doc;
   std::unique_ptr<Smoother> (*make)(const SmoothingTask&);
-  bool optimises = true;         // the metric; else it only judges what the method does
-  bool mean_ratio_only = false;  // it can optimise no other metric
-  bool planar_only = false;      // not of volumes
-  bool untangles = false;        // worth a try where another leaves elements inverted
-  bool combines = false;         // it can optimise a composite objective
-  bool accelerated = false;      // accelerators can do it
-  bool searches_grid = false;    // reads SearchParameters
-  bool slides = false;           // it can move vertices along curves and on surfaces
-  bool relaxes = false;          // reads MethodOptions::relaxation
-  bool joint = false;            // an iteration moves a cluster of vertices together; visits of chosen ones are dmo's
-  bool has_directions = false;   // reads MethodOptions::directions and seed
+  bool optimises = true;        // the metric; else it only judges what the method does
+  bool planar_only = false;     // not of volumes
+  bool untangles = false;       // worth a try where another leaves elements inverted
+  bool accelerated = false;     // accelerators can do it
+  bool searches_grid = false;   // reads SearchParameters
+  bool relaxes = false;         // reads MethodOptions::relaxation
+  bool joint = false;           // an iteration moves a cluster of vertices together; visits of chosen ones are dmo's
+  bool has_directions = false;  // reads MethodOptions::directions and seed
 };
 /// The methods this version has.
 [[nodiscard]] std::span<const MethodInfo> method_table();

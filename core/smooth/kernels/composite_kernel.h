@@ -1,6 +1,7 @@
 #pragma once
-// The grid search for two aims (composite_dmo.h) of a star without inverted elements: a pack of candidates at a time, in double. The same
-// code compiled for several processors, chosen at run time; each slot gets the bits that the plain search gets, so that it finds the same.
+// The grid search for two aims (visit/star_judge.h) of a star without inverted elements: a pack of candidates at a time, in double. The
+// same code compiled for several processors, chosen at run time; each slot gets the bits that the plain search gets, so that it finds the
+// same.
 
 #include <array>
 #include <cstddef>

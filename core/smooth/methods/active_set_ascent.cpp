@@ -3,10 +3,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/numeric/dual.h"
-#include "core/smooth/defined_pieces.h"
-#include "core/smooth/methods/defined_rule.h"
-#include "core/smooth/star_pieces.h"
+#include "core/smooth/visit/visit.h"
 
 namespace dmoscope {
 
@@ -18,21 +15,21 @@ constexpr double kLeastStep = 1e-6, kLeastGain = 1e-6, kLongestStep = 1.0;
 constexpr double kNearEstimate = 0.9;
 constexpr int kSteps = 20;
 
-/// What one of the functions is at a place, and how it rises there. V: Vec2<double> or Vec3.
+/// What one of the functions is at a place, and how it rises there. V: double on a curve, Vec2<double> in a plane, Vec3 in space.
 template <class V>
 struct Piece {
   double value;
   V gradient;
 };
-
-/// Frame: Plane or Space.
-template <class Frame>
+template <class V>
 struct AscentScratch {
-  using V = OffsetIn<Frame, double>;
   std::vector<Piece<V>> pieces;
   std::vector<V> active;  // gradients
 };
 
+double times(double a, double s) { return a * s; }
+double dot(double a, double b) { return a * b; }
+double norm(double a) { return std::abs(a); }
 double norm(Vec2<double> a) { return std::hypot(a.x, a.y); }
 double norm(Vec3 a) { return std::sqrt(dot(a, a)); }
 
@@ -55,8 +52,9 @@ std::optional<Vec3> foot_of_zero(Vec3 a, Vec3 b, Vec3 c) {
   return inside(a, ab) && inside(b, bc) && inside(c, ca) ? std::optional(foot) : std::nullopt;
 }
 
-/// Looks for what is nearer to 0 than `best` inside the hull's faces: in a plane it has none but its edges.
-void look_at_faces(const std::vector<Vec2<double>>& /*gradients*/, Vec2<double>& /*best*/) {}
+/// Looks for what is nearer to 0 than `best` inside the hull's faces: but in space it has none but its edges.
+template <class V>
+void look_at_faces(const std::vector<V>& /*gradients*/, V& /*best*/) {}
 void look_at_faces(const std::vector<Vec3>& gradients, Vec3& best) {
   const std::size_t n = gradients.size();
   for (std::size_t i = 0; i < n; ++i)
@@ -83,14 +81,12 @@ V steepest(const std::vector<V>& gradients) {
   return best;
 }
 
-/// Raises the least of the pieces from a place. for_pieces(p, f): calls f with each piece's value with the star's vertex at p, in the
-/// scalar of p. worth(p): the least of them, or what else the place is worth.
-template <class Frame, class ForPieces, class Worth>
+/// Raises the least of the pieces from a place. for_pieces(p, f): calls f(value, gradient) of each with the star's vertex at p. worth(p):
+/// the least of them, or what else the place is worth.
+template <class V, class ForPieces, class Worth>
 class Ascent {
  public:
-  using V = OffsetIn<Frame, double>;
-  Ascent(AscentScratch<Frame>& scratch, const ForPieces& for_pieces, const Worth& worth)
-      : scratch_(scratch), for_pieces_(for_pieces), worth_(worth) {}
+  Ascent(const ForPieces& for_pieces, const Worth& worth) : for_pieces_(for_pieces), worth_(worth) {}
 
   [[nodiscard]] V from(V place) const {
     double worth = worth_(place);
@@ -116,9 +112,9 @@ class Ascent {
     scratch_.pieces.clear();
     scratch_.active.clear();
     double least = std::numeric_limits<double>::infinity();
-    for_pieces_(variable(place), [&](const auto& q) {
-      least = std::min(least, q.value);
-      scratch_.pieces.push_back({q.value, q.by});
+    for_pieces_(place, [&](double value, V gradient) {
+      least = std::min(least, value);
+      scratch_.pieces.push_back({value, gradient});
     });
     for (const Piece<V>& piece : scratch_.pieces) {
       // The corner across a quadrilateral never changes: one that is only near the least bounds the gain, but is no reason to stay.
@@ -151,84 +147,64 @@ class Ascent {
     return best;
   }
 
-  AscentScratch<Frame>& scratch_;
+  static AscentScratch<V>& room() {
+    thread_local AscentScratch<V> scratch;  // kept: a visit allocates nothing
+    return scratch;
+  }
+
+  AscentScratch<V>& scratch_ = room();
   const ForPieces& for_pieces_;
   const Worth& worth_;
 };
 
-/// Raises the least quality; where an element is inverted the least Jacobian first, by as much as turns it. worth(p): of a sound star.
-template <class Frame, class Star, class Qualities, class Worth>
-OffsetIn<Frame, double> ascend(AscentScratch<Frame>& scratch, const Star& star, const Qualities& qualities, const Worth& worth) {
-  using V = OffsetIn<Frame, double>;
-  const auto jacobians = [&star](auto p, const auto& f) { for_jacobians(star, p, f); };
-  const auto least_jacobian = [&star](V p) {
-    double least = std::numeric_limits<double>::infinity();
-    for_jacobians(star, p, [&least](double j) { least = std::min(least, j); });
-    return least;
-  };
-  V place{};
-  if (!(least_jacobian(place) > 0.0))
-    place = Ascent<Frame, decltype(jacobians), decltype(least_jacobian)>(scratch, jacobians, least_jacobian).from(place);
-  if (!(least_jacobian(place) > 0.0)) return place;
-  return Ascent<Frame, Qualities, Worth>(scratch, qualities, worth).from(place);
-}
-
-template <Metric M, class Frame>
+/// Raises the least of the functions that make up the objective; where an element is inverted the least Jacobian first, by as much as turns
+/// it.
 class ActiveSet {
  public:
-  struct Scratch {
-    StarIn<Frame, double> star;
-    AscentScratch<Frame> ascent;
-  };
-  explicit ActiveSet(const SmoothingTask& task) : mesh_(*task.input) {}
+  static constexpr bool kSearches = true, kPlanar = false, kDependsOnIteration = false;
+  [[nodiscard]] bool must_gain() const noexcept { return true; }
 
-  void begin(const Sweep& sweep) { mesh_.untangling = sweep.untangling; }
-  std::optional<Vec3> target(PositionView positions, Index vertex, Scratch& scratch) const {
-    const auto& star = scratch.star;
-    gather_star(MeshStar(mesh_.view, positions, vertex), scratch.star);
-    using View = StarViewIn<Frame, double>;
-    const auto qualities = [&star](auto p, const auto& f) { for_qualities<M>(star, p, f); };
-    const auto found = ascend<Frame>(scratch.ascent, star, qualities, Objective<M, false, double, Value::Metric, View>{View(star)});
-    if (found == OffsetIn<Frame, double>{}) return std::nullopt;
-    return mesh_.template moved_if_gaining<M>(positions, vertex, found, star.scale);
+  template <class Places, class Frame>
+  [[nodiscard]] typename Places::Coordinates choose(const Places& places, const StarScore<Frame>& score, SearchRoom<Frame>& room) const {
+    using V = typename Places::Coordinates;
+    using Offset = OffsetIn<Frame, double>;
+    const auto coordinates = [&](V p) { return places.shifted(times(p, places.unit())); };
+    const auto offset = [&](V p) { return p == V{} ? std::optional(Offset{}) : places.offset(coordinates(p)); };
+    // f(value, gradient) of what append(offset, out) appends.
+    const auto each = [&](V p, const auto& append, const auto& f) {
+      const auto at = offset(p);
+      room.pieces.clear();
+      if (at) append(*at, room.pieces);
+      for (const StarPiece<Frame>& piece : room.pieces) f(piece.value, times(places.slope(coordinates(p), piece.gradient), places.unit()));
+    };
+    const auto jacobians = [&](V p, const auto& f) {
+      each(
+          p, [&score](Offset at, auto& out) { score.append_jacobians(at, out); }, f);
+    };
+    const auto least_jacobian = [&](V p) {
+      double least = std::numeric_limits<double>::infinity();
+      jacobians(p, [&least](double value, V /*gradient*/) { least = std::min(least, value); });
+      return room.pieces.empty() ? StarScore<Frame>::kAll : least;
+    };
+    V place{};
+    if (!(least_jacobian(place) > 0.0))
+      place = Ascent<V, decltype(jacobians), decltype(least_jacobian)>(jacobians, least_jacobian).from(place);
+    if (!(least_jacobian(place) > 0.0)) return places.way(coordinates(place));
+    const StarScore<Frame> sound = score.of_sound_star();
+    const auto qualities = [&](V p, const auto& f) {
+      each(
+          p, [&sound](Offset at, auto& out) { sound.append_pieces(at, out); }, f);
+    };
+    const auto worth = [&](V p) {
+      const auto at = offset(p);
+      return at ? sound(*at) : StarScore<Frame>::kAll;
+    };
+    return places.way(coordinates(Ascent<V, decltype(qualities), decltype(worth)>(qualities, worth).from(place)));
   }
-
- private:
-  RuleMesh<Frame> mesh_;
-};
-
-/// By a metric that is defined by a formula or a target.
-template <class Frame>
-class DefinedActiveSet {
- public:
-  struct Scratch {
-    DefinedPieces<Frame> pieces;
-    AscentScratch<Frame> ascent;
-  };
-  explicit DefinedActiveSet(const SmoothingTask& task) : mesh_(*task.input, task.metric) {}
-
-  void begin(const Sweep& sweep) { mesh_.begin(sweep); }
-  std::optional<Vec3> target(PositionView positions, Index vertex, Scratch& scratch) const {
-    const DefinedStar<Frame> star(mesh_.star_judge(), positions, vertex);
-    scratch.pieces.gather(mesh_.star_judge(), positions, vertex, star.scale());
-    using V = OffsetIn<Frame, double>;
-    const auto qualities = [&](auto p, const auto& f) { scratch.pieces.for_qualities(p, f); };
-    const auto found = ascend<Frame>(scratch.ascent, star.star(), qualities, [&star](V p) { return star.least(p); });
-    if (found == V{}) return std::nullopt;
-    return mesh_.moved_if_gaining(positions, vertex, times(found, star.scale()));
-  }
-
- private:
-  DefinedRuleMesh<Frame> mesh_;
 };
 
 }  // namespace
 
-std::unique_ptr<Smoother> make_active_set_smoother(const SmoothingTask& task) {
-  if (!is_built_in(task.metric))
-    return with_frame(*task.input, [&]<class Frame>() { return make_rule_smoother(task, DefinedActiveSet<Frame>(task)); });
-  return with_metric_and_frame(*task.input, task.metric,
-                               [&]<Metric M, class Frame>() { return make_rule_smoother(task, ActiveSet<M, Frame>(task)); });
-}
+std::unique_ptr<Smoother> make_active_set_smoother(const SmoothingTask& task) { return make_visits(task, objective_of(task), ActiveSet{}); }
 
 }  // namespace dmoscope

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/smooth/vertex_rule.h"
+#include "core/smooth/visit/visit.h"
 
 namespace dmoscope {
 
@@ -28,13 +28,17 @@ V halfway(V u, V w) {
   return cross(u, w) >= 0.0 ? unit(sum) : unit(V{} - sum);
 }
 
-class AngleBased {
+/// The mean of the places that halve the angles of the ring around a vertex, as they are seen in the plane that touches it.
+class HalvedAngles {
  public:
-  using Scratch = std::vector<RingEdge>;
-  explicit AngleBased(const SmoothingTask& task) : mesh_(*task.input), relaxation_(task.options.relaxation) {}
+  static constexpr bool kSearches = false, kPlanar = true, kDependsOnIteration = false;
+  explicit HalvedAngles(double relaxation) : relaxation_(relaxation) {}
 
-  std::optional<Vec3> target(PositionView positions, Index vertex, Scratch& ring) const {
-    gather(positions, vertex, ring);
+  [[nodiscard]] bool must_gain() const noexcept { return false; }
+  template <class Places>
+  [[nodiscard]] typename Places::Coordinates choose(const Places& places) const {
+    thread_local std::vector<RingEdge> ring;  // kept: a visit allocates nothing
+    gather(places, ring);
     V sum{};
     int count = 0;
     // The ring need not be one loop, nor its edges be in order: an angle is wherever one edge ends and another begins.
@@ -47,28 +51,30 @@ class AngleBased {
         ++count;
         break;
       }
-    if (count == 0) return std::nullopt;
+    if (count == 0) return places.way(places.here());
     const double share = relaxation_ / count;
-    return mesh_.moved(positions[vertex], {share * sum.x, share * sum.y});
+    return places.way_along({share * sum.x, share * sum.y});
   }
 
  private:
-  void gather(PositionView positions, Index vertex, Scratch& ring) const {
+  template <class Places>
+  static void gather(const Places& places, std::vector<RingEdge>& ring) {
     ring.clear();
-    const Vec3 origin = positions[vertex];
-    for (const Incidence& at : mesh_.view.star(vertex)) {
-      const auto corners = mesh_.view.corners_of(at.element);
-      const Index from = corners[(at.corner + 1) % corners.size()], to = corners[(at.corner + corners.size() - 1) % corners.size()];
-      ring.push_back({from, to, mesh_.view.frame.offset(positions[from], origin), mesh_.view.frame.offset(positions[to], origin)});
-    }
+    const Plane& plane = places.plane();
+    places.for_star([&](std::span<const Index> corners, Index corner, PositionView positions) {
+      const Index from = corners[(corner + 1) % corners.size()], to = corners[(corner + corners.size() - 1) % corners.size()];
+      const Vec3 origin = positions[corners[corner]];
+      ring.push_back({from, to, plane.offset(positions[from], origin), plane.offset(positions[to], origin)});
+    });
   }
 
-  RuleMesh<Plane> mesh_;
-  double relaxation_;
+  double relaxation_;  // the share of the way that is gone
 };
 
 }  // namespace
 
-std::unique_ptr<Smoother> make_angle_based_smoother(const SmoothingTask& task) { return make_rule_smoother(task, AngleBased(task)); }
+std::unique_ptr<Smoother> make_angle_based_smoother(const SmoothingTask& task) {
+  return make_visits(task, single_objective(task.metric), HalvedAngles(task.options.relaxation));
+}
 
 }  // namespace dmoscope

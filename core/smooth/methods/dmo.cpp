@@ -1,68 +1,42 @@
 #include "core/smooth/methods/dmo.h"
 
-#include <optional>
-
-#include "core/smooth/methods/defined_dmo.h"
-#include "core/smooth/methods/defined_rule.h"
-#include "core/smooth/methods/fast_volume_search.h"
+#include "core/smooth/methods/grid.h"
 #include "core/smooth/methods/lane_dmo.h"
+#include "core/smooth/methods/star_kernels.h"
 
 namespace dmoscope {
 
 namespace {
 
-/// The plain search in double.
-template <Metric M, class Frame>
-class Reference {
- public:
-  using Scratch = StarIn<Frame, double>;
-  static constexpr std::size_t kGrain = std::is_same_v<Frame, Plane> ? 32 : 1;
-  explicit Reference(const SmoothingTask& task) : mesh_(*task.input), parameters_(task.search) {}
+template <class Frame>
+Visit<Frame, Grid> grid_visit(const SmoothingTask& task, const CompositeObjective& objective) {
+  return {task, objective, Grid(task, objective), star_kernel<Frame>(task, objective)};
+}
 
-  void begin(const Sweep& sweep) { mesh_.untangling = sweep.untangling; }
-  std::optional<Vec3> target(PositionView positions, Index vertex, Scratch& star) const {
-    gather_star(MeshStar(mesh_.view, positions, vertex), star);
-    const OffsetIn<Frame, double> found = search_star<M>(StarViewIn<Frame, double>(star), star.box, parameters_, mesh_.untangling);
-    if (found == OffsetIn<Frame, double>{}) return std::nullopt;
-    return mesh_.template moved_if_gaining<M>(positions, vertex, found, star.scale);
-  }
-
-  bool gains(Index vertex, Vec3 target, PositionView positions) const {
-    return gains_at<M>(mesh_.view, positions, vertex, target, mesh_.untangling);
-  }
-
- private:
-  RuleMesh<Frame> mesh_;
-  SearchParameters parameters_;
-};
+/// Lanes of many vertices of a planar mesh; null where there is no kernel for the objective.
+std::unique_ptr<Smoother> make_lanes(const SmoothingTask& task, const CompositeObjective& objective) {
+  if (!objective.is_single() || task.search.precision != Precision::Float) return nullptr;
+  if (is_built_in(objective.first))
+    return std::make_unique<LaneDmo>(task, grid_visit<Plane>(task, objective), lane_kernel(simd_level(task), objective.first));
+  const InputMesh& input = *task.input;
+  if (!has_target_kernel(input, objective.first, task.search)) return nullptr;
+  const auto judge = input.quality_context().judge(objective.first);
+  const TargetTable& targets = judge->targets();
+  const bool crossed = has_crossed_targets(targets, static_cast<Index>(input.mesh.elements.size()));
+  return std::make_unique<LaneDmo>(
+      task, grid_visit<Plane>(task, objective), target_lane_kernel(simd_level(task), crossed),
+      [&](const StarTable& table) { return build_star_targets(targets, crossed, input.mesh, input.topology, table, task.pool); });
+}
 
 }  // namespace
 
-StarState star_state(const InputMesh& input, PositionView positions, Metric metric, Index vertex) {
-  if (!is_built_in(metric)) {
-    const auto judge = input.quality_context().judge(metric);
-    const auto state = [&]<class Frame>() {
-      return defined_star_state(defined_star_judge<Frame>(input, *judge), positions, vertex, positions[vertex]);
-    };
-    return input.is_surface() ? state.template operator()<Curved>() : with_frame(input, state);
-  }
-  if (input.is_surface()) return metric_functions<Curved>(metric).state(input.view<Curved>(), positions, vertex, positions[vertex]);
-  return with_metric_and_frame(
-      input, metric, [&]<Metric M, class Frame>() { return star_state<M>(input.view<Frame>(), positions, vertex, positions[vertex]); });
+std::unique_ptr<Smoother> make_dmo_smoother(const SmoothingTask& task, const CompositeObjective& objective) {
+  if (task.input->is_surface()) return make_visits(task, objective, Grid(task, objective));
+  if (task.input->is_volume()) return make_rule_smoother(task, grid_visit<Space>(task, objective));
+  if (auto lanes = make_lanes(task, objective)) return lanes;
+  return make_rule_smoother(task, grid_visit<Plane>(task, objective));
 }
 
-std::unique_ptr<Smoother> make_dmo_smoother(const SmoothingTask& task) {
-  if (task.input->is_surface()) return make_surface_smoother(task, single_objective(task.metric));
-  if (!is_built_in(task.metric)) return make_defined_dmo_smoother(task);
-  return with_metric_and_frame(*task.input, task.metric, [&]<Metric M, class Frame>() -> std::unique_ptr<Smoother> {
-    if (task.search.precision == Precision::Float) {
-      if constexpr (std::is_same_v<Frame, Plane>)
-        return std::make_unique<LaneDmo<Reference<M, Frame>>>(task, Reference<M, Frame>(task), lane_kernel(simd_level(task), M));
-      else
-        return make_sliding_smoother<Space>(task, FastVolumeSearch<M>(task), single_objective(M));
-    }
-    return make_sliding_smoother<Frame>(task, Reference<M, Frame>(task), single_objective(M));
-  });
-}
+std::unique_ptr<Smoother> make_dmo_smoother(const SmoothingTask& task) { return make_dmo_smoother(task, objective_of(task)); }
 
 }  // namespace dmoscope

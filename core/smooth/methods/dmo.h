@@ -3,15 +3,13 @@
 
 #include <memory>
 
-#include "core/smooth/reference_visit.h"
-#include "core/smooth/smoother.h"
+#include "core/smooth/visit/star_judge.h"
 
 namespace dmoscope {
 
-/// How good the star of `vertex` is.
-[[nodiscard]] StarState star_state(const InputMesh& input, PositionView positions, Metric metric, Index vertex);
-
 /// See make_smoother, which checks the arguments.
 [[nodiscard]] std::unique_ptr<Smoother> make_dmo_smoother(const SmoothingTask& task);
+/// By another objective than the task's.
+[[nodiscard]] std::unique_ptr<Smoother> make_dmo_smoother(const SmoothingTask& task, const CompositeObjective& objective);
 
 }  // namespace dmoscope

@@ -1,6 +1,6 @@
 #pragma once
-// Directional vertex relaxation (Rangarajan and Lew 2017): every vertex goes to the best place by the mean ratio on a line through it; all
-// lines of an iteration have one direction.
+// Directional vertex relaxation (Rangarajan and Lew 2017): every vertex goes to the best place on a line through it; all lines of an
+// iteration have one direction.
 
 #include <memory>
 
@@ -11,6 +11,9 @@ namespace dmoscope {
 /// The direction of an iteration's lines in the mesh's plane, of length 1 up to rounding: it follows from the options and the iteration
 /// alone.
 [[nodiscard]] Vec2<double> dvr_direction(const MethodOptions& options, std::uint64_t iteration);
+
+/// In space.
+[[nodiscard]] Vec3 volume_dvr_direction(const MethodOptions& options, std::uint64_t iteration);
 
 /// See make_smoother, which checks the arguments.
 [[nodiscard]] std::unique_ptr<Smoother> make_dvr_smoother(const SmoothingTask& task);

@@ -13,25 +13,24 @@
 #include "core/base/memory.h"
 #include "core/smooth/kernels/lane_kernel.h"
 #include "core/smooth/kernels/targets/star_targets.h"
-#include "core/smooth/methods/slide.h"
-#include "core/smooth/vertex_rule.h"
+#include "core/smooth/methods/grid.h"
+#include "core/smooth/visit/visit.h"
 
 namespace dmoscope {
 
 [[nodiscard]] inline SimdLevel simd_level(const SmoothingTask& task) { return task.search.simd.value_or(best_simd_level()); }
 
 /// Works on its own copy of the positions in the order of the visits, and keeps who needs no visit because nothing of its star moved since
-/// it was last found at its best. Reference: the rule for single vertices, with gains(vertex, target, positions).
-template <class Reference>
+/// it was last found at its best.
 class LaneDmo final : public Smoother {
  public:
   /// `targets`: makes those of the stars where the kernel is for them.
   using MakeTargets = std::function<StarTargets(const StarTable& table)>;
-  LaneDmo(const SmoothingTask& task, Reference reference, LaneKernel kernel, const MakeTargets& targets = {})
+  /// `alone`: the rule for single vertices.
+  LaneDmo(const SmoothingTask& task, Visit<Plane, Grid> alone, LaneKernel kernel, const MakeTargets& targets = {})
       : input_(task.input),
         colouring_(task.colouring),
-        reference_(std::move(reference)),
-        slide_(task, single_objective(task.metric)),
+        alone_(std::move(alone)),
         table_(build_star_table(input_->mesh, input_->topology, *colouring_, task.pool)),
         targets_(targets ? targets(table_) : StarTargets{}),
         kernel_(kernel),
@@ -39,12 +38,11 @@ class LaneDmo final : public Smoother {
         awake_(large_vector<std::uint8_t>(table_.vertex_of_rank.size())),
         task_(describe(task.search)) {
     for (std::size_t rank = 0; rank < colouring_->order.size(); ++rank)
-      if (slide_.slides(colouring_->order[rank])) table_.shapes[rank].kind = StarShape::Kind::Alone;
+      if (alone_.slides(colouring_->order[rank])) table_.shapes[rank].kind = StarShape::Kind::Alone;
   }
 
   void begin(const Sweep& sweep) override {
-    reference_.begin(sweep);
-    slide_.begin(sweep);
+    alone_.begin(sweep);
     if (sweep.untangling != untangling_) std::ranges::fill(awake_, std::uint8_t{1});
     untangling_ = sweep.untangling;
   }
@@ -104,15 +102,12 @@ class LaneDmo final : public Smoother {
     task.owner = this;
     task.gains = [](void* owner, Index rank, const double* p) {
       auto& self = *static_cast<LaneDmo*>(owner);
-      return self.reference_.gains(self.table_.vertex_of_rank[rank], {p[0], p[1], p[2]}, self.view());
+      return self.alone_.gains(self.table_.vertex_of_rank[rank], {p[0], p[1], p[2]}, self.view());
     };
     task.visit_alone = [](void* owner, Index rank) {
       auto& self = *static_cast<LaneDmo*>(owner);
-      thread_local Slide<Plane>::Scratch sliding;  // kept: stepping allocates nothing
-      thread_local typename Reference::Scratch room;
-      const Index vertex = self.table_.vertex_of_rank[rank];
-      const auto target =
-          self.slide_.slides(vertex) ? self.slide_.target(self.view(), vertex, sliding) : self.reference_.target(self.view(), vertex, room);
+      thread_local Visit<Plane, Grid>::Scratch room;  // kept: stepping allocates nothing
+      const auto target = self.alone_.target(self.view(), self.table_.vertex_of_rank[rank], room);
       if (target) self.ranked_[rank] = *target;
       return target.has_value();
     };
@@ -140,8 +135,7 @@ class LaneDmo final : public Smoother {
 
   std::shared_ptr<const InputMesh> input_;
   std::shared_ptr<const Colouring> colouring_;
-  Reference reference_;
-  Slide<Plane> slide_;
+  Visit<Plane, Grid> alone_;
   StarTable table_;
   StarTargets targets_;  // empty: ideal ones
   LaneKernel kernel_;

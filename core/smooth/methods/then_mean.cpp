@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "core/smooth/methods/composite_dmo.h"
+#include "core/smooth/methods/dmo.h"
 
 namespace dmoscope {
 
@@ -16,9 +16,9 @@ class ThenMean final : public Smoother {
     if (!sweep.floor) {
       second_.reset();
       first_->begin(sweep);
-    } else if (!second_ || floor_ != *sweep.floor) {
-      second_ = make_composite_smoother(task_, raise_mean_above(task_.metric, *sweep.floor));
-      floor_ = *sweep.floor;
+    } else if (!second_ || floors_ != std::pair(sweep.floor, sweep.second_floor)) {
+      second_ = make_dmo_smoother(task_, raise_mean_in(sweep, task_.metric, task_.combination));
+      floors_ = {sweep.floor, sweep.second_floor};
     }
   }
   std::uint64_t visit(std::uint64_t first, std::uint64_t count, std::span<Vec3> positions, ThreadPool* pool) override {
@@ -61,9 +61,9 @@ class ThenMean final : public Smoother {
 
   std::unique_ptr<Smoother> first_, second_;  // the second where the mean is raised now
   SmoothingTask task_;
-  double floor_ = 0.0;     // of the second
-  bool unstored_ = false;  // `first_` has visits that are not stored
-  bool moved_on_ = false;  // positions are others than `first_` knows
+  std::pair<std::optional<double>, std::optional<double>> floors_{};  // of the second
+  bool unstored_ = false;                                             // `first_` has visits that are not stored
+  bool moved_on_ = false;                                             // positions are others than `first_` knows
   std::optional<std::uint64_t> searched_ = 0;
 };
 

@@ -13,7 +13,7 @@
 
 #include "core/numeric/dual.h"
 #include "core/search/untangling.h"
-#include "core/smooth/star_pieces.h"
+#include "core/smooth/visit/star_pieces.h"
 
 namespace dmoscope {
 

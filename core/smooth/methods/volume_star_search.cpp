@@ -1,4 +1,4 @@
-#include "core/smooth/methods/fast_volume_search.h"
+#include "core/smooth/methods/volume_star_search.h"
 
 namespace dmoscope {
 

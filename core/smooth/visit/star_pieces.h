@@ -1,11 +1,25 @@
 #pragma once
 // The smooth functions of which the quality of a star is the least: one per triangle or tetrahedron, one per corner of any other element.
 
+#include <type_traits>
+#include <vector>
+
+#include "core/numeric/dual.h"
 #include "core/quality/formulas.h"
 #include "core/quality/volumes.h"
 #include "core/search/star.h"
+#include "core/search/surface_star.h"
 
 namespace dmoscope {
+
+/// One of them with the star's vertex at some offset, and how it rises there, per unit of the star's scale. Frame: Plane, Space or Curved.
+template <class Frame>
+using StarGradient = std::conditional_t<std::is_same_v<Frame, Plane>, Vec2<double>, Vec3>;
+template <class Frame>
+struct StarPiece {
+  double value = 0.0;
+  StarGradient<Frame> gradient{};
+};
 
 namespace star_pieces {
 
@@ -93,6 +107,47 @@ constexpr void for_jacobians(const VolumeStar<double>& star, Vec3Of<R> p, const 
   star_pieces::for_solids<true>(
       star, p, [&f](const formulas::Tetrahedron<V>& t, double reference) { f(t.six_volume / R(reference)); },
       [&f]<class Ideal>(V /*u*/, V /*v*/, V /*w*/, R jacobian, double reference) { f(jacobian / R(reference)); });
+}
+
+/// Calls f(star, plane) with each element of a surface's star alone in its own plane as it is with the star's vertex at `p`, which is the
+/// origin there. The metric of such an element does not change to first order as its vertex leaves the plane.
+template <class F>
+void for_flat_elements(const SurfaceStar& star, Vec3 p, const F& f) {
+  thread_local Star<double> flat;  // kept: a visit allocates nothing
+  const SurfaceVector at{p, {}};
+  flat.quadrilaterals.clear();
+  for (const SurfaceTriangle& t : star.triangles) {
+    const Plane plane = tangent_plane(t.with(at).ab.normal);
+    flat.triangles.assign(1, {plane.project(t.b - p), plane.project(t.c - p), t.reference});
+    f(flat, plane);
+  }
+  flat.triangles.clear();
+  for (const SurfaceQuadrilateral& q : star.quadrilaterals) {
+    const Plane plane = tangent_plane(q.with(at).edge[0].normal);
+    flat.quadrilaterals.assign(1, {plane.project(q.b - p), plane.project(q.c - p), plane.project(q.d - p), q.reference});
+    f(flat, plane);
+  }
+}
+
+/// Appends the pieces of a metric, and every corner's Jacobian over its element's reference measure. Star: Star<double>, VolumeStar<double>
+/// or SurfaceStar.
+template <Metric M, class Frame, class StarT>
+void append_pieces(const StarT& star, OffsetIn<Frame, double> p, std::vector<StarPiece<Frame>>& out) {
+  if constexpr (std::is_same_v<Frame, Curved>)
+    for_flat_elements(star, p.v, [&out](const Star<double>& flat, const Plane& plane) {
+      for_qualities<M>(flat, variable(Vec2<double>{}), [&](const Dual& q) { out.push_back({q.value, plane.lift(q.by)}); });
+    });
+  else
+    for_qualities<M>(star, variable(p), [&out](const auto& q) { out.push_back({q.value, q.by}); });
+}
+template <class Frame, class StarT>
+void append_jacobians(const StarT& star, OffsetIn<Frame, double> p, std::vector<StarPiece<Frame>>& out) {
+  if constexpr (std::is_same_v<Frame, Curved>)
+    for_flat_elements(star, p.v, [&out](const Star<double>& flat, const Plane& plane) {
+      for_jacobians(flat, variable(Vec2<double>{}), [&](const Dual& j) { out.push_back({j.value, plane.lift(j.by)}); });
+    });
+  else
+    for_jacobians(star, variable(p), [&out](const auto& j) { out.push_back({j.value, j.by}); });
 }
 
 }  // namespace dmoscope

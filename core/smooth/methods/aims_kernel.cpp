@@ -1,0 +1,85 @@
+#include "core/smooth/methods/aims_kernel.h"
+
+namespace dmoscope {
+
+namespace {
+
+/// Does its sign tell whether a quadrilateral is inverted?
+bool sees_inversion(Metric metric) {
+  return formulas::with_planar_metric(metric, []<Metric M>() { return formulas::Formula<M>::kSeesInversion; });
+}
+
+}  // namespace
+
+template <class Frame>
+AimsKernel<Frame>::AimsKernel(const SmoothingTask& task, const CompositeObjective& objective)
+    : judge_(*task.input, objective),
+      aims_(search_for<Frame>(objective, task.search)),
+      kernel_(composite_kernel<Frame>(task.search.simd.value_or(best_simd_level()), objective.first)),
+      stars_(*task.input, *task.colouring, task.pool) {
+  if constexpr (std::is_same_v<Frame, Space>)
+    comparison_.emplace(task.search.simd.value_or(best_simd_level()), objective.first, *plain_aims(objective));
+}
+
+template <class Frame>
+typename AimsKernel<Frame>::Room& AimsKernel<Frame>::room() {
+  thread_local Room room;  // kept: a visit allocates nothing
+  return room;
+}
+
+template <class Frame>
+CompositeFound<Frame> AimsKernel<Frame>::search(const Star& star, PositionView positions, Index vertex) const {
+  CompositeSearch<Frame> task = aims_;
+  task.box = star.box;
+  take_star(task, judge_.composite(), star, judge_.density_of(star, positions, vertex));
+  return kernel_(task);
+}
+
+template <class Frame>
+typename AimsKernel<Frame>::Found AimsKernel<Frame>::find(PositionView positions, Index vertex, const Untangling& /*untangling*/) const {
+  const IndexedStars::Star star = stars_.of(vertex);
+  if (!star.fits) return {};
+  Room& room = this->room();
+  gather_points(judge_.mesh().frame, star, positions, vertex, room.points);
+  fill_star(star, room.points, room.star);
+  const CompositeFound<Frame> found = search(room.star, positions, vertex);
+  return {found.ready, times(found.offset, room.star.scale), {}};
+}
+
+/// By the star as it was searched.
+template <class Frame>
+std::optional<bool> AimsKernel<Frame>::gains(PositionView positions, Index vertex, Vec3 target) const {
+  const Vec3 from = positions[vertex];
+  if constexpr (std::is_same_v<Frame, Space>) {
+    return comparison_->gains(stars_.of(vertex).elements, room().points, from, target);
+  } else {
+    const CompositeObjective& composite = judge_.composite();
+    const Metric* second = std::get_if<Metric>(&composite.second);
+    const Star& searched = room().star;
+    // That no corner turns over is for the statistics' formulas to say where the metric does not; what densities are, too.
+    if ((!searched.quadrilaterals.empty() && !sees_inversion(composite.first)) || (second == nullptr && !composite.raise_mean()))
+      return std::nullopt;
+    const JudgedStarView<Frame> star(searched);
+    const Offset step = times(judge_.mesh().frame.offset(target, from), 1.0 / searched.scale);
+    const MetricFunctions<Frame>& first = metric_functions<Frame>(composite.first);
+    const BeforeAndAfter least{first.least_at(star, Offset{}, 0.0), first.least_at(star, step, 0.0)};
+    return gains_for_certain(composite.threshold, least, [&]() -> BeforeAndAfter {
+      if (second == nullptr) return {first.mean_at(star, Offset{}, 0.0), first.mean_at(star, step, 0.0)};
+      const auto rank_at = metric_functions<Frame>(*second).least_rank_at;
+      return {rank_at(star, Offset{}), rank_at(star, step)};
+    });
+  }
+}
+
+template <class Frame>
+bool AimsKernel<Frame>::valid_at(Index vertex, Vec3 target) const {
+  if constexpr (std::is_same_v<Frame, Space>)
+    return comparison_->valid_at(stars_.of(vertex).elements, room().points, target);
+  else
+    return false;
+}
+
+template class AimsKernel<Plane>;
+template class AimsKernel<Space>;
+
+}  // namespace dmoscope

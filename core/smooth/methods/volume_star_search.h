@@ -1,0 +1,46 @@
+#pragma once
+// The fast search of a volume's star: in float by the kernel.
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "core/smooth/methods/star_points.h"
+
+namespace dmoscope {
+
+/// The fast search by a metric for a star of a volume.
+class VolumeStarSearch {
+ public:
+  struct Points : StarPoints<Space> {
+    std::vector<Vec3Of<float>> narrow;  // the offsets
+    Vec3Of<float> narrow_box;
+  };
+  VolumeStarSearch(Metric metric, const SearchParameters& parameters)
+      : metric_(metric), kernel_(volume_kernel(parameters.simd.value_or(best_simd_level()), metric)), parameters_(parameters) {}
+  /// By the mean ratio against targets.
+  VolumeStarSearch(const SearchParameters& parameters, bool crossed)
+      : metric_(Metric::MeanRatio),
+        kernel_(target_volume_kernel(parameters.simd.value_or(best_simd_level()), crossed)),
+        parameters_(parameters) {}
+
+  /// What the kernel finds within `levels` levels for the vertex; a search of fewer levels begins like one of more. Not ready where the
+  /// plain search has to do it.
+  [[nodiscard]] VolumeFound find(const IndexedStars::Star& star, PositionView positions, Index vertex, int levels, Points& points,
+                                 const VolumeTargets& targets = {}) const;
+  /// Would the vertex gain by going to `target`, as gains_at() has it where no element is inverted? Nothing where that has to say.
+  /// `points`: as find() left them.
+  [[nodiscard]] std::optional<bool> gains(const IndexedStars::Star& star, const Points& points, Vec3 from, Vec3 target,
+                                          const VolumeTargets& targets = {}) const;
+  /// Are the star's elements certain to be valid inside with the vertex at `target`? `points`: as find() left them.
+  [[nodiscard]] bool valid_at(const IndexedStars::Star& star, const Points& points, Vec3 target) const {
+    return kernel_.valid_after({star.elements, points.at.data(), target, target});
+  }
+
+ private:
+  Metric metric_;
+  VolumeKernel kernel_;
+  SearchParameters parameters_;
+};
+
+}  // namespace dmoscope

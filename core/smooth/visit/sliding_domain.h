@@ -1,0 +1,44 @@
+#pragma once
+// Where vertices slide (core/reference/domain.h), as the visits of single vertices see it.
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/reference/deviation_bound.h"
+#include "core/smooth/task.h"
+
+namespace dmoscope {
+
+class SlidingDomain {
+ public:
+  explicit SlidingDomain(const SmoothingTask& task);
+
+  [[nodiscard]] bool slides(Index vertex) const { return domain_ != nullptr && domain_->slides(vertex); }
+  [[nodiscard]] bool on_curve(Index vertex) const { return domain_->on_curve(vertex); }
+  [[nodiscard]] const Curves& curves() const { return domain_->curves(); }
+  [[nodiscard]] const SlidingFaces& faces() const { return domain_->faces(); }
+  [[nodiscard]] const Facets& facets() const { return domain_->faces().facets(); }
+  [[nodiscard]] const DeviationBound& bound() const { return *bound_; }
+  [[nodiscard]] bool single_precision() const noexcept { return single_precision_; }
+
+  /// Where a vertex on a surface stands; nowhere where the surface is not near it.
+  [[nodiscard]] std::optional<FacetPlace> place(Index vertex, Vec3 position) const;
+  /// It goes to where that facet is beneath it.
+  void expect(Index vertex, Index facet) const;
+
+ private:
+  std::shared_ptr<const Domain> domain_;  // null: nothing slides
+  std::optional<DeviationBound> bound_;   // none: likewise
+  bool single_precision_;
+  /// Where a vertex was last found on the surface. A place follows from the position, so no result depends on it; one visit at a time looks
+  /// at it.
+  struct Found {
+    Vec3 position{};
+    FacetPlace place{};  // facet: from where on to look for another position; kNoIndex: not found yet
+    bool valid = false;  // of the position
+  };
+  mutable std::vector<Found> found_;  // by vertex
+};
+
+}  // namespace dmoscope

@@ -1,0 +1,367 @@
+#include "core/smooth/visit/star_judge.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/smooth/edge_neighbours.h"
+#include "core/smooth/visit/defined_pieces.h"
+
+namespace dmoscope {
+
+namespace {
+
+template <Metric M, class Frame>
+double mean_of_star(const MeshView<Frame>& mesh, PositionView positions, Index vertex, Vec3 place) {
+  return mean_at_place<M>(mesh, positions, vertex, place);
+}
+
+template <Metric M, class Frame>
+double least_at(const JudgedStarView<Frame>& star, OffsetIn<Frame, double> p, double enough) {
+  using At = Worth<M, false, double, Value::Metric, OffsetIn<Frame, double>>;
+  At worth;
+  star.template for_each<At::kOthers>([&](const auto& element) {
+    if (!(worth.value() <= enough)) worth.take(element, p);
+  });
+  return worth.value();
+}
+
+/// The least rank tells as well which of two places is better, and costs less; but where it is as rough as a float (see rank_doubt()).
+template <Metric M, class Frame>
+double least_rank_at(const JudgedStarView<Frame>& star, OffsetIn<Frame, double> p) {
+  using At = Worth<M, false, double, M == Metric::Rectangularity ? Value::Metric : Value::Rank, OffsetIn<Frame, double>>;
+  At worth;
+  star.template for_each<At::kOthers>([&](const auto& element) { worth.take(element, p); });
+  return worth.value();
+}
+
+template <Metric M, class Frame>
+double mean_at(const JudgedStarView<Frame>& star, OffsetIn<Frame, double> p, double /*enough*/) {
+  return mean_of<M>(star, p);
+}
+
+template <Metric M, class Frame>
+using Untangled = UntanglingObjective<M, JudgedStarView<Frame>, OffsetIn<Frame, double>>;
+
+template <Metric M, class Frame>
+bool is_tangled(const JudgedStarView<Frame>& star, const Untangling& rule) {
+  return Untangled<M, Frame>(star, rule).tangled();
+}
+
+template <Metric M, class Frame>
+void least(const JudgedStarView<Frame>& star, const CandidateList& candidates, double enough, double* out) {
+  for (std::size_t i = 0; i < candidates.size(); ++i) out[i] = least_at<M, Frame>(star, candidates.get<OffsetIn<Frame, double>>(i), enough);
+}
+
+template <Metric M, class Frame>
+void untangling(const JudgedStarView<Frame>& star, const Untangling& rule, const CandidateList& candidates, double* out) {
+  const Untangled<M, Frame> objective(star, rule);
+  for (std::size_t i = 0; i < candidates.size(); ++i) out[i] = objective(candidates.get<OffsetIn<Frame, double>>(i));
+}
+
+template <Metric M, class Frame>
+MetricFunctions<Frame> functions_of() {
+  return {star_state<M, Frame>,    mean_of_star<M, Frame>, least_at<M, Frame>,
+          least_rank_at<M, Frame>, mean_at<M, Frame>,      is_tangled<M, Frame>,
+          least<M, Frame>,         untangling<M, Frame>,   append_pieces<M, Frame, JudgedStar<Frame>>};
+}
+
+template <class Frame>
+std::array<MetricFunctions<Frame>, kMetricCount> make_table() {
+  std::array<MetricFunctions<Frame>, kMetricCount> table{};
+  for (const MetricInfo& entry : metric_table()) {
+    auto& functions = table[static_cast<std::size_t>(entry.metric)];
+    if constexpr (std::is_same_v<Frame, Space>)
+      functions = formulas::with_volume_metric(entry.metric, []<Metric M>() { return functions_of<M, Space>(); });
+    else
+      functions = formulas::with_planar_metric(entry.metric, []<Metric M>() { return functions_of<M, Frame>(); });
+  }
+  return table;
+}
+
+/// A rising function that is above 0: formulas may be below.
+double positive(double value) { return value > 0.0 ? 1.0 + value : 1.0 / (1.0 - value); }
+
+}  // namespace
+
+template <class Frame>
+const MetricFunctions<Frame>& metric_functions(Metric metric) {
+  if (!is_built_in(metric)) refuse_defined_metric();
+  static const auto table = make_table<Frame>();
+  return table[static_cast<std::size_t>(metric)];
+}
+template const MetricFunctions<Plane>& metric_functions<Plane>(Metric);
+template const MetricFunctions<Space>& metric_functions<Space>(Metric);
+template const MetricFunctions<Curved>& metric_functions<Curved>(Metric);
+
+CompositeObjective composite_objective(Metric first, const Combination& combination, std::shared_ptr<const SizeField> size) {
+  if (size) return {first, combination.threshold, std::move(size), {}};
+  return {first, combination.threshold, std::get<Metric>(combination.second), {}};
+}
+
+CompositeObjective single_objective(Metric metric) { return {metric, std::numeric_limits<double>::infinity(), metric, {}}; }
+
+CompositeObjective objective_of(const SmoothingTask& task) {
+  return task.combination ? composite_objective(task.metric, *task.combination, task.size) : single_objective(task.metric);
+}
+
+CompositeObjective raise_mean_above(Metric metric, double floor) { return {metric, floor > 0.0 ? floor : 0.0, MeanOfStar{}, {}}; }
+
+CompositeObjective raise_mean_in(const Sweep& sweep, Metric metric, const std::optional<Combination>& combination) {
+  CompositeObjective mean = raise_mean_above(metric, *sweep.floor);
+  if (combination && sweep.second_floor) mean.guard = {std::get<Metric>(combination->second), *sweep.second_floor};
+  return mean;
+}
+
+std::optional<CompositeObjective> composite_objective_of_visit(Metric metric, const std::optional<Combination>& combination,
+                                                               const std::shared_ptr<const SizeField>& size, const Sweep& sweep) {
+  if (sweep.floor) return raise_mean_in(sweep, metric, combination);
+  if (combination) return composite_objective(metric, *combination, size);
+  return std::nullopt;
+}
+
+std::optional<Aims> plain_aims(const CompositeObjective& composite) {
+  Aims aims{.threshold = composite.threshold};
+  if (const auto* metric = std::get_if<Metric>(&composite.second)) {
+    aims.second = Aims::Second::Metric;
+    aims.metric = *metric;
+  } else if (const auto* size = std::get_if<std::shared_ptr<const SizeField>>(&composite.second)) {
+    const auto formula = (*size)->formula();
+    if (!formula) return std::nullopt;
+    aims.second = Aims::Second::Density;
+    aims.size = *formula;
+  }
+  return aims;
+}
+
+DensityTarget<Plane> density_target(const SizeField& size, const PlanarView& mesh, PositionView positions, Index vertex) {
+  return density_target_by(mesh, positions, vertex, [&size](Index other, Vec3 place) { return size.at(other, place); });
+}
+
+bool is_for_kernels(const CompositeObjective& composite) {
+  const auto* second = std::get_if<Metric>(&composite.second);
+  return is_built_in(composite.first) && (second == nullptr || is_built_in(*second)) && !composite.guard;
+}
+
+template <class Frame>
+StarScore<Frame>::StarScore(const CompositeObjective& composite, const std::optional<Untangling>& untangling, const JudgedStar<Frame>& star,
+                            const DensityTarget<Frame>& target, DefinedStars<Frame> defined, CompositeListKernel<Frame> list_kernel)
+    : composite_(composite),
+      star_(&star),
+      target_(target),
+      untangling_(untangling),
+      defined_(std::move(defined)),
+      list_kernel_(list_kernel) {
+  greatest_below_ = composite.raise_mean() ? std::nextafter(composite.threshold, -1.0) : composite.threshold;
+  if (!defined_.first) first_ = &metric_functions<Frame>(composite.first);
+  if (const auto* metric = std::get_if<Metric>(&composite.second); metric != nullptr && is_built_in(*metric))
+    second_ = metric_functions<Frame>(*metric).least_at;
+  else if (composite.raise_mean() && !defined_.first)
+    second_ = first_->mean_at;
+  if (composite.guard) guard_floor_ = std::min(composite.guard->floor, guarded({}));
+}
+
+template <class Frame>
+double StarScore<Frame>::guarded(Offset p) const {
+  return defined_.guard ? defined_.guard->least(p) : metric_functions<Frame>(composite_.guard->metric).least_at(*star_, p, kAll);
+}
+
+template <class Frame>
+double StarScore<Frame>::least(Offset p, double enough) const {
+  if (!untangling_) return defined_.first ? defined_.first->least(p) : first_->least_at(*star_, p, enough);
+  if (defined_.first)
+    return UntanglingObjective<kDefinedMetric, typename DefinedStar<Frame>::View, Offset>(defined_.first->view(), *untangling_)(p);
+  double value = 0.0;
+  thread_local CandidateList one;  // kept: a visit allocates nothing
+  one.clear();
+  one.add(p);
+  first_->untangling(*star_, *untangling_, one, &value);
+  return value;
+}
+
+template <class Frame>
+double StarScore<Frame>::second(Offset p) const {
+  if (second_ != nullptr) return second_(*star_, p, kAll);
+  if (defined_.second) return positive(defined_.second->least(p));
+  return composite_.raise_mean() ? positive(defined_.first->mean(p)) : target_.density(p);
+}
+
+template <class Frame>
+void StarScore<Frame>::least(const CandidateList& candidates, double enough, std::vector<double>& out) const {
+  out.resize(candidates.size());
+  if (!defined_.first) {
+    if (untangling_) return first_->untangling(*star_, *untangling_, candidates, out.data());
+    return first_->least(*star_, candidates, enough, out.data());
+  }
+  thread_local std::vector<Offset> offsets;  // kept: a visit allocates nothing
+  offsets.clear();
+  for (std::size_t i = 0; i < candidates.size(); ++i) offsets.push_back(candidates.get<Offset>(i));
+  if (!untangling_) return defined_.first->least(offsets, enough, out.data());
+  const UntanglingObjective<kDefinedMetric, typename DefinedStar<Frame>::View, Offset> objective(defined_.first->view(), *untangling_);
+  typename DefinedStar<Frame>::Listed listed(*defined_.first, offsets);
+  for (std::size_t i = 0; i < offsets.size(); ++i) {
+    listed.take(i);
+    out[i] = objective(offsets[i]);
+  }
+}
+
+template <class Frame>
+std::size_t StarScore<Frame>::first_best(CandidateList& candidates, double& best) const {
+  if (list_kernel_ != nullptr && !untangling_) {
+    CompositeSearch<Frame> task = search_for<Frame>(composite_, {});
+    take_star(task, composite_, *star_, target_);
+    const CompositeBest found = list_kernel_(task, candidates.view(), best);
+    if (found.ready) {
+      best = found.worth;
+      return found.index;
+    }
+  }
+  thread_local std::vector<double> worth;  // kept: a visit allocates nothing
+  least(candidates, std::min(best, greatest_below_), worth);
+  std::size_t first = candidates.size();
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    worth[i] = with_second(candidates.get<Offset>(i), worth[i]);
+    if (worth[i] > best) best = worth[i], first = i;
+  }
+  return first;
+}
+
+template <class Frame>
+void StarScore<Frame>::append_pieces(Offset p, std::vector<StarPiece<Frame>>& out) const {
+  append(composite_.first, defined_.first.get(), p, out);
+  double least = std::numeric_limits<double>::infinity();
+  for (const StarPiece<Frame>& piece : out) least = std::min(least, piece.value);
+  if (!composite_.beyond(least)) return;
+  const std::size_t of_first = out.size();
+  append_second(p, out);
+  double second = std::numeric_limits<double>::infinity();
+  for (std::size_t i = of_first; i < out.size(); ++i) second = std::min(second, out[i].value);
+  for (std::size_t i = 0; i < of_first; ++i) out[i].value += second - composite_.threshold;
+}
+
+/// The pieces of a metric; `defined`: its star where it is not built in.
+template <class Frame>
+void StarScore<Frame>::append(Metric metric, const DefinedStar<Frame>* defined, Offset p, std::vector<StarPiece<Frame>>& out) const {
+  if (defined != nullptr) return append_defined_pieces(defined->judge(), defined->positions(), defined->vertex(), star_->scale, p, out);
+  metric_functions<Frame>(metric).pieces(*star_, p, out);
+}
+
+template <class Frame>
+void StarScore<Frame>::append_second(Offset p, std::vector<StarPiece<Frame>>& out) const {
+  if (const auto* metric = std::get_if<Metric>(&composite_.second)) return append(*metric, defined_.second.get(), p, out);
+  if constexpr (std::is_same_v<Frame, Plane>) {  // sizes are of planar meshes: see require_possible()
+    const Vec2<double> away = p - target_.offset;
+    const double density = target_.density(p), square = target_.edge * target_.edge;
+    out.push_back({density, square > 0.0 ? times(away, -2.0 * density * density / square) : Vec2<double>{}});
+  }
+}
+
+template class StarScore<Plane>;
+template class StarScore<Space>;
+template class StarScore<Curved>;
+
+template <class Frame>
+DensityTarget<Frame> StarJudge<Frame>::density_of(const Star& star, PositionView positions, Index vertex) const {
+  const auto* size = std::get_if<std::shared_ptr<const SizeField>>(&composite_.second);
+  if (size == nullptr) return {};
+  if constexpr (std::is_same_v<Frame, Plane>) {
+    return density_target(**size, view_, positions, vertex).in_units(star.scale);
+  }
+  return {};  // sizes are of planar meshes: see require_possible()
+}
+
+/// The second aim with the vertex at `place`.
+template <class Frame>
+double StarJudge<Frame>::second(PositionView positions, Index vertex, Vec3 place) const {
+  if constexpr (std::is_same_v<Frame, Plane>) {
+    if (const auto* size = std::get_if<std::shared_ptr<const SizeField>>(&composite_.second))
+      return density_target(**size, view_, positions, vertex).density(view_.frame.offset(place, positions[vertex]));
+  }
+  if (const auto* metric = std::get_if<Metric>(&composite_.second)) return state(*metric, positions, vertex, place).quality;
+  return mean(positions, vertex, place);
+}
+
+template <class Frame>
+StarJudge<Frame>::StarJudge(const InputMesh& input, CompositeObjective composite, std::optional<SimdLevel> packs)
+    : input_(&input), view_(input.view<Frame>()), composite_(std::move(composite)) {
+  if (packs && is_for_kernels(composite_)) list_kernel_ = composite_list_kernel<Frame>(*packs, composite_.first);
+  if (!is_built_in(composite_.first)) first_ = input.quality_context().judge(composite_.first);
+  if (const auto* second = std::get_if<Metric>(&composite_.second); second != nullptr && !is_built_in(*second))
+    second_ = input.quality_context().judge(*second);
+  if (composite_.guard && !is_built_in(composite_.guard->metric)) guard_ = input.quality_context().judge(composite_.guard->metric);
+}
+
+template <class Frame>
+DefinedStarJudge<Frame> StarJudge<Frame>::star_judge(const DefinedJudge& judge) const {
+  return defined_star_judge<Frame>(*input_, judge);
+}
+
+template <class Frame>
+StarState StarJudge<Frame>::state(Metric metric, PositionView positions, Index vertex, Vec3 place) const {
+  if (is_built_in(metric)) return metric_functions<Frame>(metric).state(view_, positions, vertex, place);
+  const auto& judge = metric == composite_.first ? first_ : composite_.guard && metric == composite_.guard->metric ? guard_ : second_;
+  return defined_star_state(star_judge(*judge), positions, vertex, place);
+}
+
+template <class Frame>
+double StarJudge<Frame>::mean(PositionView positions, Index vertex, Vec3 place) const {
+  if (!first_) return metric_functions<Frame>(composite_.first).mean(view_, positions, vertex, place);
+  return defined_mean(star_judge(*first_), positions, vertex, place);
+}
+
+template <class Frame>
+bool StarJudge<Frame>::is_tangled(const Star& star) const {
+  const Metric metric = is_built_in(composite_.first) ? composite_.first : Metric::MeanRatio;  // which sees it
+  return metric_functions<Frame>(metric).is_tangled(star, composite_.is_single() ? untangling_ : Untangling{});
+}
+
+template <class Frame>
+StarScore<Frame> StarJudge<Frame>::score_of(const Star& star, PositionView positions, Index vertex, bool tangled) const {
+  DefinedStars<Frame> defined;
+  if (first_) defined.first = std::make_shared<const DefinedStar<Frame>>(star_judge(*first_), positions, vertex);
+  if (second_) defined.second = std::make_shared<const DefinedStar<Frame>>(star_judge(*second_), positions, vertex);
+  if (guard_) defined.guard = std::make_shared<const DefinedStar<Frame>>(star_judge(*guard_), positions, vertex);
+  return {composite_,  tangled ? std::optional(untangling_) : std::nullopt, star, density_of(star, positions, vertex), std::move(defined),
+          list_kernel_};
+}
+
+template <class Frame>
+bool StarJudge<Frame>::keeps_guard(PositionView positions, Index vertex, Vec3 target) const {
+  if (!composite_.guard) return true;
+  const auto least = [&](Vec3 place) { return state(composite_.guard->metric, positions, vertex, place).quality; };
+  return least(target) >= std::min(composite_.guard->floor, least(positions[vertex]));
+}
+
+template <class Frame>
+Confirmation StarJudge<Frame>::confirm(PositionView positions, Index vertex, Vec3 target, const StarState* known) const {
+  const Vec3 here = positions[vertex];
+  const StarState before = known != nullptr ? *known : state(composite_.first, positions, vertex, here);
+  const auto after = [&] { return state(composite_.first, positions, vertex, target); };
+  if (composite_.is_single()) return confirm_from(view_, positions, vertex, target, untangling_, before, after);
+  const auto second_rises = [&] {
+    return second(positions, vertex, target) > second(positions, vertex, here) && keeps_guard(positions, vertex, target);
+  };
+  const auto soundness = [&](bool tangled) { return confirm_soundness(view_, positions, vertex, target, tangled, untangling_); };
+  return confirm_by_two(composite_, before, after(), untangling_, soundness, second_rises);
+}
+
+template <class Frame>
+void StarJudge<Frame>::gather(PositionView positions, Index vertex, Star& star) const {
+  if constexpr (std::is_same_v<Frame, Curved>)
+    gather_star(view_, positions, vertex, star);
+  else
+    gather_star(MeshStar(view_, positions, vertex), star);
+}
+
+template class StarJudge<Plane>;
+template class StarJudge<Space>;
+template class StarJudge<Curved>;
+
+StarState star_state(const InputMesh& input, PositionView positions, Metric metric, Index vertex) {
+  const auto state = [&]<class Frame>() {
+    return StarJudge<Frame>(input, single_objective(metric)).state(metric, positions, vertex, positions[vertex]);
+  };
+  if (input.is_surface()) return state.template operator()<Curved>();
+  return input.is_volume() ? state.template operator()<Space>() : state.template operator()<Plane>();
+}
+
+}  // namespace dmoscope

@@ -1,0 +1,234 @@
+#pragma once
+// An objective on the star of one vertex: all that the methods see of metrics, formulas, targets and two aims (composite_objective.h).
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "core/search/surface_star.h"
+#include "core/smooth/defined_state.h"
+#include "core/smooth/kernels/composite_kernel.h"
+#include "core/smooth/size_field.h"
+#include "core/smooth/smoother.h"
+#include "core/smooth/two_aims.h"
+#include "core/smooth/visit/star_pieces.h"
+
+namespace dmoscope {
+
+/// The second aim of the phase that raises the mean: the mean quality of the star, by the first metric.
+struct MeanOfStar {};
+
+/// What a visit maximises. Which of two places is better for a vertex is decided in this order. While an element of the star is inverted:
+/// where it is less so (see UntanglingObjective). While the star's least first metric is not beyond the threshold: where that is greater.
+/// Then: where the second aim is greater. Beyond means above the threshold; for the mean, not below it, so that a star whose least is the
+/// floor stays unless its mean rises. Nothing is beyond an infinite threshold: the first metric is the only aim.
+struct CompositeObjective {
+  Metric first = Metric::MeanRatio;
+  double threshold = 0.7;  // at least 0
+  std::variant<Metric, std::shared_ptr<const SizeField>, MeanOfStar> second = MeanOfStar{};
+  /// Of the mean: a metric whose least in the star falls neither below the floor nor, where it is below that, any further.
+  struct Guard {
+    Metric metric;
+    double floor;
+  };
+  std::optional<Guard> guard{};
+
+  [[nodiscard]] bool raise_mean() const noexcept { return std::holds_alternative<MeanOfStar>(second); }
+  [[nodiscard]] bool beyond(double least) const noexcept { return is_beyond(least, threshold, raise_mean()); }
+  [[nodiscard]] bool is_single() const noexcept { return threshold == std::numeric_limits<double>::infinity(); }
+};
+
+/// A metric as the only aim.
+[[nodiscard]] CompositeObjective single_objective(Metric metric);
+/// What a combination aims at; `size`: its size function, null where the second aim is a metric.
+[[nodiscard]] CompositeObjective composite_objective(Metric first, const Combination& combination, std::shared_ptr<const SizeField> size);
+/// What a phase that raises the mean aims at.
+[[nodiscard]] CompositeObjective raise_mean_above(Metric metric, double floor);
+/// The same of a sweep of one, after visits by a combination or by one metric alone.
+[[nodiscard]] CompositeObjective raise_mean_in(const Sweep& sweep, Metric metric, const std::optional<Combination>& combination);
+/// What the task's visits aim at before such a phase.
+[[nodiscard]] CompositeObjective objective_of(const SmoothingTask& task);
+/// The same as plain data; none where its sizes are those of a nodal field.
+[[nodiscard]] std::optional<Aims> plain_aims(const CompositeObjective& composite);
+
+/// The two aims that a visit has; none: one metric alone.
+[[nodiscard]] std::optional<CompositeObjective> composite_objective_of_visit(Metric metric, const std::optional<Combination>& combination,
+                                                                             const std::shared_ptr<const SizeField>& size,
+                                                                             const Sweep& sweep);
+
+/// The star of a vertex in double: Frame is Plane, Space or Curved.
+template <class Frame>
+using JudgedStar = std::conditional_t<std::is_same_v<Frame, Curved>, SurfaceStar,
+                                      std::conditional_t<std::is_same_v<Frame, Plane>, Star<double>, VolumeStar<double>>>;
+template <class Frame>
+using JudgedStarView = std::conditional_t<std::is_same_v<Frame, Curved>, SurfaceStarView,
+                                          std::conditional_t<std::is_same_v<Frame, Plane>, StarView<double>, VolumeStarView<double>>>;
+
+/// What is needed of a metric, so that any two can be combined without a template for each pair.
+template <class Frame>
+struct MetricFunctions {
+  using View = JudgedStarView<Frame>;
+  using Offset = OffsetIn<Frame, double>;
+  // By the statistics' formulas, with the vertex at a place.
+  StarState (*state)(const MeshView<Frame>&, PositionView, Index vertex, Vec3 place);
+  double (*mean)(const MeshView<Frame>&, PositionView, Index vertex, Vec3 place);
+  // By the search's, with the vertex at an offset.
+  double (*least_at)(const View&, Offset, double enough);  // what is no more than `enough` may be greater than it is
+  double (*least_rank_at)(const View&, Offset);            // a rising function of the least
+  double (*mean_at)(const View&, Offset, double enough);
+  bool (*is_tangled)(const View&, const Untangling&);
+  // At each of a list of offsets: least_at(), and what is raised while an element is inverted.
+  void (*least)(const View&, const CandidateList&, double enough, double* out);
+  void (*untangling)(const View&, const Untangling&, const CandidateList&, double* out);
+  void (*pieces)(const JudgedStar<Frame>&, Offset, std::vector<StarPiece<Frame>>& out);  // appends the metric's: see StarPiece
+};
+/// Of a built-in metric.
+template <class Frame>
+[[nodiscard]] const MetricFunctions<Frame>& metric_functions(Metric metric);
+
+/// Are all of its metrics built in, so that kernels know them?
+[[nodiscard]] bool is_for_kernels(const CompositeObjective& composite);
+
+/// The mean of the edge neighbours, weighted by the inverse of the size where each stands now.
+[[nodiscard]] DensityTarget<Plane> density_target(const SizeField& size, const PlanarView& mesh, PositionView positions, Index vertex);
+
+/// A star by metrics that are defined by formulas or targets; none where the metric is built in.
+template <class Frame>
+struct DefinedStars {
+  std::shared_ptr<const DefinedStar<Frame>> first, second, guard;
+};
+
+/// What a kernel needs to know of the aims, but for densities.
+template <class Frame>
+[[nodiscard]] CompositeSearch<Frame> search_for(const CompositeObjective& composite, const SearchParameters& parameters) {
+  CompositeSearch<Frame> task;
+  task.points = parameters.grid_points;
+  task.levels = parameters.levels;
+  task.omega = parameters.omega;
+  task.threshold = composite.threshold;
+  task.inclusive = composite.raise_mean();
+  if (const auto* metric = std::get_if<Metric>(&composite.second)) {
+    task.second = CompositeSearch<Frame>::Second::Metric;
+    task.metric = *metric;
+  }
+  return task;
+}
+/// With a star and what its density is measured from.
+template <class Frame>
+void take_star(CompositeSearch<Frame>& task, const CompositeObjective& composite, const JudgedStar<Frame>& star,
+               const DensityTarget<Frame>& target) {
+  task.star = lists_of(star);
+  if (!std::holds_alternative<std::shared_ptr<const SizeField>>(composite.second)) return;
+  task.second = CompositeSearch<Frame>::Second::Density;
+  task.wanted = target.offset;
+  task.edge = target.edge;
+}
+
+/// What a search maximises, as the paper's eq. (8) has it: the least first metric (or, untangling, what is raised while an element is
+/// inverted, which is <= 0); beyond the threshold that plus the second aim, which is positive. The star must outlive it.
+template <class Frame>
+class StarScore {
+ public:
+  using View = JudgedStarView<Frame>;
+  using Offset = OffsetIn<Frame, double>;
+  /// `untangling`: of a star with inverted elements; else none. `list_kernel`: null: the plain search alone.
+  StarScore(const CompositeObjective& composite, const std::optional<Untangling>& untangling, const JudgedStar<Frame>& star,
+            const DensityTarget<Frame>& target, DefinedStars<Frame> defined = {}, CompositeListKernel<Frame> list_kernel = nullptr);
+
+  [[nodiscard]] bool tangled() const noexcept { return untangling_.has_value(); }
+  /// Whether it is above 0 wherever nothing is inverted: formulas may say what they want.
+  [[nodiscard]] bool positive_where_sound() const noexcept { return !defined_.first; }
+  /// The same as if no element were inverted where the vertex stands.
+  [[nodiscard]] StarScore of_sound_star() const {
+    StarScore other(*this);
+    other.untangling_.reset();
+    return other;
+  }
+
+  /// `best`: what is worth no more may come out greater than it is, but never above this: nobody goes there.
+  [[nodiscard]] double operator()(Offset p, double best = kAll) const {
+    return with_second(p, this->least(p, std::min(best, greatest_below_)));
+  }
+  /// The first of the candidates that are worth most, if that is more than `best`, which it becomes; else their number.
+  [[nodiscard]] std::size_t first_best(CandidateList& candidates, double& best) const;
+  /// Appends the smooth functions of which the score is the least with the vertex at `p`, no element being inverted there: beyond the
+  /// threshold those of the second aim, and those of the first less what it takes for the star to be beyond. Not for the mean.
+  void append_pieces(Offset p, std::vector<StarPiece<Frame>>& out) const;
+  /// Appends the Jacobian of every corner that changes with the vertex, over its element's reference measure.
+  void append_jacobians(Offset p, std::vector<StarPiece<Frame>>& out) const { dmoscope::append_jacobians<Frame>(*star_, p, out); }
+
+  static constexpr double kAll = -std::numeric_limits<double>::infinity();
+
+ private:
+  [[nodiscard]] double least(Offset p, double enough) const;
+  /// Where the star's least first metric is `least`.
+  [[nodiscard]] double with_second(Offset p, double least) const {
+    if (!composite_.beyond(least)) return least;
+    return composite_.guard && guarded(p) < guard_floor_ ? greatest_below_ : composite_.threshold + second(p);
+  }
+  [[nodiscard]] double second(Offset p) const;
+  [[nodiscard]] double guarded(Offset p) const;  // the guard's least metric
+  void least(const CandidateList& candidates, double enough, std::vector<double>& out) const;
+  void append(Metric metric, const DefinedStar<Frame>* defined, Offset p, std::vector<StarPiece<Frame>>& out) const;
+  void append_second(Offset p, std::vector<StarPiece<Frame>>& out) const;
+
+  const CompositeObjective& composite_;
+  const JudgedStar<Frame>* star_;
+  DensityTarget<Frame> target_;  // in units of the star's scale
+  std::optional<Untangling> untangling_;
+  DefinedStars<Frame> defined_;
+  CompositeListKernel<Frame> list_kernel_;
+  const MetricFunctions<Frame>* first_ = nullptr;  // of a built-in metric
+  double greatest_below_;                          // the greatest number not beyond the threshold
+  double guard_floor_ = kAll;
+  double (*second_)(const View&, Offset, double enough) = nullptr;  // of one, or the mean by one; null: the density, or a defined metric
+};
+
+/// Judges stars by an objective. The mesh must outlive it.
+template <class Frame>
+class StarJudge {
+ public:
+  using Star = JudgedStar<Frame>;
+  /// `packs`: by which instructions many candidates are judged at once, which finds the same; none: one by one.
+  StarJudge(const InputMesh& input, CompositeObjective composite, std::optional<SimdLevel> packs = {});
+  void begin(const Sweep& sweep) { untangling_ = sweep.untangling; }
+  [[nodiscard]] const Untangling& untangling() const noexcept { return untangling_; }
+
+  /// The star of a vertex, whether an element of it is inverted, and what a search maximises in it.
+  void gather(PositionView positions, Index vertex, Star& star) const;
+  [[nodiscard]] bool is_tangled(const Star& star) const;
+  [[nodiscard]] StarScore<Frame> score_of(const Star& star, PositionView positions, Index vertex, bool tangled) const;
+  /// How good its star is by a metric, the first or second one, with a vertex at a place; by the statistics' formulas.
+  [[nodiscard]] StarState state(Metric metric, PositionView positions, Index vertex, Vec3 place) const;
+  /// By the statistics' own formulas: does the vertex gain by standing at `target`? `before`: its star by the first metric where it
+  /// stands, where that is known.
+  [[nodiscard]] Confirmation confirm(PositionView positions, Index vertex, Vec3 target, const StarState* before = nullptr) const;
+
+  [[nodiscard]] const CompositeObjective& composite() const noexcept { return composite_; }
+  [[nodiscard]] const MeshView<Frame>& mesh() const noexcept { return view_; }
+  /// In units of the star's scale; all 0 where the second aim is none.
+  [[nodiscard]] DensityTarget<Frame> density_of(const Star& star, PositionView positions, Index vertex) const;
+
+ private:
+  [[nodiscard]] double second(PositionView positions, Index vertex, Vec3 place) const;
+  [[nodiscard]] double mean(PositionView positions, Index vertex, Vec3 place) const;
+  [[nodiscard]] DefinedStarJudge<Frame> star_judge(const DefinedJudge& judge) const;
+
+  const InputMesh* input_;
+  MeshView<Frame> view_;
+  CompositeObjective composite_;
+  Untangling untangling_{};
+  CompositeListKernel<Frame> list_kernel_ = nullptr;
+  [[nodiscard]] bool keeps_guard(PositionView positions, Index vertex, Vec3 target) const;
+
+  std::shared_ptr<const DefinedJudge> first_, second_, guard_;  // of metrics that are not built in
+};
+
+/// How good the star of a vertex is by a metric, as the statistics judge it.
+[[nodiscard]] StarState star_state(const InputMesh& input, PositionView positions, Metric metric, Index vertex);
+
+}  // namespace dmoscope

@@ -1,0 +1,151 @@
+#pragma once
+// The visit of one vertex: where it may go, by what an objective chooses a place there for it, and whether it gains by that. Every method
+// is a way of choosing; every objective, every frame and every kind of place works with it.
+
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "core/smooth/visit/curve_places.h"
+#include "core/smooth/visit/free_places.h"
+#include "core/smooth/visit/star_kernel.h"
+#include "core/smooth/visit/surface_places.h"
+
+namespace dmoscope {
+
+/// A rule for RuleSmoother. The mesh must outlive it. Method has
+/// - choose(places, score, room): the way to the place that it chooses, in the units of the places' ways, where kSearches; else
+/// choose(places);
+/// - kSearches: whether it asks the objective where to go; kPlanar: whether it is none for volumes; kDependsOnIteration: see VertexRule;
+/// - must_gain(): else a vertex goes wherever it may, whatever becomes of the elements;
+/// - begin(sweep); from_above(places, star), a search that goes before choose() where no element is inverted: only where it needs them.
+template <class Frame, class Method>
+class Visit {
+ public:
+  struct Scratch {
+    JudgedStar<Frame> star;
+    SearchRoom<Frame> room;
+  };
+  static constexpr bool kDependsOnIteration = Method::kDependsOnIteration;
+  static constexpr std::size_t kGrain = !Method::kSearches ? 128 : std::is_same_v<Frame, Space> ? 8 : 32;  // in space a visit may be long
+
+  /// `kernel`: of free vertices; null: the plain search alone.
+  Visit(const SmoothingTask& task, CompositeObjective objective, Method method, std::shared_ptr<const StarKernel<Frame>> kernel = {})
+      : judge_(*task.input, std::move(objective), task.search.simd.value_or(best_simd_level())),
+        mesh_(*task.input),
+        domain_(task),
+        method_(std::move(method)),
+        kernel_(std::move(kernel)),
+        has_inside_(task.input->is_volume() && std::ranges::any_of(task.input->mesh.elements.kinds(), &has_inside)) {}
+
+  void begin(const Sweep& sweep) {
+    judge_.begin(sweep);
+    if constexpr (requires { method_.begin(sweep); }) method_.begin(sweep);
+  }
+  [[nodiscard]] std::span<const Index> others(Index vertex) const { return kernel_ ? kernel_->others(vertex) : std::span<const Index>(); }
+  [[nodiscard]] bool slides(Index vertex) const { return domain_.slides(vertex); }
+  [[nodiscard]] bool gains(Index vertex, Vec3 target, PositionView positions) const {
+    return judge_.confirm(positions, vertex, target) == Confirmation::Gains;
+  }
+
+  [[nodiscard]] std::optional<Vec3> target(PositionView positions, Index vertex, Scratch& scratch) const {
+    if (domain_.slides(vertex)) return slide(positions, vertex, scratch);
+    if constexpr (std::is_same_v<Frame, Curved>)
+      return std::nullopt;
+    else
+      return move(positions, vertex, scratch);
+  }
+
+ private:
+  [[nodiscard]] bool waits(bool tangled) const { return judge_.untangling().repair && method_.must_gain() && !tangled; }
+
+  template <class Places>
+  [[nodiscard]] auto choose(const Places& places, PositionView positions, Index vertex, bool tangled, Scratch& scratch) const {
+    if constexpr (Method::kSearches)
+      return method_.choose(places, judge_.score_of(scratch.star, positions, vertex, tangled), scratch.room);
+    else
+      return method_.choose(places);
+  }
+  [[nodiscard]] auto confirmation(PositionView positions, Index vertex, const StarState* before = nullptr) const {
+    return [this, positions, vertex, before](Vec3 target) {
+      return method_.must_gain() ? judge_.confirm(positions, vertex, target, before) : Confirmation::Gains;
+    };
+  }
+
+  [[nodiscard]] std::optional<Vec3> slide(PositionView positions, Index vertex, Scratch& scratch) const {
+    judge_.gather(positions, vertex, scratch.star);
+    const bool tangled = judge_.is_tangled(scratch.star);
+    if (waits(tangled)) return std::nullopt;
+    const auto go = [&](const auto& places) -> std::optional<Vec3> {
+      if (!places) return std::nullopt;
+      const auto confirm = confirmation(positions, vertex);
+      if constexpr (requires { method_.from_above(*places, scratch.star); }) {
+        if (!tangled) {
+          if (const auto way = method_.from_above(*places, scratch.star)) {
+            if (*way == Vec2<double>{}) return std::nullopt;
+            if (const auto target = places->go(*way, confirm)) return target;
+          }
+        }
+      }
+      return places->go(choose(*places, positions, vertex, tangled, scratch), confirm);
+    };
+    if (domain_.on_curve(vertex))
+      return go(CurvePlaces<Frame>::of(domain_, judge_.mesh(), positions, vertex, scratch.star.scale, scratch.room));
+    if constexpr (std::is_same_v<Frame, Plane>)
+      return std::nullopt;
+    else
+      return go(SurfacePlaces<Frame>::of(domain_, judge_.mesh(), positions, vertex, scratch.star.scale, scratch.room));
+  }
+
+  /// A free vertex.
+  [[nodiscard]] std::optional<Vec3> move(PositionView positions, Index vertex, Scratch& scratch) const {
+    const FreePlaces<Frame> places(mesh_, positions, vertex, scratch.star);
+    if (kernel_ && !judge_.untangling().repair) {
+      const auto found = kernel_->find(positions, vertex, judge_.untangling());
+      if (found.ready) return move_to(places, found, positions, vertex);
+    }
+    bool tangled = false;
+    if constexpr (Method::kSearches) {
+      judge_.gather(positions, vertex, scratch.star);
+      tangled = judge_.is_tangled(scratch.star);
+      if (waits(tangled)) return std::nullopt;
+    }
+    return places.go(choose(places, positions, vertex, tangled, scratch), confirmation(positions, vertex));
+  }
+  [[nodiscard]] std::optional<Vec3> move_to(const FreePlaces<Frame>& places, const typename StarKernel<Frame>::Found& found,
+                                            PositionView positions, Index vertex) const {
+    if (found.way == OffsetIn<Frame, double>{}) return std::nullopt;
+    const auto target = mesh_.moved(positions[vertex], found.way);
+    if (!target) return std::nullopt;
+    const std::optional<bool> known = kernel_->gains(positions, vertex, *target);
+    if (known && !*known) return std::nullopt;
+    if (known && (!has_inside_ || kernel_->valid_at(vertex, *target) || keeps_sound(mesh_.view, positions, vertex, *target))) return target;
+    return places.go(found.way, confirmation(positions, vertex, found.before ? &*found.before : nullptr));
+  }
+
+  /// Of a curved surface: nothing is free there.
+  struct NoMesh {
+    explicit NoMesh(const InputMesh& /*input*/) {}
+  };
+
+  StarJudge<Frame> judge_;
+  std::conditional_t<std::is_same_v<Frame, Curved>, NoMesh, RuleMesh<Frame>> mesh_;
+  SlidingDomain domain_;
+  Method method_;
+  std::shared_ptr<const StarKernel<Frame>> kernel_;
+  bool has_inside_;
+};
+
+/// Smooths by a method, with whatever objective, in the frame of the task's mesh.
+template <class Method>
+[[nodiscard]] std::unique_ptr<Smoother> make_visits(const SmoothingTask& task, const CompositeObjective& objective, const Method& method) {
+  const auto visits = [&]<class Frame>() -> std::unique_ptr<Smoother> {
+    return make_rule_smoother(task, Visit<Frame, Method>(task, objective, method));
+  };
+  if (task.input->is_surface()) return visits.template operator()<Curved>();
+  if constexpr (!Method::kPlanar)
+    if (task.input->is_volume()) return visits.template operator()<Space>();
+  return visits.template operator()<Plane>();
+}
+
+}  // namespace dmoscope

@@ -2,12 +2,23 @@
 // The metrics of atoms, for any scalar: where a metric is smooth on a whole element or corner its own formula, else what it is the least
 // of.
 
+#include "core/mesh/plane.h"
 #include "core/quality/formulas.h"
 #include "core/quality/volumes.h"
 
 namespace dmoscope::pieces {
 
 using formulas::RealOf;
+
+/// Where the edges of a piece begin.
+template <class V>
+[[nodiscard]] V origin(V /*edge*/) {
+  return V{};
+}
+template <class R>
+[[nodiscard]] SurfaceVectorOf<R> origin(SurfaceVectorOf<R> edge) {
+  return {{}, edge.normal};
+}
 
 /// What of a simplex counts where a metric has a kink: one of its corners, or one of its edges.
 enum class Of { Whole, Corner, Edge };
@@ -19,7 +30,7 @@ struct Piece {
   static constexpr Of kTriangle = Of::Whole, kTetrahedron = Of::Whole;
   template <class V>
   static RealOf<V> triangle(V u, V v) {
-    return formulas::metric<M>(formulas::Triangle<V>(V{}, u, v));
+    return formulas::metric<M>(formulas::Triangle<V>(origin(u), u, v));
   }
   template <class V>
   static RealOf<V> tetrahedron(V u, V v, V w) {
@@ -95,8 +106,10 @@ template <Metric M, class V>
   using scalar::sqrt;
   if constexpr (M == Metric::ScaledJacobian)
     return cross(u, v) / sqrt(dot(u, u) * dot(v, v));
-  else
+  else if constexpr (M == Metric::MeanRatio)
     return R(2) * cross(u, v) / (dot(u, u) + dot(v, v));
+  else
+    return R(0);
 }
 template <Metric M, class Ideal, class V>
 [[nodiscard]] RealOf<V> solid_corner(V u, V v, V w) {

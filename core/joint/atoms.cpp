@@ -6,6 +6,7 @@
 #include "core/joint/defined_atoms.h"
 #include "core/joint/dual_atom.h"
 #include "core/joint/mean_ratio_atom.h"
+#include "core/joint/surface_atom.h"
 
 namespace dmoscope {
 
@@ -51,11 +52,7 @@ std::span<const CornerTable> volume_atoms(ElementKind kind, Of of) {
 /// The metric of an atom with these edges, in any scalar.
 template <Metric M, class R>
 R quality_of(AtomShape shape, const std::array<Vec2<R>, 2>& e) {
-  if (shape == AtomShape::Triangle) return pieces::Piece<M>::triangle(e[0], e[1]);
-  if constexpr (M == Metric::ScaledJacobian || M == Metric::MeanRatio)
-    return pieces::square_corner<M>(e[0], e[1]);
-  else
-    return R(0.0);
+  return planar_quality<M>(shape == AtomShape::Triangle, e[0], e[1]);
 }
 template <Metric M, class R>
 R quality_of(AtomShape shape, const std::array<Vec3Of<R>, 3>& e) {
@@ -70,20 +67,9 @@ R quality_of(AtomShape shape, const std::array<Vec3Of<R>, 3>& e) {
   return R(0.0);
 }
 
-/// The edges as vectors of a scalar that make(value, number of the variable) makes.
-template <class R, class Make>
-std::array<Vec2<R>, 2> vectors(const AtomEdges<2>& e, Make make) {
-  return {Vec2<R>{make(e[0][0], 0), make(e[0][1], 1)}, Vec2<R>{make(e[1][0], 2), make(e[1][1], 3)}};
-}
-template <class R, class Make>
-std::array<Vec3Of<R>, 3> vectors(const AtomEdges<3>& e, Make make) {
-  return {Vec3Of<R>{make(e[0][0], 0), make(e[0][1], 1), make(e[0][2], 2)}, Vec3Of<R>{make(e[1][0], 3), make(e[1][1], 4), make(e[1][2], 5)},
-          Vec3Of<R>{make(e[2][0], 6), make(e[2][1], 7), make(e[2][2], 8)}};
-}
-
 template <int D, Metric M>
 double inverse_quality(AtomShape shape, const AtomEdges<D>& edges, double /*reference*/) {
-  const double q = quality_of<M, double>(shape, vectors<double>(edges, [](double v, std::size_t) { return v; }));
+  const double q = quality_of<M>(shape, plain_vectors(edges));
   // An angle between inverted edges is not negative in every formula, hence the determinant.
   return q > 0.0 && atom_jacobian<D>(shape, edges) > 0.0 ? 1.0 / q : std::numeric_limits<double>::infinity();
 }
@@ -91,9 +77,7 @@ double inverse_quality(AtomShape shape, const AtomEdges<D>& edges, double /*refe
 template <int D, Metric M>
 void derive_inverse_quality(AtomShape shape, const AtomEdges<D>& edges, double /*reference*/, Curvature curvature,
                             AtomDerivatives<D>& result) {
-  using R = SecondDual<AtomDerivatives<D>::kCount>;
-  const R q = quality_of<M, R>(shape, vectors<R>(edges, [](double v, std::size_t i) { return R::variable(v, i); }));
-  derive_inverse<D>(q, curvature, result);
+  derive_inverse<D>(quality_of<M>(shape, dual_vectors(edges)), curvature, result);
 }
 
 template <int D, class F>
@@ -141,10 +125,14 @@ void append_atoms(const ElementTable& elements, Metric metric, Index element, st
   const ElementKind kind = elements.kind(element);
   const auto corners = elements.corners(element);
   const Of of = what_counts(metric, kind);
+  const std::size_t n = corners.size(), count = of == Of::Whole ? 1 : n;
   if constexpr (D == 2) {
-    const std::size_t n = corners.size();
-    for (std::size_t i = 0; i < (of == Of::Whole ? 1 : n); ++i)
+    for (std::size_t i = 0; i < count; ++i)
       atoms.push_back({{corners[i], corners[(i + 1) % n], corners[(i + n - 1) % n]}, element, atom_shape(kind)});
+  } else if (info(kind).dimension == 2) {
+    for (std::size_t i = 0; i < count; ++i)
+      atoms.push_back(
+          {{corners[i], corners[(i + 1) % n], corners[(i + n - 1) % n], corners[opposite_corner(n, i)]}, element, surface_shape(kind)});
   } else {
     for (const CornerTable& row : volume_atoms(kind, of))
       atoms.push_back({{corners[row[0]], corners[row[1]], corners[row[2]], corners[row[3]]}, element, atom_shape(kind)});
@@ -171,6 +159,15 @@ AtomFunction<D>::AtomFunction(Metric metric, AtomMeasure measure) {
       derive_.fill(derive_inverse_quality<D, M>);
     });
   }
+}
+template <int D>
+AtomFunction<D>::AtomFunction([[maybe_unused]] Metric metric, const Curved& frame) {
+  surface_.frame = frame;
+  if constexpr (D == 3)
+    formulas::with_planar_metric(joint_metric(metric, 2), [this]<Metric M>() {
+      surface_.value = inverse_on_surface<M>;
+      surface_.derive = derive_inverse_on_surface<M>;
+    });
 }
 template <int D>
 AtomFunction<D>::AtomFunction(std::shared_ptr<const DefinedAtoms<D>> atoms) : defined_(std::move(atoms)) {}

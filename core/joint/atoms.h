@@ -15,15 +15,35 @@
 #include "core/base/vec.h"
 #include "core/mesh/corner_tables.h"
 #include "core/mesh/mesh.h"
+#include "core/mesh/plane.h"
 #include "core/quality/metric.h"
 
 namespace dmoscope {
 
-/// What an atom's edges are compared with: those of the ideal element there.
-enum class AtomShape : std::uint8_t { Triangle, SquareCorner, Tetrahedron, CubeCorner, PrismCorner, PyramidCorner };
-inline constexpr std::size_t kAtomShapeCount = 6;
+/// What an atom's edges are compared with: those of the ideal element there. The last two are of curved surfaces, in space.
+enum class AtomShape : std::uint8_t {
+  Triangle,
+  SquareCorner,
+  Tetrahedron,
+  CubeCorner,
+  PrismCorner,
+  PyramidCorner,
+  SurfaceTriangle,
+  SurfaceSquareCorner
+};
+inline constexpr std::size_t kAtomShapeCount = 8;
+[[nodiscard]] constexpr bool is_on_surface(AtomShape shape) { return shape >= AtomShape::SurfaceTriangle; }
+[[nodiscard]] constexpr AtomShape surface_shape(ElementKind kind) {
+  return kind == ElementKind::Triangle ? AtomShape::SurfaceTriangle : AtomShape::SurfaceSquareCorner;
+}
+[[nodiscard]] constexpr ElementKind kind_of(AtomShape shape) {
+  if (!is_on_surface(shape)) return static_cast<ElementKind>(shape);
+  return shape == AtomShape::SurfaceTriangle ? ElementKind::Triangle : ElementKind::Quadrilateral;
+}
 
-/// `vertices`: in an order with the element's orientation; where a corner counts it is the first, where an edge does the first two.
+/// `vertices`: in an order with the element's orientation; where a corner counts it is the first, where an edge does the first two. On a
+/// curved surface a quadrilateral's opposite corner is the last, which its plane depends on; a triangle has no other, and its first vertex
+/// stands there again.
 template <int D>
 struct Atom {
   std::array<Index, D + 1> vertices{};
@@ -40,7 +60,8 @@ struct Atom {
 [[nodiscard]] std::string joint_obstacle(Metric metric, KindSet kinds);
 [[nodiscard]] inline bool joint_supports(Metric metric, KindSet kinds) { return joint_obstacle(metric, kinds).empty(); }
 
-/// Appends the atoms of one element. The metric must be built in and supported on its kind, whose dimension must be D.
+/// Appends the atoms of one element. The metric must be built in and supported on its kind, whose dimension must be D, or 2 in a curved
+/// surface, where D is 3.
 template <int D>
 void append_atoms(const ElementTable& elements, Metric metric, Index element, std::vector<Atom<D>>& atoms);
 
@@ -78,16 +99,20 @@ class AtomFunction {
  public:
   /// `metric`: must be built in and defined in this dimension; of no account unless for InverseQuality.
   AtomFunction(Metric metric, AtomMeasure measure);
+  /// InverseQuality of a built-in metric on a curved surface; D is 3.
+  AtomFunction(Metric metric, const Curved& frame);
   /// InverseQuality of a metric that is defined by a formula or a target.
   explicit AtomFunction(std::shared_ptr<const DefinedAtoms<D>> atoms);
   /// `reference`: > 0, for RelativeJacobian in the unit of the edges to the power of D; for DefinedAtoms see there; else of no account.
   [[nodiscard]] double value(const Atom<D>& atom, const AtomEdges<D>& edges, double reference) const {
     if (defined_) return defined_value(atom, edges, reference);
+    if (surface_.value != nullptr) return surface_.value(atom.shape, edges, surface_.frame.of(atom.element));
     return value_[static_cast<std::size_t>(atom.shape)](atom.shape, edges, reference);
   }
   /// Where the value is finite.
   void derive(const Atom<D>& atom, const AtomEdges<D>& edges, double reference, Curvature curvature, AtomDerivatives<D>& result) const {
     if (defined_) return derive_defined(atom, edges, reference, curvature, result);
+    if (surface_.value != nullptr) return surface_.derive(atom.shape, edges, surface_.frame.of(atom.element), curvature, result);
     derive_[static_cast<std::size_t>(atom.shape)](atom.shape, edges, reference, curvature, result);
   }
   /// The metric where InverseQuality is f.
@@ -103,6 +128,12 @@ class AtomFunction {
   void derive_defined(const Atom<D>& atom, const AtomEdges<D>& edges, double reference, Curvature curvature,
                       AtomDerivatives<D>& result) const;
   [[nodiscard]] double shift() const noexcept;
+  struct OnSurface {
+    double (*value)(AtomShape, const AtomEdges<D>&, const Curved&) = nullptr;
+    void (*derive)(AtomShape, const AtomEdges<D>&, const Curved&, Curvature, AtomDerivatives<D>&) = nullptr;
+    Curved frame{};
+  };
+  OnSurface surface_{};  // of a built-in metric on a curved surface
   std::array<Value, kAtomShapeCount> value_{};
   std::array<Derive, kAtomShapeCount> derive_{};
   std::shared_ptr<const DefinedAtoms<D>> defined_;  // null: of a built-in metric

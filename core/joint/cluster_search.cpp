@@ -44,15 +44,15 @@ ClusterSearch<D>::ClusterSearch(const JointMesh<D>& mesh, const JointSliding& sl
       options_(options),
       progress_(progress),
       function_(mesh.function()),
-      whole_at_most_(options.whole_at_most > 0 ? options.whole_at_most
-                     : D == 2                  ? 80000
-                                               : 3000),
+      whole_at_most_(options.whole_at_most > 0  ? options.whole_at_most
+                     : mesh.input().is_volume() ? 3000
+                                                : 80000),
       cluster_at_most_(options.cluster_at_most > 0 ? options.cluster_at_most
-                       : D == 2                    ? 80000
-                                                   : 1500),
-      push_at_most_(options.push_at_most > 0 ? options.push_at_most
-                    : D == 2                 ? 100000
-                                             : 3000) {
+                       : mesh.input().is_volume()  ? 1500
+                                                   : 80000),
+      push_at_most_(options.push_at_most > 0   ? options.push_at_most
+                    : mesh.input().is_volume() ? 3000
+                                               : 100000) {
   if (domain_ != nullptr) limit_.emplace(*domain_, sliding.max_deviation);
 }
 

@@ -10,6 +10,7 @@
 #include "core/formula/dual_program.h"
 #include "core/joint/dual_atom.h"
 #include "core/joint/mean_ratio_atom.h"
+#include "core/joint/surface_atom.h"
 #include "core/quality/quality.h"
 
 namespace dmoscope {
@@ -19,8 +20,6 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// A guard's f to begin with over the greatest of the metric's: it holds an atom only once its mean ratio is a thousandth of what it was.
 constexpr double kGuard = 1e-3;
-
-constexpr ElementKind kind_of(AtomShape shape) { return static_cast<ElementKind>(shape); }
 
 /// The first corner whose vertex and neighbours are all that the piece depends on.
 std::optional<std::uint8_t> frame_for(ElementKind kind, std::uint8_t corners) {
@@ -49,17 +48,21 @@ std::span<const FormulaSpace> spaces_of(const DefinedMetric& metric) {
 }  // namespace
 
 template <int D>
-DefinedAtoms<D>::DefinedAtoms(const InputMesh& input, Metric metric) : input_(&input), judge_(input.quality_context().judge(metric)) {
+DefinedAtoms<D>::DefinedAtoms(const InputMesh& input, Metric metric)
+    : input_(&input),
+      dimension_(input.is_surface() ? 2 : D),
+      frame_(input.view<Curved>().frame),
+      judge_(input.quality_context().judge(metric)) {
   const QualityContext context = input.quality_context();
   const ElementTable& elements = input.mesh.elements;
   double least = kInfinity;
   for (Index e = 0; e < elements.size(); ++e)
-    if (info(elements.kind(e)).dimension == D && smallest_jacobian(context, input.mesh.positions, e) > 0.0)
+    if (info(elements.kind(e)).dimension == dimension_ && smallest_jacobian(context, input.mesh.positions, e) > 0.0)
       least = std::min(least, element_quality(context, input.mesh.positions, metric, e));
   if (least <= 0.0) shift_ = 1.0 - 2.0 * least;
   for (std::size_t k = 0; k < kElementKindCount; ++k) {
     const auto kind = static_cast<ElementKind>(k);
-    if (std::ranges::find(elements.kinds(), kind) == elements.kinds().end() || info(kind).dimension != D) continue;
+    if (std::ranges::find(elements.kinds(), kind) == elements.kinds().end() || info(kind).dimension != dimension_) continue;
     for (const FormulaSpace space : spaces_of(judge_->metric())) find_pieces(kind, space);
   }
 }
@@ -81,9 +84,11 @@ void DefinedAtoms<D>::append(const ElementTable& elements, Index element, std::v
   const ElementKind kind = elements.kind(element);
   const auto corners = elements.corners(element);
   const OfKind& all = of(kind, judge_->targets().of(element).space);
+  const bool on_surface = dimension_ < D;
   const auto add = [&](std::uint8_t frame, std::uint16_t piece) {
-    Atom<D> atom{{}, element, static_cast<AtomShape>(kind), frame, piece};
-    for (std::size_t k = 0; k <= D; ++k) atom.vertices[k] = corners[corner_frames(kind)[frame][k]];
+    Atom<D> atom{{}, element, on_surface ? surface_shape(kind) : static_cast<AtomShape>(kind), frame, piece};
+    for (std::size_t k = 0; k <= static_cast<std::size_t>(dimension_); ++k) atom.vertices[k] = corners[corner_frames(kind)[frame][k]];
+    if (on_surface) atom.vertices.back() = corners[opposite_corner(corners.size(), frame)];
     atoms.push_back(atom);
   };
   for (std::size_t i = 0; i < all.pieces.size(); ++i)
@@ -98,14 +103,19 @@ R DefinedAtoms<D>::quality(const Atom<D>& atom, const AtomEdges<D>& edges, const
   const ElementTarget target = judge_->targets().of(atom.element);
   const auto& frame = corner_frames(kind)[atom.frame];
   std::array<std::uint8_t, 8> end{};  // by corner: its place in the frame
-  for (std::uint8_t k = 1; k <= D; ++k) end[frame[k]] = k;
+  for (std::uint8_t k = 1; k <= dimension_; ++k) end[frame[k]] = k;
+  [[maybe_unused]] std::array<Vec2<R>, 2> flat{};  // of a curved surface
+  if constexpr (D == 3)
+    if (is_on_surface(atom.shape)) flat = surface_coordinates<R>(atom.shape, edge_vectors<R>(edges, variable), frame_.of(atom.element));
   thread_local std::vector<R> room;
   const R value = run_program<R>(
       of(kind, target.space).pieces[atom.piece].program,
       [&](const FormulaInput& input) -> R {
         if (input.what != FormulaInput::What::Corner) return R(judge_->given(input, atom.element, target, 1.0));
         const std::size_t k = end[input.index];
-        return k == 0 ? R(0.0) : variable(edges[k - 1][input.row], (k - 1) * D + input.row);
+        if (k == 0) return R(0.0);
+        if (is_on_surface(atom.shape)) return input.row == 0 ? flat[k - 1].x : input.row == 1 ? flat[k - 1].y : R(0.0);
+        return variable(edges[k - 1][input.row], (k - 1) * D + input.row);
       },
       room);
   return steeper(value, target.steepness) + R(shift_);
@@ -113,21 +123,34 @@ R DefinedAtoms<D>::quality(const Atom<D>& atom, const AtomEdges<D>& edges, const
 
 template <int D>
 double DefinedAtoms<D>::guard(const Atom<D>& atom, const AtomEdges<D>& edges) const {
+  if constexpr (D == 3)
+    if (is_on_surface(atom.shape)) return inverse_on_surface<Metric::MeanRatio>(atom.shape, edges, frame_.of(atom.element));
   return inverse_mean_ratio<D>(atom.shape, edges, 1.0);
+}
+
+template <int D>
+double DefinedAtoms<D>::jacobian(const Atom<D>& atom, const AtomEdges<D>& edges) const {
+  if constexpr (D == 3)
+    if (is_on_surface(atom.shape)) return surface_jacobian(atom.shape, edges, frame_.of(atom.element));
+  return atom_jacobian<D>(atom.shape, edges);
 }
 
 template <int D>
 double DefinedAtoms<D>::value(const Atom<D>& atom, const AtomEdges<D>& edges, double reference) const {
   if (atom.piece == kGuardPiece) return kGuard * reference * guard(atom, edges);
   const double q = quality<double>(atom, edges, [unit = 1.0 / reference](double x, std::size_t) { return x * unit; });
-  return q > 0.0 && atom_jacobian<D>(atom.shape, edges) > 0.0 ? 1.0 / q : kInfinity;
+  return q > 0.0 && jacobian(atom, edges) > 0.0 ? 1.0 / q : kInfinity;
 }
 
 template <int D>
 void DefinedAtoms<D>::derive(const Atom<D>& atom, const AtomEdges<D>& edges, double reference, Curvature curvature,
                              AtomDerivatives<D>& result) const {
   if (atom.piece == kGuardPiece) {
-    derive_inverse_mean_ratio<D>(atom.shape, edges, 1.0, curvature, result);
+    if (is_on_surface(atom.shape)) {
+      if constexpr (D == 3) derive_inverse_on_surface<Metric::MeanRatio>(atom.shape, edges, frame_.of(atom.element), curvature, result);
+    } else {
+      derive_inverse_mean_ratio<D>(atom.shape, edges, 1.0, curvature, result);
+    }
     scale_derivatives<D>(kGuard * reference, result);
     return;
   }

@@ -24,12 +24,14 @@ class DefinedAtoms {
   /// are not of inverted elements positive: 0 where they are.
   DefinedAtoms(const InputMesh& input, Metric metric);
 
-  /// Appends the atoms of one element, whose dimension must be D.
+  /// Appends the atoms of one element, whose dimension must be D, or 2 in a curved surface, where D is 3.
   void append(const ElementTable& elements, Index element, std::vector<Atom<D>>& atoms) const;
   [[nodiscard]] double shift() const noexcept { return shift_; }
 
   /// 1 / mean ratio of a guard.
   [[nodiscard]] double guard(const Atom<D>& atom, const AtomEdges<D>& edges) const;
+  /// See atom_jacobian().
+  [[nodiscard]] double jacobian(const Atom<D>& atom, const AtomEdges<D>& edges) const;
 
   /// See AtomFunction. `reference`: the edges' length over that in the mesh; of a guard what it begins with, at a thousandth: the metric's
   /// greatest f over its own guard().
@@ -52,6 +54,8 @@ class DefinedAtoms {
   [[nodiscard]] R quality(const Atom<D>& atom, const AtomEdges<D>& edges, const Variable& variable) const;
 
   const InputMesh* input_;
+  int dimension_;  // of the elements
+  Curved frame_;   // of a curved surface
   std::shared_ptr<const DefinedJudge> judge_;
   double shift_ = 0.0;
   std::array<OfKind, kFormulaSpaces * kElementKindCount> kinds_;

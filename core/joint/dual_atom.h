@@ -7,6 +7,27 @@
 
 namespace dmoscope {
 
+/// The edges as vectors of a scalar that make(value, number of the variable) makes.
+template <class R, class Make>
+[[nodiscard]] std::array<Vec2<R>, 2> edge_vectors(const AtomEdges<2>& e, const Make& make) {
+  return {Vec2<R>{make(e[0][0], 0), make(e[0][1], 1)}, Vec2<R>{make(e[1][0], 2), make(e[1][1], 3)}};
+}
+template <class R, class Make>
+[[nodiscard]] std::array<Vec3Of<R>, 3> edge_vectors(const AtomEdges<3>& e, const Make& make) {
+  return {Vec3Of<R>{make(e[0][0], 0), make(e[0][1], 1), make(e[0][2], 2)}, Vec3Of<R>{make(e[1][0], 3), make(e[1][1], 4), make(e[1][2], 5)},
+          Vec3Of<R>{make(e[2][0], 6), make(e[2][1], 7), make(e[2][2], 8)}};
+}
+/// As plain numbers, and as variables.
+template <std::size_t D>
+[[nodiscard]] auto plain_vectors(const std::array<std::array<double, D>, D>& edges) {
+  return edge_vectors<double>(edges, [](double x, std::size_t) { return x; });
+}
+template <std::size_t D>
+[[nodiscard]] auto dual_vectors(const std::array<std::array<double, D>, D>& edges) {
+  using R = SecondDual<D * D>;
+  return edge_vectors<R>(edges, [](double x, std::size_t i) { return R::variable(x, i); });
+}
+
 /// 1 / q, q > 0.
 template <int D>
 void derive_inverse(const SecondDual<AtomDerivatives<D>::kCount>& q, Curvature curvature, AtomDerivatives<D>& result) {

@@ -120,7 +120,7 @@ void InteriorPoint<D>::choose_ways() {
   std::vector<double> forces(problem_.free_vertices * kD, 0.0);
   AtomDerivatives<D> derivatives;
   for (const std::size_t a : bound_atoms_) {
-    function_.derive(problem_.atoms[a], displaced_edges<D>(problem_, a, at_.displacements), problem_.reference(a), Curvature::Convex,
+    function_.derive(problem_.atoms[a], displaced_edges<D>(problem_, a, at_.displacements), problem_.reference(a), Curvature::Exact,
                      derivatives);
     system_.add_gradient(a, -at_.mu / slack(a), derivatives.gradient, forces);
   }

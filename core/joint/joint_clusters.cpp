@@ -13,6 +13,18 @@
 
 namespace dmoscope {
 
+namespace {
+
+/// On a curved surface whatever moves slides.
+std::vector<std::uint8_t> held(const InputMesh& input, std::span<const std::uint8_t> fixed, const Domain* domain) {
+  std::vector<std::uint8_t> result(fixed.begin(), fixed.end());
+  for (Index v = 0; input.is_surface() && v < result.size(); ++v)
+    if (domain == nullptr || !domain->slides(v)) result[v] = 1;
+  return result;
+}
+
+}  // namespace
+
 class JointClusters::Base {
  public:
   Base() = default;
@@ -29,7 +41,7 @@ template <int D>
 class JointClusters::Of final : public Base {
  public:
   Of(const InputMesh& input, Metric metric, std::span<const std::uint8_t> fixed, JointSliding sliding)
-      : mesh_(input, metric, fixed), sliding_(std::move(sliding)) {}
+      : mesh_(input, metric, held(input, fixed, sliding.domain.get())), sliding_(std::move(sliding)) {}
   std::optional<JointCluster> raise_worst(std::span<Vec3> positions, JointState& state, const JointOptions& options,
                                           Progress& progress) const override {
     JointState next = state;
@@ -53,6 +65,7 @@ class JointClusters::Of final : public Base {
   std::optional<JointCluster> untangle(std::span<Vec3> positions, JointState& state, const JointOptions& options,
                                        Progress& progress) const {
     const Domain* domain = sliding_.domain.get();
+    if (mesh_.input().is_surface()) return std::nullopt;  // all that moves slides, and what slides stays here
     if (domain == nullptr && mesh_.metric() == Metric::MeanRatio)
       return Untangler<D>(mesh_, Metric::MeanRatio, positions, state, options, progress).run();
     std::vector<std::uint8_t> fixed(positions.size(), 1);
@@ -65,7 +78,6 @@ class JointClusters::Of final : public Base {
 };
 
 std::string why_not_joint(const InputMesh& input, Metric metric) {
-  if (input.is_surface()) return "joint moves work on planar and volume meshes, not on curved surfaces";
   const int dimension = input.is_volume() ? 3 : 2;
   KindSet kinds = 0;
   for (const ElementKind kind : input.mesh.elements.kinds())
@@ -80,7 +92,7 @@ void require_joint(const InputMesh& input, Metric metric) {
 
 JointClusters::JointClusters(const InputMesh& input, Metric metric, std::span<const std::uint8_t> fixed, JointSliding sliding) {
   require_joint(input, metric);
-  if (input.is_volume())
+  if (input.in_space())
     mesh_ = std::make_unique<Of<3>>(input, metric, fixed, std::move(sliding));
   else
     mesh_ = std::make_unique<Of<2>>(input, metric, fixed, std::move(sliding));

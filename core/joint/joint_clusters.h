@@ -93,7 +93,7 @@ struct JointSliding {
   double max_deviation = 0.0;
 };
 
-/// Why vertices of a mesh cannot be moved jointly: it is a curved surface, or see joint_obstacle(). Empty where they can.
+/// Why vertices of a mesh cannot be moved jointly: see joint_obstacle(). Empty where they can.
 [[nodiscard]] std::string why_not_joint(const InputMesh& input, Metric metric);
 /// Throws UsageError with that.
 void require_joint(const InputMesh& input, Metric metric);

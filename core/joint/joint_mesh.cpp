@@ -26,6 +26,8 @@ auto frame_of(const Geometry& geometry) {
 
 template <int D>
 AtomFunction<D> function_of(const InputMesh& input, Metric metric) {
+  if constexpr (D == 3)
+    if (input.is_surface() && is_built_in(metric)) return {metric, input.view<Curved>().frame};
   if (is_built_in(metric)) return {metric, AtomMeasure::InverseQuality};
   return AtomFunction<D>(std::make_shared<const DefinedAtoms<D>>(input, metric));
 }
@@ -44,7 +46,7 @@ JointMesh<D>::JointMesh(const InputMesh& input, Metric metric, std::span<const s
   const auto is_fixed = [fixed](Index v) { return fixed[v] != 0; };
   std::vector<Atom<D>> of_element;
   for (Index e = 0; e < elements.size(); ++e) {
-    if (info(elements.kind(e)).dimension != D || std::ranges::all_of(elements.corners(e), is_fixed)) continue;
+    if (info(elements.kind(e)).dimension != (input.is_surface() ? 2 : D) || std::ranges::all_of(elements.corners(e), is_fixed)) continue;
     of_element.clear();
     if (function_.defined() != nullptr)
       function_.defined()->append(elements, e, of_element);
@@ -82,7 +84,7 @@ template <int D>
 std::vector<double> JointMesh<D>::qualities(std::span<const Vec3> positions) const {
   const auto quality = [&](const Atom<D>& atom) {
     const AtomEdges<D> at = edges(atom, positions);
-    if (atom.piece == kGuardPiece) return atom_jacobian<D>(atom.shape, at) > 0.0 ? kInfinity : 0.0;
+    if (atom.piece == kGuardPiece) return function_.defined()->jacobian(atom, at) > 0.0 ? kInfinity : 0.0;
     return 1.0 / function_.value(atom, at, 1.0);
   };
   std::vector<double> result;
@@ -125,6 +127,7 @@ LocalProblem<D> JointMesh<D>::problem(std::span<const Index> free, std::span<con
       }
       v = number[v];
     }
+    if (atom.shape == AtomShape::SurfaceTriangle) atom.vertices.back() = kNoIndex;
     local.problem.atoms.push_back(atom);
   }
   if (longest > 0.0) {

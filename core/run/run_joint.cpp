@@ -31,7 +31,7 @@ std::vector<Index> elements_that(const InputMesh& input, IsSeed is_seed) {
 }  // namespace
 
 bool Run::knows_joint_moves() const {
-  const bool cannot = !why_not_joint(*input_, parameters_.metric).empty();
+  const bool cannot = input_->is_surface() || !why_not_joint(*input_, parameters_.metric).empty();  // a region knows no domain
   return method_info(parameters_.method).optimises && !(input_->share ? input_->share->any(cannot) : cannot);
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -95,6 +97,22 @@ TEST(TwoAims, TheMeanWouldUndoADensity) {
   RunParameters parameters{.combination = Combination{0.5, SizeFunction{}}};
   parameters.then_mean.emplace();
   EXPECT_THROW((void)make_run(sample("random", 60), parameters), UsageError);
+}
+
+/// All that is refused is written down for users, word by word.
+TEST(Refusals, StandInTheManual) {
+  std::ifstream file(std::string(DMOSCOPE_SOURCE_DIR) + "/docs/user/methods.md");
+  const std::string manual{std::istreambuf_iterator<char>(file), {}};
+  ASSERT_FALSE(manual.empty());
+  for (const Refusal& refusal : refusals())
+    EXPECT_NE(manual.find(fmt::format("| {} | {} |", refusal.mix, refusal.why)), std::string::npos) << refusal.mix;
+  SmoothingTask task;
+  task.input = sample("tetrahedra", 60);
+  for (const MethodInfo& method : method_table()) {
+    task.method = method.name;
+    const auto refused = std::ranges::count_if(refusals(), [&](const Refusal& refusal) { return refusal.applies(task); });
+    EXPECT_EQ(refused, method.name == "angle-based" ? 1 : 0) << method.name;
+  }
 }
 
 /// On the line through a vertex: as good as the best of a look at ten thousand places.

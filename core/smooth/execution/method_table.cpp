@@ -66,17 +66,27 @@ constexpr auto kMethods = std::to_array<MethodInfo>(
       .untangles = true,
       .joint = true}});
 
-void require_possible(const Combination& combination, const SmoothingTask& task) {
-  validate(task.metric, combination);
-  if (!method_info(task.method).optimises)
-    throw UsageError(fmt::format("{} moves vertices whatever becomes of the elements: no objective guides it", task.method));
-  if (task.then_mean && combination.size() != nullptr)
-    throw UsageError("a phase that raises the mean would undo the density of a combination");
-  if (combination.size() != nullptr && task.input->geometry.shape != Shape::Planar)
-    throw UsageError(fmt::format("sizes are of planar meshes in this version, and the mesh is a {}",
-                                 task.input->is_volume() ? "volume" : "curved surface"));
-  if (const auto* second = std::get_if<Metric>(&combination.second)) require_defined(*second, *task.input);
-}
+bool is_guided(const SmoothingTask& task) { return method_info(task.method).optimises; }
+bool has_density(const SmoothingTask& task) { return task.combination && task.combination->size() != nullptr; }
+bool moves_jointly(const SmoothingTask& task) { return method_info(task.method).joint || task.then_joint; }
+
+constexpr auto kRefusals = std::to_array<Refusal>(
+    {{"angle-based in volumes",
+      "angle-based is defined only for planar meshes and surfaces: a vertex of a volume has no ring whose angles it could halve",
+      [](const SmoothingTask& task) { return method_info(task.method).planar_only && task.input->is_volume(); }},
+     {"laplace or angle-based with two aims",
+      "laplace and angle-based move vertices whatever becomes of the elements: no objective guides them",
+      [](const SmoothingTask& task) { return task.combination && !is_guided(task); }},
+     {"density on volumes and curved surfaces", "sizes are of planar meshes in this version",
+      [](const SmoothingTask& task) { return has_density(task) && task.input->geometry.shape != Shape::Planar; }},
+     {"density, then mean", "a phase that raises the mean would undo the density of a combination",
+      [](const SmoothingTask& task) { return has_density(task) && task.then_mean; }},
+     {"density with joint moves", "joint moves raise the least of something over all elements, and a density is none",
+      [](const SmoothingTask& task) { return has_density(task) && moves_jointly(task); }},
+     {"joint, then joint", "joint moves cannot follow joint moves",
+      [](const SmoothingTask& task) { return method_info(task.method).joint && task.then_joint; }},
+     {"sliding in meshes that wrap", "nothing slides in meshes that go round in longitude",
+      [](const SmoothingTask& task) { return task.slides && task.input->geometry.plane.period > 0.0; }}});
 
 }  // namespace
 
@@ -94,20 +104,22 @@ std::optional<std::uint64_t> still_iterations(const MethodInfo& method, const Me
   return options.directions == Directions::Axes ? std::optional(axes) : std::nullopt;
 }
 
+std::span<const Refusal> refusals() { return kRefusals; }
+
 void require_possible(const SmoothingTask& task) {
-  const MethodInfo& method = method_info(task.method);
+  (void)method_info(task.method);
   validate(task.search);
   validate(task.options);
   require_defined(task.metric, *task.input);
-  if (method.planar_only && task.input->is_volume())
-    throw UsageError(fmt::format("{} is defined only for planar meshes and surfaces", method.name));
-  if (task.combination) require_possible(*task.combination, task);
-  if (task.slides && task.input->geometry.plane.period > 0.0) throw UsageError("nothing slides in meshes that go round in longitude");
-  if (method.joint && task.then_joint) throw UsageError("joint moves cannot follow joint moves");
-  if (method.joint || task.then_joint) {
-    if (task.combination) throw UsageError("joint moves have one aim, and a combination two");
-    require_joint(*task.input, task.metric);
+  if (task.combination) {
+    validate(task.metric, *task.combination);
+    if (const auto* second = std::get_if<Metric>(&task.combination->second)) require_defined(*second, *task.input);
   }
+  for (const Refusal& refusal : kRefusals)
+    if (refusal.applies(task)) throw UsageError(std::string(refusal.why));
+  if (!moves_jointly(task)) return;
+  if (task.combination) throw UsageError("joint moves have one aim, and a combination two");
+  require_joint(*task.input, task.metric);
 }
 
 std::unique_ptr<Smoother> make_smoother(const SmoothingTask& task) {

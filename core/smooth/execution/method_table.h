@@ -28,6 +28,14 @@ struct MethodInfo {
 /// Throws UsageError that lists the known ones.
 [[nodiscard]] const MethodInfo& method_info(std::string_view name);
 
+/// What cannot be together, and why: all other mixes of method, objective, boundary and phases work, but for what joint moves cannot split
+/// into smooth pieces (see why_not_joint).
+struct Refusal {
+  std::string_view mix, why;
+  bool (*applies)(const SmoothingTask&);  // of its pointers only `input` is read
+};
+[[nodiscard]] std::span<const Refusal> refusals();
+
 /// After how many iterations in a row in which no vertex moved none will move any more; none: one can never tell. A method that looks along
 /// one direction an iteration may find nothing there, and something along the next. `volume`: whether it looks in space.
 [[nodiscard]] std::optional<std::uint64_t> still_iterations(const MethodInfo& method, const MethodOptions& options, bool volume);

@@ -61,7 +61,6 @@ void refuse_together(const Words& words, bool until_converged) {
   const auto said = [&words](const char* name) { return words.count(name) > 0; };
   for (const char* other : {"method", "combine", "then"})
     if (said("recipe") && said(other)) throw dmoscope::UsageError(fmt::format("recipe and {}: only one of them", other));
-  if (said("combine") && said("then")) throw dmoscope::UsageError("combine and then: only one of them");
   for (const char* limit : {"patience", "max-iterations"})
     if (said(limit) && !until_converged) throw dmoscope::UsageError(fmt::format("{} is for until_converged", limit));
 }

@@ -95,9 +95,11 @@ void add_every(ComparisonPlan& plan, const std::string& what, const RunOptions& 
     plan.contenders.push_back(std::move(contender));
   };
   if (what == "method") {
-    // Those that no two aims can guide are there to compare with.
+    // Those that know no such combination are there to compare with.
+    std::optional<Combination> combination;
+    if (!open.combine.empty()) combination = parse_combination(open.combine, open.size_function).second;
     for (const MethodInfo& method : method_table())
-      add(fmt::format("{}{}", method.name, !open.combine.empty() && (!method.optimises || method.joint) ? ",alone" : ""));
+      add(fmt::format("{}{}", method.name, combination && !can_combine(method, *combination) ? ",alone" : ""));
   } else if (what == "metric") {
     if (!open.combine.empty()) throw UsageError("--every metric: with --combine all runs have its metrics");
     for (const MetricInfo& metric : metric_table()) add(fmt::format("{}:{}", open.method, metric.name));

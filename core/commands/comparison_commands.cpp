@@ -127,7 +127,7 @@ std::vector<RunParameters> every_method(const RunParameters& like) {
   for (const MethodInfo& method : method_table()) {
     wanted.push_back(like);
     wanted.back().method = method.name;
-    if (!method.optimises) wanted.back().combination.reset();  // no objective guides it
+    if (like.combination && !can_combine(method, *like.combination)) wanted.back().combination.reset();
   }
   return wanted;
 }

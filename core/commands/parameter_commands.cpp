@@ -33,12 +33,12 @@ void show_metric(CommandContext& context, Arguments arguments) {
 }
 void set_method(CommandContext& context, Arguments arguments) {
   const RunParameters& now = context.session.active().parameters();
-  const bool drops = now.combination && !method_info(arguments[0]).optimises;
+  const bool drops = now.combination && !can_combine(method_info(arguments[0]), *now.combination);
   change_run(context, [&](RunParameters& p) {
     p.method = arguments[0];
     if (drops) p.combination.reset();
   });
-  if (drops) tell(context, fmt::format("{} moves vertices whatever becomes of the elements: this run has no second aim", arguments[0]));
+  if (drops) tell(context, fmt::format("{} has no such second aim: this run has none", arguments[0]));
 }
 /// Sets a parameter of the table.
 void set(const ParameterInfo& row, CommandContext& context, Arguments arguments) {

@@ -19,7 +19,8 @@ void add_run(CommandContext& context, Arguments arguments) {
   RunParameters parameters = context.session.active().parameters();
   const std::size_t colon = arguments[0].find(':');
   parameters.method = arguments[0].substr(0, colon);
-  if (!method_info(parameters.method).optimises || colon != std::string::npos) parameters.combination.reset();
+  if (parameters.combination && (colon != std::string::npos || !can_combine(method_info(parameters.method), *parameters.combination)))
+    parameters.combination.reset();
   if (colon != std::string::npos) parameters.metric = parse_metric(arguments[0].substr(colon + 1));
   context.session.add_run(std::move(parameters));
 }

@@ -162,10 +162,10 @@ class Look {
   /// Joint moves, where a vertex may move.
   void try_joint(HeldMinimum& found, double& best) const {
     if (!(found.quality > 0.0)) return;
-    auto cluster = joint_hold(input_, q_.positions, q_.fixed, {q_.task.domain, q_.task.max_deviation}, q_.task.metric, q_.joint_at_most,
-                              pool_, asking_.progress, asking_.go_on);
+    auto cluster = joint_hold(input_, q_.positions, q_.fixed, {q_.task.domain, q_.task.max_deviation},
+                              {q_.task.metric, q_.task.combination}, q_.joint_at_most, pool_, asking_.progress, asking_.go_on);
     if (!cluster) return;
-    const bool same = is_as_bad(quality_of(q_.positions, cluster->worst_element), found.quality);
+    const bool same = !cluster->beyond && is_as_bad(quality_of(q_.positions, cluster->worst_element), found.quality);
     if (same && is_gain(best, cluster->after)) {
       if (!q_.joint_phase.empty())
         take(found, {"then", q_.joint_phase, Holding::Neighbours}, cluster->after);

@@ -80,7 +80,8 @@ struct HeldMinimum {
   std::optional<double> whole;                      // the mesh's minimum, but for ceilings, once all of it was visited with these
   std::vector<HoldSwitch> in_vain;                  // what was tried and gains nothing here
   std::optional<std::pair<Index, double>> ceiling;  // an element that is worse, and that nothing moves
-  std::shared_ptr<const JointCluster> joint;        // what joint moves make of the worst that they can change; null where they cannot be
+  std::shared_ptr<const JointCluster> joint;        // what joint moves make of the worst that they can change, which may be of the second
+                                                    // of two aims; null where they cannot be
   std::vector<std::string_view> untried;            // what the look did not come to: "more iterations", ...; empty: it came to its end
 
   /// The switches that would free it together: "boundary slide".

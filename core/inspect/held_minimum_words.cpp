@@ -56,9 +56,11 @@ std::string HeldMinimum::options() const {
 
 bool HeldMinimum::rises() const noexcept { return is_gain(quality, unchanged); }
 
-bool HeldMinimum::is_of_another() const noexcept { return joint && !is_as_bad(joint->before, quality); }
+bool HeldMinimum::is_of_another() const noexcept { return joint && !joint->beyond && !is_as_bad(joint->before, quality); }
 
-bool HeldMinimum::certified() const noexcept { return joint && joint->certified && !is_of_another() && !is_gain(quality, joint->after); }
+bool HeldMinimum::certified() const noexcept {
+  return joint && joint->certified && !joint->beyond && !is_of_another() && !is_gain(quality, joint->after);
+}
 
 std::string_view HeldMinimum::brief() const noexcept {
   if (change) return phrase(by);
@@ -110,6 +112,8 @@ std::string HeldMinimum::sentence(bool as_option) const {
     if (is_of_another())
       text +=
           fmt::format(" Of those that moves can change, element {} at {} is the worst.", joint->worst_element, four_digits(joint->before));
+    if (joint->beyond && is_gain(joint->before, joint->after))
+      return text + fmt::format(" Joint moves raise {}: from {:.2g} to {:.2g}.", joint->aim, joint->before, joint->after);
     text += is_of_another() && is_gain(joint->before, joint->after) ? fmt::format(" Joint moves raise it to about {:.2g}.", joint->after)
                                                                     : ' ' + certificate_sentence(*joint);
   }

@@ -12,9 +12,9 @@
 namespace dmoscope {
 
 std::optional<JointCluster> joint_hold(const InputMesh& input, std::span<const Vec3> positions, std::span<const std::uint8_t> fixed,
-                                       JointSliding sliding, Metric metric, std::size_t at_most, ThreadPool* pool, Progress& progress,
-                                       const std::function<bool()>& go_on) {
-  if (!why_not_joint(input, metric).empty()) return std::nullopt;
+                                       JointSliding sliding, const JointAims& aims, std::size_t at_most, ThreadPool* pool,
+                                       Progress& progress, const std::function<bool()>& go_on) {
+  if (!why_not_joint(input, aims).empty()) return std::nullopt;
   JointOptions options;
   options.whole_at_most = options.cluster_at_most = options.push_at_most = at_most;
   options.pool = pool;
@@ -24,7 +24,7 @@ std::optional<JointCluster> joint_hold(const InputMesh& input, std::span<const V
     };
   std::vector<Vec3> copy(positions.begin(), positions.end());
   JointState state;
-  auto cluster = JointClusters(input, metric, fixed, std::move(sliding)).raise_worst(copy, state, options, progress);
+  auto cluster = JointClusters(input, aims, fixed, std::move(sliding)).raise_worst(copy, state, options, progress);
   return cluster && cluster->worst_element != kNoIndex ? std::move(cluster) : std::nullopt;
 }
 
@@ -38,10 +38,12 @@ std::span<const JointCluster::Active> holders(const JointCluster& cluster) {
 
 std::string certificate_sentence(const JointCluster& cluster) {
   constexpr std::size_t kNamed = 5;
-  if (!cluster.certified) return fmt::format("Whether joint moves raise it is not certain: {}.", cluster.why_not);
+  const std::string what = cluster.aim.empty() ? "it" : cluster.aim;
+  if (!cluster.certified) return fmt::format("Whether joint moves raise {} is not certain: {}.", what, cluster.why_not);
   const auto all = holders(cluster);
-  if (all.size() < 2) return "Certified: no joint move raises it, to first order.";
-  std::string text = fmt::format("Certified: no joint move raises it, to first order. {} elements hold one another", all.size());
+  std::string text = fmt::format("Certified: no joint move raises {}, to first order.", what);
+  if (all.size() < 2) return text;
+  text += fmt::format(" {} elements hold one another", all.size());
   constexpr double kWorthNaming = 0.005;
   if (all[0].multiplier < kWorthNaming) return text + ", each with less than 1 %.";
   text += ':';

@@ -117,6 +117,7 @@ class AtomFunction {
   }
   /// The metric where InverseQuality is f.
   [[nodiscard]] double quality_of(double f) const noexcept { return 1.0 / f - shift(); }
+  [[nodiscard]] double inverse_of(double quality) const noexcept { return 1.0 / (quality + shift()); }
   [[nodiscard]] const DefinedAtoms<D>* defined() const noexcept { return defined_.get(); }
   /// Whether the Hessian's diagonal says how stiff a vertex is: it never vanishes where the function is convex in each single vertex.
   [[nodiscard]] bool convex_by_vertex() const noexcept { return convex_by_vertex_; }

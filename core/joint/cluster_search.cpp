@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -26,6 +27,8 @@ constexpr double kSameLevel = 1e-3, kSameMinimum = 1e-4;  // relative
 constexpr double kLeastGain = 1e-4;                       // of the minimum, in a pass
 constexpr double kPassBand = 0.01;                        // how far above the minimum a pass looks, relative
 constexpr double kNoticed = 0.01;                         // of the mean multiplier
+constexpr double kBeyond = 0.01;                          // how far beyond the threshold the first of two aims is raised, relative
+constexpr double kAbove = 1e-9;                           // and how far above it kept, for what rounding takes
 
 void sort_and_unique(std::vector<Index>& values) {
   std::sort(values.begin(), values.end());
@@ -35,9 +38,11 @@ void sort_and_unique(std::vector<Index>& values) {
 }  // namespace
 
 template <int D>
-ClusterSearch<D>::ClusterSearch(const JointMesh<D>& mesh, const JointSliding& sliding, std::span<Vec3> positions, JointState& state,
-                                const JointOptions& options, Progress& progress)
+ClusterSearch<D>::ClusterSearch(const JointMesh<D>& mesh, double threshold, const JointMesh<D>* first, const JointSliding& sliding,
+                                std::span<Vec3> positions, JointState& state, const JointOptions& options, Progress& progress)
     : mesh_(mesh),
+      first_(first),
+      threshold_(threshold),
       domain_(sliding.domain.get()),
       positions_(positions),
       state_(state),
@@ -66,7 +71,8 @@ template <int D>
 std::optional<JointCluster> ClusterSearch<D>::run() {
   begin();
   std::optional<JointCluster> result;
-  if (options_.push_first && !state_.pushed) {
+  const bool may_push = first_ != nullptr || std::ranges::any_of(qualities_, [this](double q) { return q > 0.0 && q <= threshold_; });
+  if (options_.push_first && !state_.pushed && may_push) {
     state_.pushed = true;
     allow_above(-kInfinity);
     if (mesh_.free_vertices().size() <= push_at_most_ && std::ranges::count(allowed_, 1) > 0) result = push();
@@ -88,10 +94,26 @@ void ClusterSearch<D>::begin() {
   for (std::size_t a = 0; a < qualities_.size(); ++a)
     if (qualities_[a] <= 0.0)
       for (const Index v : mesh_.input().mesh.elements.corners(mesh_.atoms()[a].element)) frozen_[v] = 1;
+  if (first_ != nullptr) keep_first();
   if (!state_.atoms.empty()) return;
   state_.atoms.assign(qualities_.size(), JointState::Of::Open);
   state_.levels.assign(vertices, kInfinity);
   state_.pass_began_at = -kInfinity;
+}
+
+/// With two aims: vertices of what is not beyond the threshold stay, and so does what has no others.
+template <int D>
+void ClusterSearch<D>::keep_first() {
+  const InputMesh& input = mesh_.input();
+  std::vector<double> first(input.mesh.elements.size());
+  element_qualities(input.quality_context(), positions_, first_->metric(), options_.pool, first);
+  for (Index e = 0; e < first.size(); ++e)
+    if (first[e] <= threshold_)
+      for (const Index v : input.mesh.elements.corners(e)) frozen_[v] = 1;
+  std::vector<std::uint8_t> can_move(positions_.size(), 0);
+  for (const Index v : mesh_.free_vertices()) can_move[v] = frozen_[v] == 0 ? 1 : 0;
+  for (std::size_t a = 0; a < qualities_.size(); ++a)
+    if (std::ranges::none_of(mesh_.atoms()[a].vertices, [&](Index v) { return can_move[v] != 0; })) qualities_[a] = kInfinity;
 }
 
 // ---- which atom ----
@@ -114,7 +136,8 @@ std::optional<Index> ClusterSearch<D>::find_worst() {
       state_.end = JointState::End::Certified;
       return std::nullopt;
     }
-    const bool beyond_pass = !options_.beyond_minimum && worst > (1.0 + kPassBand) * minimum;
+    const bool is_enough = first_ == nullptr && worst > threshold_;
+    const bool beyond_pass = is_enough || (!options_.beyond_minimum && worst > (1.0 + kPassBand) * minimum);
     if (found == kNoIndex || beyond_pass) {
       if (!next_pass()) return std::nullopt;
       continue;
@@ -217,6 +240,7 @@ template <int D>
 void ClusterSearch<D>::solve(const std::vector<Index>& cluster, const InteriorPointOptions& options, bool may_leave) {
   solved_ = {};
   solved_.local = mesh_.problem(cluster, positions_);
+  if (first_ != nullptr) first_->limit(solved_.local, (1.0 + kAbove) * threshold_, positions_);
   if (domain_ != nullptr) {
     solved_.path = std::make_unique<SlidingPath<D>>(mesh_, solved_.local, positions_, *domain_, *limit_);
     if (holds_) solved_.path->hold();
@@ -247,21 +271,30 @@ void ClusterSearch<D>::solve(const std::vector<Index>& cluster, const InteriorPo
 }
 
 /// Moves the mesh's vertices where that is better by the program's own judgement. Where elements would become inverted, which the search
-/// knows by their corners alone, or where vertices that slide may not go all of the way, half of it, and so on.
+/// knows by their corners alone, or the first of two aims would not stay beyond its threshold, or where vertices that slide may not go all
+/// of the way, half of it, and so on.
 template <int D>
 void ClusterSearch<D>::commit() {
   if (!(solved_.solution.best_worst < solved_.solution.start_worst)) return;
   double share = 1.0;
   for (int i = 0; i <= kMostHalvings; ++i, share *= 0.5) {
-    bool inverts = false, stayed = false;
-    if (try_move(share, inverts, stayed)) return;
-    if (!stayed && (D == 2 || !inverts)) return;
+    bool less_may_do = false;
+    if (try_move(share, less_may_do) || !less_may_do) return;
   }
 }
 
-/// Goes a share of the way, if that is better. `stayed`: whether some that slide could not.
+/// Do all elements around the cluster have more of the first aim than its threshold?
 template <int D>
-bool ClusterSearch<D>::try_move(double share, bool& inverts, bool& stayed) {
+bool ClusterSearch<D>::first_stays_beyond() const {
+  const QualityContext context = mesh_.input().quality_context();
+  return std::ranges::all_of(mesh_.elements_at(solved_.local.free()), [&](Index e) {
+    return element_quality(context, std::span<const Vec3>(positions_), first_->metric(), e) > threshold_;
+  });
+}
+
+/// Goes a share of the way, if that is better.
+template <int D>
+bool ClusterSearch<D>::try_move(double share, bool& less_may_do) {
   const std::span<const Index> free = solved_.local.free();
   std::vector<Vec3> targets;
   targets.reserve(free.size());
@@ -270,10 +303,12 @@ bool ClusterSearch<D>::try_move(double share, bool& inverts, bool& stayed) {
     for (double& x : way) x *= share;
     targets.push_back(mesh_.placed(positions_[free[k]], way, solved_.local.scale));
   }
+  bool stayed = false;  // some that slide
   if (solved_.local.problem.path != nullptr) stayed = solved_.path->settle(share, free, positions_, targets) > 0;
   const JudgedMove move = mesh_.move_to(solved_.local, targets, positions_, mesh_.metric());
-  inverts = move.inverted_after > move.inverted_before;
-  const bool better = move.after > move.before && !inverts;
+  const bool inverts = move.inverted_after > move.inverted_before, keeps = first_ == nullptr || first_stays_beyond();
+  const bool better = move.after > move.before && !inverts && keeps;
+  less_may_do = stayed || (D == 3 && inverts) || !keeps;
   for (std::size_t k = 0; k < move.moved_from.size(); ++k) {
     if (better)
       moved_from_.emplace_back(free[k], move.moved_from[k]);
@@ -289,8 +324,8 @@ void ClusterSearch<D>::measure_rim(const JointIterate<D>& at) {
   solved_.rim_share = 0.0;
   const auto count = static_cast<double>(at.multipliers.size());
   for (std::size_t i = 0; i < at.multipliers.size(); ++i) {
-    if (at.tau - at.values[i] > kNearTau * at.tau) continue;
-    const auto& vertices = mesh_.atoms()[solved_.local.atoms[i]].vertices;
+    if (!is_near(at, i, kNearTau)) continue;
+    const auto& vertices = atom(i).vertices;
     if (std::ranges::none_of(vertices, [this](Index v) { return allowed_[v] != 0 && inside_[v] == 0; })) continue;
     solved_.rim_share += at.multipliers[i];
     if (at.multipliers[i] > kNoticed / count) solved_.rim.insert(solved_.rim.end(), vertices.begin(), vertices.end());
@@ -303,7 +338,9 @@ JointCluster ClusterSearch<D>::push() {
   std::vector<Index> all;
   for (const Index v : mesh_.free_vertices())
     if (allowed_[v] != 0) all.push_back(v);
-  solve(all, {.gap = options_.push_gap, .max_steps = options_.max_steps, .pool = options_.pool}, false);
+  InteriorPointOptions options{.gap = options_.push_gap, .max_steps = options_.max_steps, .pool = options_.pool};
+  if (first_ == nullptr) options.enough = function_.inverse_of((1.0 + kBeyond) * threshold_);
+  solve(all, options, false);
   JointCluster result = told(all);
   result.is_push = true;
   result.why_not = "the first push leaves the rest to the clusters";
@@ -312,13 +349,14 @@ JointCluster ClusterSearch<D>::push() {
 
 template <int D>
 JointCluster ClusterSearch<D>::raise(Index worst) {
-  const InteriorPointOptions options{.gap = options_.gap, .early_gap = kEarlyGap, .max_steps = options_.max_steps, .pool = options_.pool};
+  InteriorPointOptions options{.gap = options_.gap, .early_gap = kEarlyGap, .max_steps = options_.max_steps, .pool = options_.pool};
+  if (first_ == nullptr) options.enough = function_.inverse_of((1.0 + kBeyond) * threshold_);
   const auto& vertices = mesh_.atoms()[worst].vertices;
   int rings = kFirstRings;
   std::vector<Index> cluster = grown({vertices.begin(), vertices.end()}, rings);
   for (int growth = 0;; ++growth) {
     solve(cluster, options, true);
-    if (solved_.rim_share < kClosedRim) break;
+    if (solved_.rim_share < kClosedRim || solved_.solution.end == InteriorPointEnd::Enough) break;
     rings = std::min(2 * rings, kMostRings);
     std::vector<Index> larger = enlarged(cluster, growth, rings);
     if (larger.size() <= cluster.size()) {
@@ -353,6 +391,7 @@ std::string ClusterSearch<D>::why_not(const std::vector<Index>& cluster) const {
   const JointSolution<D>& solution = solved_.solution;
   if (holds_) return "with those that slide no step was found that leads further";
   if (solution.end == InteriorPointEnd::Steps) return fmt::format("{} Newton steps did not suffice", options_.max_steps);
+  if (solution.end == InteriorPointEnd::Enough) return "it is beyond the threshold, where the second aim counts";
   if (solution.end != InteriorPointEnd::Gap) return "no step was found that leads further";
   if (!(solved_.rim_share < kClosedRim))
     return fmt::format("{:.2g} % of what holds it lies on the rim of the {} vertices, and {}", 100.0 * solved_.rim_share, cluster.size(),
@@ -374,8 +413,8 @@ std::size_t ClusterSearch<D>::count_stopped() const {
   const auto count = static_cast<double>(at.multipliers.size());
   std::vector<Index> found;
   for (std::size_t i = 0; i < at.multipliers.size(); ++i) {
-    if (at.tau - at.values[i] > kNearTau * at.tau || at.multipliers[i] <= kNoticed / count) continue;
-    for (const Index v : mesh_.atoms()[solved_.local.atoms[i]].vertices)
+    if (!is_near(at, i, kNearTau) || at.multipliers[i] <= kNoticed / count) continue;
+    for (const Index v : atom(i).vertices)
       if (std::ranges::binary_search(stopped, v)) found.push_back(v);
   }
   sort_and_unique(found);
@@ -404,8 +443,27 @@ void ClusterSearch<D>::settle(Index worst, bool certified) {
     for (const Index v : mesh_.atoms()[a].vertices) state_.levels[v] = std::min(state_.levels[v], level);
   };
   set(worst);
-  for (std::size_t i = 0; i < at.multipliers.size(); ++i)
-    if (at.tau - at.values[i] <= kActiveSlack * at.tau || at.multipliers[i] > kActiveMultiplier) set(solved_.local.atoms[i]);
+  for (std::size_t i = 0; i < at.multipliers.size(); ++i) {
+    if (!is_near(at, i, kActiveSlack) && !(at.multipliers[i] > kActiveMultiplier)) continue;
+    if (i < solved_.local.atoms.size())
+      set(solved_.local.atoms[i]);
+    else if (certified)
+      for (const Index v : atom(i).vertices) state_.levels[v] = std::min(state_.levels[v], level);
+  }
+}
+
+/// Of the problem's atoms: the mesh's.
+template <int D>
+const Atom<D>& ClusterSearch<D>::atom(std::size_t local) const {
+  const std::size_t raised = solved_.local.atoms.size();
+  return local < raised ? mesh_.atoms()[solved_.local.atoms[local]] : first_->atoms()[solved_.local.limited[local - raised]];
+}
+
+/// Is an atom within a share of what its f is to stay below?
+template <int D>
+bool ClusterSearch<D>::is_near(const JointIterate<D>& at, std::size_t local, double share) const {
+  const double bound = solved_.local.problem.bound(local, at.tau);
+  return bound - at.values[local] <= share * bound;
 }
 
 // ---- what is told of it ----
@@ -414,6 +472,8 @@ template <int D>
 JointCluster ClusterSearch<D>::told(const std::vector<Index>& cluster) const {
   JointCluster result;
   result.vertices = cluster;
+  result.beyond = first_ != nullptr;
+  result.aim = aim();
   result.newton_steps = newton_steps_;
   result.solutions = solutions_;
   const double bound = solved_.solution.last.tau - solved_.solution.last.gap();
@@ -439,6 +499,12 @@ JointCluster ClusterSearch<D>::told(const std::vector<Index>& cluster) const {
 }
 
 template <int D>
+std::string ClusterSearch<D>::aim() const {
+  if (first_ == nullptr) return threshold_ < kInfinity ? fmt::format("the least {}", info(mesh_.metric()).name) : std::string();
+  return fmt::format("the least {} and keeps {} above {}", info(mesh_.metric()).name, info(first_->metric()).name, threshold_);
+}
+
+template <int D>
 void ClusterSearch<D>::tell_forces(JointCluster& result) const {
   const JointIterate<D>& at = solved_.solution.last;
   const auto count = static_cast<double>(at.multipliers.size());
@@ -447,14 +513,14 @@ void ClusterSearch<D>::tell_forces(JointCluster& result) const {
     if (multiplier > kNoticed / count) sum += multiplier;
   AtomDerivatives<D> derivatives;
   const auto& problem = solved_.local.problem;
-  // Local atoms go by element.
+  std::map<Index, double> active;  // by element
   for (std::size_t i = 0; i < at.multipliers.size(); ++i) {
     if (!(at.multipliers[i] > kNoticed / count)) continue;
-    const Atom<D>& atom = mesh_.atoms()[solved_.local.atoms[i]];
+    const Atom<D>& atom = this->atom(i);
     const double share = at.multipliers[i] / sum;
-    if (result.active.empty() || result.active.back().element != atom.element) result.active.push_back({atom.element, 0.0});
-    result.active.back().multiplier += share;
-    function_.derive(atom, displaced_edges<D>(problem, i, at.displacements), problem.reference(i), Curvature::Exact, derivatives);
+    active[atom.element] += share;
+    const AtomFunction<D>& function = i < problem.raised() ? function_ : *problem.limited;
+    function.derive(atom, displaced_edges<D>(problem, i, at.displacements), problem.reference(i), Curvature::Exact, derivatives);
     // Of q = 1 / f at f = tau, where all that hold the cluster nearly are.
     const double factor = -share * solved_.local.scale / (at.tau * at.tau);
     std::array<std::array<double, D>, D + 1> forces{};
@@ -465,6 +531,7 @@ void ClusterSearch<D>::tell_forces(JointCluster& result) const {
       }
     for (std::size_t k = 0; k <= D; ++k) result.forces.push_back({atom.element, atom.vertices[k], mesh_.lifted(forces[k])});
   }
+  for (const auto& [element, multiplier] : active) result.active.push_back({element, multiplier});
   std::ranges::stable_sort(result.active, [](const auto& a, const auto& b) {
     return a.multiplier != b.multiplier ? a.multiplier > b.multiplier : a.element < b.element;
   });

@@ -16,8 +16,9 @@ namespace dmoscope {
 template <int D>
 class ClusterSearch {
  public:
-  ClusterSearch(const JointMesh<D>& mesh, const JointSliding& sliding, std::span<Vec3> positions, JointState& state,
-                const JointOptions& options, Progress& progress);
+  /// `threshold`: of two aims, of the first one, which `mesh` is of, or `first`; else +infinity.
+  ClusterSearch(const JointMesh<D>& mesh, double threshold, const JointMesh<D>* first, const JointSliding& sliding,
+                std::span<Vec3> positions, JointState& state, const JointOptions& options, Progress& progress);
   ~ClusterSearch();  // takes back what is not finished
   ClusterSearch(const ClusterSearch&) = delete;
   ClusterSearch& operator=(const ClusterSearch&) = delete;
@@ -34,6 +35,7 @@ class ClusterSearch {
   };
 
   void begin();
+  void keep_first();
   [[nodiscard]] std::optional<Index> find_worst();
   [[nodiscard]] bool certified_minimum() const;
   bool next_pass();
@@ -43,17 +45,23 @@ class ClusterSearch {
   [[nodiscard]] JointCluster raise(Index worst);
   void solve(const std::vector<Index>& cluster, const InteriorPointOptions& options, bool may_leave);
   void commit();
-  [[nodiscard]] bool try_move(double share, bool& inverts, bool& stayed);
+  [[nodiscard]] bool try_move(double share, bool& less_may_do);
+  [[nodiscard]] bool first_stays_beyond() const;
   void measure_rim(const JointIterate<D>& at);
   [[nodiscard]] std::vector<Index> enlarged(const std::vector<Index>& cluster, int growth, int rings) const;
   void settle(Index worst, bool certified);
   [[nodiscard]] double reached() const;
   [[nodiscard]] JointCluster told(const std::vector<Index>& cluster) const;
   void tell_forces(JointCluster& result) const;
+  [[nodiscard]] std::string aim() const;
+  [[nodiscard]] const Atom<D>& atom(std::size_t local) const;
+  [[nodiscard]] bool is_near(const JointIterate<D>& at, std::size_t local, double share) const;
   [[nodiscard]] std::size_t count_stopped() const;
   [[nodiscard]] std::string why_not(const std::vector<Index>& cluster) const;
 
   const JointMesh<D>& mesh_;
+  const JointMesh<D>* first_;  // of two aims the first, where the second is raised; else null
+  double threshold_;
   const Domain* domain_;  // null: nothing slides
   std::optional<DeviationBound> limit_;
   std::span<Vec3> positions_;

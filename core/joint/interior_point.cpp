@@ -34,7 +34,11 @@ class InteriorPoint {
   [[nodiscard]] double value(std::size_t atom, const std::vector<Place>& displacements) const;
   void evaluate(std::size_t first, std::size_t end, const std::vector<Place>& displacements, std::vector<double>& values) const;
   [[nodiscard]] std::size_t at_once() const { return pool_ != nullptr ? kAtOnce : kAloneAtOnce; }
-  [[nodiscard]] double slack(std::size_t atom) const { return at_.tau - at_.values[atom]; }
+  [[nodiscard]] double slack(std::size_t atom) const { return problem_.bound(atom, at_.tau) - at_.values[atom]; }
+  [[nodiscard]] const AtomFunction<D>& function(std::size_t atom) const { return atom < raised_ ? function_ : *problem_.limited; }
+  [[nodiscard]] double worst() const {
+    return *std::max_element(at_.values.begin(), at_.values.begin() + static_cast<std::ptrdiff_t>(raised_));
+  }
   bool start();
   void choose_ways();
   void assemble(Curvature curvature);
@@ -49,6 +53,7 @@ class InteriorPoint {
 
   const JointProblem<D>& problem_;
   const AtomFunction<D>& function_;
+  std::size_t raised_;  // atoms, the first ones
   ThreadPool* pool_;
   AtomBlocks<D> system_;
   JointIterate<D> at_;
@@ -68,7 +73,7 @@ class InteriorPoint {
 
 template <int D>
 InteriorPoint<D>::InteriorPoint(const JointProblem<D>& problem, const AtomFunction<D>& function, ThreadPool* pool)
-    : problem_(problem), function_(function), pool_(pool), system_(problem, pool) {
+    : problem_(problem), function_(function), raised_(problem.raised()), pool_(pool), system_(problem, pool) {
   if (problem.path == nullptr) return;
   const auto bound = problem.path->bound();
   for (std::size_t a = 0; a < problem.atoms.size(); ++a)
@@ -78,7 +83,7 @@ InteriorPoint<D>::InteriorPoint(const JointProblem<D>& problem, const AtomFuncti
 
 template <int D>
 double InteriorPoint<D>::value(std::size_t atom, const std::vector<Place>& displacements) const {
-  return function_.value(problem_.atoms[atom], displaced_edges<D>(problem_, atom, displacements), problem_.reference(atom));
+  return function(atom).value(problem_.atoms[atom], displaced_edges<D>(problem_, atom, displacements), problem_.reference(atom));
 }
 
 /// Of some atoms.
@@ -90,7 +95,7 @@ void InteriorPoint<D>::evaluate(std::size_t first, std::size_t end, const std::v
   });
 }
 
-/// False where an f is infinite.
+/// False where an f is infinite, or not below its limit.
 template <int D>
 bool InteriorPoint<D>::start() {
   const std::size_t count = problem_.atoms.size();
@@ -98,11 +103,13 @@ bool InteriorPoint<D>::start() {
   at_.values.resize(count);
   at_.multipliers.resize(count);
   evaluate(0, count, at_.displacements, at_.values);
-  at_.worst = *std::ranges::max_element(at_.values);
+  at_.worst = worst();
   if (!std::isfinite(at_.worst)) return false;
+  for (std::size_t a = raised_; a < count; ++a)
+    if (!(slack(a) > 0.0)) return false;
   at_.tau = at_.worst + kFirstMargin * std::fabs(at_.worst);
   double sum = 0.0;
-  for (std::size_t a = 0; a < count; ++a) sum += 1.0 / slack(a);
+  for (std::size_t a = 0; a < raised_; ++a) sum += 1.0 / slack(a);
   at_.mu = 1.0 / sum;
   for (std::size_t a = 0; a < count; ++a) at_.multipliers[a] = at_.mu / slack(a);
   gradients_.resize(count);
@@ -120,8 +127,8 @@ void InteriorPoint<D>::choose_ways() {
   std::vector<double> forces(problem_.free_vertices * kD, 0.0);
   AtomDerivatives<D> derivatives;
   for (const std::size_t a : bound_atoms_) {
-    function_.derive(problem_.atoms[a], displaced_edges<D>(problem_, a, at_.displacements), problem_.reference(a), Curvature::Exact,
-                     derivatives);
+    function(a).derive(problem_.atoms[a], displaced_edges<D>(problem_, a, at_.displacements), problem_.reference(a), Curvature::Exact,
+                       derivatives);
     system_.add_gradient(a, -at_.mu / slack(a), derivatives.gradient, forces);
   }
   problem_.path->choose(forces);
@@ -139,8 +146,8 @@ void InteriorPoint<D>::assemble(Curvature curvature) {
   derivatives_.resize(2 * std::min(count, size));
   const auto derive = [&](std::size_t from, std::size_t to) {
     for (std::size_t a = from; a < to; ++a)
-      function_.derive(problem_.atoms[a], displaced_edges<D>(problem_, a, at_.displacements), problem_.reference(a), curvature,
-                       derivatives_[a % (2 * size)]);
+      function(a).derive(problem_.atoms[a], displaced_edges<D>(problem_, a, at_.displacements), problem_.reference(a), curvature,
+                         derivatives_[a % (2 * size)]);
   };
   derive(0, std::min(count, size));
   for (std::size_t first = 0; first < count; first += size) {
@@ -168,7 +175,7 @@ template <int D>
 typename InteriorPoint<D>::Damping InteriorPoint<D>::damping(std::size_t atom, const AtomDerivatives<D>& derivatives) const {
   Damping result{};
   const double multiplier = at_.multipliers[atom];
-  if (function_.convex_by_vertex()) {
+  if (function(atom).convex_by_vertex()) {
     for (std::size_t r = 0; r < kD; ++r) {
       double of_first = 0.0;
       for (std::size_t i = 0; i < kD; ++i) {
@@ -201,8 +208,9 @@ void InteriorPoint<D>::add_atom(std::size_t atom, const AtomDerivatives<D>& deri
     for (std::size_t j = 0; j < kEdges; ++j) h[i * kEdges + j] = multiplier * derivatives.hessian[i * kEdges + j] + ratio * g[i] * g[j];
   system_.add_hessian(atom, h, damped);
   system_.add_gradient(atom, barrier, g, force_);
-  system_.add_gradient(atom, ratio, g, tau_direction_);
   ratios_[atom] = ratio;
+  if (atom >= raised_) return;
+  system_.add_gradient(atom, ratio, g, tau_direction_);
   ratio_sum_ += ratio;
   barrier_sum_ += barrier;
 }
@@ -256,7 +264,7 @@ bool InteriorPoint<D>::search_line() {
     bool inside = true;
     for (std::size_t a = 0; a < new_values_.size() && inside; ++a) {
       if (a % at_once() == 0) evaluate(a, std::min(a + at_once(), new_values_.size()), trial_, new_values_);
-      const double left = (tau - new_values_[a]) / slack(a);
+      const double left = (problem_.bound(a, tau) - new_values_[a]) / slack(a);
       inside = left > kLeastSlack && std::isfinite(left);
       if (inside) slacks.multiply(left);
     }
@@ -268,7 +276,7 @@ bool InteriorPoint<D>::search_line() {
     at_.tau = tau;
     at_.displacements.swap(trial_);
     at_.values.swap(new_values_);
-    at_.worst = *std::ranges::max_element(at_.values);
+    at_.worst = worst();
     return true;
   }
   return false;
@@ -287,7 +295,7 @@ void InteriorPoint<D>::step_multipliers() {
         const double first = system_.is_free(a, 0) ? direction_[vertices[0] * kD + r] : 0.0;
         rise += gradients_[a][j * kD + r] * (other - first);
       }
-    changes_[a] = at_.mu / slack(a) - at_.multipliers[a] - ratios_[a] * (dtau_ - rise);
+    changes_[a] = at_.mu / slack(a) - at_.multipliers[a] - ratios_[a] * ((a < raised_ ? dtau_ : 0.0) - rise);
     if (changes_[a] < 0.0) longest = std::min(longest, -0.995 * at_.multipliers[a] / changes_[a]);
   }
   for (std::size_t a = 0; a < changes_.size(); ++a) at_.multipliers[a] += longest * changes_[a];

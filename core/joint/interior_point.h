@@ -1,6 +1,6 @@
 #pragma once
 // Raises the least quality of a set of atoms by moving all their free vertices together: minimises tau subject to f <= tau for every
-// atom's f, by a primal-dual interior point (Nocedal and Wright 2006, chapter 19).
+// atom's f, by a primal-dual interior point (Nocedal and Wright 2006, chapter 19). Other atoms may have limits of their own instead of tau.
 
 #include <functional>
 #include <span>
@@ -22,6 +22,12 @@ struct JointProblem {
   std::vector<AtomEdges<D>> edges;            // of each atom, undisplaced; about as long as 1
   std::vector<double> references;             // one an atom where AtomFunction reads them; else empty
   JointWays<D>* path = nullptr;               // of those that slide; null: all may go anywhere
+  std::vector<double> limits{};               // of the last atoms: their f stay below these, which they are at the begin
+  const AtomFunction<D>* limited = nullptr;   // whose f; null where there are none
+  /// Those that are raised.
+  [[nodiscard]] std::size_t raised() const { return atoms.size() - limits.size(); }
+  /// What an atom's f is to stay below.
+  [[nodiscard]] double bound(std::size_t atom, double tau) const { return atom < raised() ? tau : limits[atom - raised()]; }
   [[nodiscard]] double reference(std::size_t atom) const { return references.empty() ? 1.0 : references[atom]; }
 };
 
@@ -55,8 +61,8 @@ template <int D>
 struct JointIterate {
   std::vector<std::array<double, D>> displacements;  // of the free vertices
   std::vector<double> values;                        // f of each atom
-  std::vector<double> multipliers;                   // of each atom, > 0, their sum is about 1
-  double worst = 0.0;                                // greatest f
+  std::vector<double> multipliers;                   // of each atom, > 0; the sum of those that are raised is about 1
+  double worst = 0.0;                                // greatest f of those that are raised
   double tau = 0.0, mu = 0.0;                        // f < tau; multiplier * (tau - f) is about mu
   int steps = 0;                                     // Newton steps so far
   /// How far tau may be above the least possible, by duality; for convex f a bound, else an estimate.

@@ -40,8 +40,12 @@ class JointClusters::Base {
 template <int D>
 class JointClusters::Of final : public Base {
  public:
-  Of(const InputMesh& input, Metric metric, std::span<const std::uint8_t> fixed, JointSliding sliding)
-      : mesh_(input, metric, held(input, fixed, sliding.domain.get())), sliding_(std::move(sliding)) {}
+  Of(const InputMesh& input, const JointAims& aims, const std::vector<std::uint8_t>& fixed, JointSliding sliding)
+      : mesh_(input, aims.metric, fixed), sliding_(std::move(sliding)) {
+    if (!aims.combination) return;
+    threshold_ = aims.combination->threshold;
+    second_.emplace(input, std::get<Metric>(aims.combination->second), fixed);
+  }
   std::optional<JointCluster> raise_worst(std::span<Vec3> positions, JointState& state, const JointOptions& options,
                                           Progress& progress) const override {
     JointState next = state;
@@ -50,15 +54,21 @@ class JointClusters::Of final : public Base {
       return untangled;
     }
     if (options.only_untangle) return std::nullopt;
-    ClusterSearch<D> search(mesh_, sliding_, positions, next, options, progress);
-    std::optional<JointCluster> result = search.run();
+    std::optional<JointCluster> result;
+    if (!next.beyond) result = ClusterSearch<D>(mesh_, threshold_, nullptr, sliding_, positions, next, options, progress).run();
+    if (!result && second_) {
+      if (!next.beyond) next = {.clusters = next.clusters, .untanglings = next.untanglings, .beyond = true};
+      result = ClusterSearch<D>(*second_, threshold_, &mesh_, sliding_, positions, next, options, progress).run();
+    }
     state = std::move(next);
     return result;
   }
   [[nodiscard]] std::size_t free_vertices() const noexcept override { return mesh_.free_vertices().size(); }
   [[nodiscard]] bool fits(const JointState& state) const noexcept override {
+    if (state.beyond && !second_) return false;
     if (state.atoms.empty()) return state.levels.empty();
-    return state.atoms.size() == mesh_.atoms().size() && state.levels.size() == mesh_.input().mesh.vertex_count();
+    const std::size_t atoms = (state.beyond ? *second_ : mesh_).atoms().size();
+    return state.atoms.size() == atoms && state.levels.size() == mesh_.input().mesh.vertex_count();
   }
 
  private:
@@ -74,28 +84,35 @@ class JointClusters::Of final : public Base {
     return Untangler<D>(by_mean_ratio, mesh_.metric(), positions, state, options, progress).run();
   }
   JointMesh<D> mesh_;
+  std::optional<JointMesh<D>> second_;                          // of the second aim; none: there is one
+  double threshold_ = std::numeric_limits<double>::infinity();  // of the first
   JointSliding sliding_;
 };
 
-std::string why_not_joint(const InputMesh& input, Metric metric) {
+std::string why_not_joint(const InputMesh& input, const JointAims& aims) {
   const int dimension = input.is_volume() ? 3 : 2;
   KindSet kinds = 0;
   for (const ElementKind kind : input.mesh.elements.kinds())
     if (info(kind).dimension == dimension) kinds = static_cast<KindSet>(kinds | kind_set(kind));
-  const std::string obstacle = joint_obstacle(metric, kinds);
+  std::string obstacle = joint_obstacle(aims.metric, kinds);
+  if (aims.combination && obstacle.empty()) {
+    const auto* second = std::get_if<Metric>(&aims.combination->second);
+    obstacle = second != nullptr ? joint_obstacle(*second, kinds) : "the second of two aims can be a metric, but not density";
+  }
   return obstacle.empty() ? obstacle : "joint moves: " + obstacle;
 }
 
-void require_joint(const InputMesh& input, Metric metric) {
-  if (const std::string why_not = why_not_joint(input, metric); !why_not.empty()) throw UsageError(why_not);
+void require_joint(const InputMesh& input, const JointAims& aims) {
+  if (const std::string why_not = why_not_joint(input, aims); !why_not.empty()) throw UsageError(why_not);
 }
 
-JointClusters::JointClusters(const InputMesh& input, Metric metric, std::span<const std::uint8_t> fixed, JointSliding sliding) {
-  require_joint(input, metric);
+JointClusters::JointClusters(const InputMesh& input, const JointAims& aims, std::span<const std::uint8_t> fixed, JointSliding sliding) {
+  require_joint(input, aims);
+  const std::vector<std::uint8_t> stays = held(input, fixed, sliding.domain.get());
   if (input.in_space())
-    mesh_ = std::make_unique<Of<3>>(input, metric, fixed, std::move(sliding));
+    mesh_ = std::make_unique<Of<3>>(input, aims, stays, std::move(sliding));
   else
-    mesh_ = std::make_unique<Of<2>>(input, metric, fixed, std::move(sliding));
+    mesh_ = std::make_unique<Of<2>>(input, aims, stays, std::move(sliding));
 }
 JointClusters::~JointClusters() = default;
 JointClusters::JointClusters(JointClusters&&) noexcept = default;

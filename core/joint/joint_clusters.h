@@ -16,8 +16,18 @@
 #include "core/base/thread_pool.h"
 #include "core/input/input_mesh.h"
 #include "core/reference/domain.h"
+#include "core/smooth/composite_objective.h"
 
 namespace dmoscope {
+
+/// What joint moves raise: the least of a metric; or, of a combination of two, that up to the threshold, and then the least of the second
+/// among the elements whose vertices have nothing at or below the threshold around them, while the first stays above it there.
+struct JointAims {
+  Metric metric;
+  std::optional<Combination> combination{};
+  JointAims(Metric one) : metric(one) {}  // NOLINT(google-explicit-constructor): a metric is an aim
+  JointAims(Metric first, std::optional<Combination> both) : metric(first), combination(std::move(both)) {}
+};
 
 /// A Newton step, as a watcher sees it.
 struct JointStep {
@@ -52,6 +62,7 @@ struct JointState {
   double pass_began_at = 0.0;     // the minimum then
   std::uint32_t untanglings = 0;  // attempts to turn inverted elements, in vain or not
   bool pushed = false;
+  bool beyond = false;  // of two aims the second is raised now, and all the above is of that
   End end = End::None;
   friend bool operator==(const JointState&, const JointState&) = default;
 };
@@ -84,6 +95,8 @@ struct JointCluster {
   std::string why_not{};             // one sentence where it is not certified
   int newton_steps = 0, solutions = 0;
   bool is_push = false;
+  bool beyond = false;         // of two aims it is about the second
+  std::string aim{};           // of two aims, after "raises": "the least min-angle and keeps mean-ratio above 0.7"
   bool is_untangling = false;  // fewer elements are inverted; it has no bound, and nothing is active
 };
 
@@ -93,22 +106,23 @@ struct JointSliding {
   double max_deviation = 0.0;
 };
 
-/// Why vertices of a mesh cannot be moved jointly: see joint_obstacle(). Empty where they can.
-[[nodiscard]] std::string why_not_joint(const InputMesh& input, Metric metric);
+/// Why vertices of a mesh cannot be moved jointly: see joint_obstacle(); or the second aim is no metric. Empty where they can.
+[[nodiscard]] std::string why_not_joint(const InputMesh& input, const JointAims& aims);
 /// Throws UsageError with that.
-void require_joint(const InputMesh& input, Metric metric);
+void require_joint(const InputMesh& input, const JointAims& aims);
 
 /// The input must outlive it. It works in memory of its own, so one thread at a time.
 class JointClusters {
  public:
   /// `fixed`: one entry a vertex, non-zero where it may not move. Throws as require_joint() does.
-  JointClusters(const InputMesh& input, Metric metric, std::span<const std::uint8_t> fixed, JointSliding sliding = {});
+  JointClusters(const InputMesh& input, const JointAims& aims, std::span<const std::uint8_t> fixed, JointSliding sliding = {});
   ~JointClusters();
   JointClusters(JointClusters&&) noexcept;
   JointClusters& operator=(JointClusters&&) noexcept;
 
   /// Raises the worst open element with the vertices around it. `positions`: of the whole mesh, changed only where the least quality of the
-  /// elements that change rises, judged by the program's metric in double, and no more of them are inverted. Where elements are inverted,
+  /// elements that change rises, judged by the program's metric in double, and no more of them are inverted; of two aims the second only
+  /// where the first stays above its threshold. Where elements are inverted,
   /// the first calls untangle: fewer are inverted then, and the least quality is no lower; what slides stays in these. The vertices of what
   /// is left inverted stay.
   /// None: state.end says why there is nothing more to do. On Cancelled positions and state are as before.

@@ -105,17 +105,22 @@ std::vector<double> JointMesh<D>::qualities(std::span<const Vec3> positions) con
   return result;
 }
 
+/// Those with one of the vertices, ascending.
 template <int D>
-LocalProblem<D> JointMesh<D>::problem(std::span<const Index> free, std::span<const Vec3> positions) const {
-  LocalProblem<D> local;
-  local.problem.free_vertices = free.size();
-  local.vertices.assign(free.begin(), free.end());
-  for (const Index v : free) local.atoms.insert(local.atoms.end(), atoms_at(v).begin(), atoms_at(v).end());
-  sort_unique(local.atoms);
+std::vector<Index> JointMesh<D>::atoms_at(std::span<const Index> vertices) const {
+  std::vector<Index> atoms;
+  for (const Index v : vertices) atoms.insert(atoms.end(), atoms_at(v).begin(), atoms_at(v).end());
+  sort_unique(atoms);
+  return atoms;
+}
+
+/// Gives a problem more atoms, with edges in mesh units; returns the longest of their coordinates.
+template <int D>
+double JointMesh<D>::add_atoms(LocalProblem<D>& local, std::span<const Index> atoms, std::span<const Vec3> positions) const {
   std::vector<Index> number(input_->mesh.vertex_count(), kNoIndex);
-  for (std::size_t i = 0; i < free.size(); ++i) number[free[i]] = static_cast<Index>(i);
+  for (std::size_t i = 0; i < local.vertices.size(); ++i) number[local.vertices[i]] = static_cast<Index>(i);
   double longest = 0.0;
-  for (const Index a : local.atoms) {
+  for (const Index a : atoms) {
     Atom<D> atom = atoms_[a];
     local.problem.edges.push_back(edges(atom, positions));
     for (const auto& edge : local.problem.edges.back())
@@ -130,35 +135,67 @@ LocalProblem<D> JointMesh<D>::problem(std::span<const Index> free, std::span<con
     if (atom.shape == AtomShape::SurfaceTriangle) atom.vertices.back() = kNoIndex;
     local.problem.atoms.push_back(atom);
   }
+  return longest;
+}
+
+/// Brings the last atoms' edges into the problem's unit, and tells what else the problem knows of them and their vertices.
+template <int D>
+void JointMesh<D>::settle_atoms(LocalProblem<D>& local, std::size_t count, std::span<const Vec3> positions) const {
+  JointProblem<D>& problem = local.problem;
+  for (std::size_t a = problem.edges.size() - count; a < problem.edges.size(); ++a)
+    for (auto& edge : problem.edges[a])
+      for (double& x : edge) x *= local.scale;
+  if (function_.defined() != nullptr || !problem.references.empty()) set_references(local, count);
+  const auto frame = frame_of<D>(input_->geometry);
+  for (std::size_t i = problem.places.size(); i < local.vertices.size(); ++i) {
+    const auto from_first = frame.offset(positions[local.vertices[i]], positions[local.vertices[0]]);
+    if constexpr (D == 2)
+      problem.places.push_back({from_first.x, from_first.y});
+    else
+      problem.places.push_back({from_first.x, from_first.y, from_first.z});
+  }
+}
+
+template <int D>
+LocalProblem<D> JointMesh<D>::problem(std::span<const Index> free, std::span<const Vec3> positions) const {
+  LocalProblem<D> local;
+  local.problem.free_vertices = free.size();
+  local.vertices.assign(free.begin(), free.end());
+  local.atoms = atoms_at(free);
+  const double longest = add_atoms(local, local.atoms, positions);
   if (longest > 0.0) {
     int power = 0;
     (void)std::frexp(longest, &power);
     local.scale = std::ldexp(1.0, -power);
   }
-  for (AtomEdges<D>& each : local.problem.edges)
-    for (auto& edge : each)
-      for (double& x : edge) x *= local.scale;
-  if (function_.defined() != nullptr) set_references(local);
-  const auto frame = frame_of<D>(input_->geometry);
-  for (const Index v : local.vertices) {
-    const auto from_first = frame.offset(positions[v], positions[local.vertices[0]]);
-    if constexpr (D == 2)
-      local.problem.places.push_back({from_first.x, from_first.y});
-    else
-      local.problem.places.push_back({from_first.x, from_first.y, from_first.z});
-  }
+  settle_atoms(local, local.atoms.size(), positions);
   return local;
 }
 
-/// See DefinedAtoms: the scale, and of guards their mean ratio in units of the worst atom's.
 template <int D>
-void JointMesh<D>::set_references(LocalProblem<D>& local) const {
+void JointMesh<D>::limit(LocalProblem<D>& local, double quality, std::span<const Vec3> positions) const {
+  constexpr double kRoom = 1e-9;  // of what rounding puts beyond its limit
   JointProblem<D>& problem = local.problem;
-  problem.references.assign(problem.atoms.size(), local.scale);
+  local.limited = atoms_at(local.free());
+  (void)add_atoms(local, local.limited, positions);
+  settle_atoms(local, local.limited.size(), positions);
+  problem.limited = &function_;
+  const std::size_t raised = problem.atoms.size() - local.limited.size();
+  for (std::size_t a = raised; a < problem.atoms.size(); ++a)
+    problem.limits.push_back(
+        std::max(function_.inverse_of(quality), (1.0 + kRoom) * function_.value(problem.atoms[a], problem.edges[a], problem.reference(a))));
+}
+
+/// See DefinedAtoms: the scale, and of guards their mean ratio in units of the worst atom's. Of the last atoms.
+template <int D>
+void JointMesh<D>::set_references(LocalProblem<D>& local, std::size_t count) const {
+  JointProblem<D>& problem = local.problem;
+  problem.references.resize(problem.atoms.size(), local.scale);
+  const std::size_t first = problem.atoms.size() - count;
   double worst = 0.0;
-  for (std::size_t a = 0; a < problem.atoms.size(); ++a)
+  for (std::size_t a = first; a < problem.atoms.size(); ++a)
     if (problem.atoms[a].piece != kGuardPiece) worst = std::max(worst, function_.value(problem.atoms[a], problem.edges[a], local.scale));
-  for (std::size_t a = 0; a < problem.atoms.size(); ++a)
+  for (std::size_t a = first; a < problem.atoms.size(); ++a)
     if (problem.atoms[a].piece == kGuardPiece)
       problem.references[a] = worst / function_.defined()->guard(problem.atoms[a], problem.edges[a]);
 }

@@ -14,7 +14,8 @@ template <int D>
 struct LocalProblem {
   JointProblem<D> problem;
   std::vector<Index> vertices;  // the mesh's vertex for each of the problem's, first those that may move, ascending
-  std::vector<Index> atoms;     // the mesh's atom for each of the problem's, ascending
+  std::vector<Index> atoms;     // the mesh's atom for each of the problem's that are raised, ascending
+  std::vector<Index> limited;   // likewise for those with limits, of the JointMesh whose limits they are
   double scale = 1.0;           // the problem's unit of length in a mesh unit: a power of two
   [[nodiscard]] std::span<const Index> free() const { return std::span(vertices).first(problem.free_vertices); }
 };
@@ -52,6 +53,8 @@ class JointMesh {
   /// 1 / f of every atom, by function(); 0 where it is not positive; +infinity where a part of its element that cannot move is no better,
   /// and of guards.
   [[nodiscard]] std::vector<double> qualities(std::span<const Vec3> positions) const;
+  /// Gives a problem of a JointMesh of another metric the atoms at its free vertices, whose qualities stay above this one where they are.
+  void limit(LocalProblem<D>& local, double quality, std::span<const Vec3> positions) const;
   /// `free`: ascending. All other vertices stay.
   [[nodiscard]] LocalProblem<D> problem(std::span<const Index> free, std::span<const Vec3> positions) const;
   /// Where a vertex comes to stand that the problem displaced.
@@ -74,7 +77,10 @@ class JointMesh {
   JudgedMove move_to(const LocalProblem<D>& local, std::span<const Vec3> targets, std::span<Vec3> positions, Metric metric) const;
 
  private:
-  void set_references(LocalProblem<D>& local) const;
+  [[nodiscard]] std::vector<Index> atoms_at(std::span<const Index> vertices) const;
+  double add_atoms(LocalProblem<D>& local, std::span<const Index> atoms, std::span<const Vec3> positions) const;
+  void settle_atoms(LocalProblem<D>& local, std::size_t count, std::span<const Vec3> positions) const;
+  void set_references(LocalProblem<D>& local, std::size_t count) const;
 
   const InputMesh* input_;
   Metric metric_;

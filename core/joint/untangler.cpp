@@ -64,7 +64,7 @@ std::optional<JointCluster> Untangler<D>::run() {
   if (moved_from_.empty()) return std::nullopt;
   state_.atoms.clear();  // what is known of elements is of before
   state_.levels.clear();
-  state_.pushed = false;
+  state_.pushed = state_.beyond = false;
   state_.end = JointState::End::None;
   ++state_.clusters;
   return told();

@@ -24,6 +24,7 @@ struct JointFigures {
   double bound = 0.0, gap = 0.0;                // likewise
   Index vertices = 0;                           // of the cluster
   int newton_steps = 0;
+  bool beyond = false;  // likewise
 };
 
 struct IterationRecord {

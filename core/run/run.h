@@ -58,6 +58,7 @@ struct Outcome {
   Index inverted = 0;                   // elements, at the end
   std::optional<std::uint64_t> best{};  // the iteration that end_at_best() went back to
   ConvergenceLimits limits;
+  bool two_aims = false;  // of a combination
   /// "converged: no vertex moved any more; the minimum last rose in iteration 9"
   [[nodiscard]] std::string sentence() const;
 };

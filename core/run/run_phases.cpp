@@ -97,7 +97,7 @@ std::shared_ptr<const JointStanding> Run::joint_standing() const {
 
 JointClusters& Run::joint_clusters() {
   if (!joint_clusters_)
-    joint_clusters_ = std::make_unique<JointClusters>(*input_, parameters_.metric, fixed_,
+    joint_clusters_ = std::make_unique<JointClusters>(*input_, JointAims(parameters_.metric, parameters_.combination), fixed_,
                                                       JointSliding{domain_, parameters_.max_deviation * input_->geometry.size});
   return *joint_clusters_;
 }
@@ -137,7 +137,7 @@ void Run::end_joint_iteration(std::span<const Vec3> positions, const JointIterat
     const JointCluster& cluster = *done.cluster;
     figures = {JointState::End::None, cluster.certified, cluster.is_push,
                cluster.bound,         cluster.gap,       static_cast<Index>(cluster.vertices.size()),
-               cluster.newton_steps};
+               cluster.newton_steps,  cluster.beyond};
     moved = cluster.moved.size();
   } else {
     figures.end = done.rest.end;

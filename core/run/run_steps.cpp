@@ -33,9 +33,12 @@ std::string Outcome::sentence() const {
       return fmt::format("converged: neither the minimum nor {} rose by {} in {} iterations; {}",
                          phases.mean_since ? "the mean" : "the movable minimum", limits.rise, limits.patience, rose);
     case StopReason::Certified:
-      return fmt::format("converged: the minimum is certified, no joint move raises it; {}", rose);
+      return fmt::format("converged: {}; {}",
+                         two_aims ? "what joint moves reach of the second aim is certified, with the first as it is"
+                                  : "the minimum is certified, no joint move raises it",
+                         rose);
     case StopReason::NoJointGain:
-      return fmt::format("converged: joint moves raise the minimum no further; {}", rose);
+      return fmt::format("converged: joint moves raise {} no further; {}", two_aims ? "the two aims" : "the minimum", rose);
     case StopReason::IterationLimit:
       break;
   }
@@ -271,7 +274,7 @@ bool Run::copy_unkept(std::vector<Vec3>& copy) const {
 /// `from`: the iteration that counts as the begin; those behind it that were done before are gone through by their records.
 Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, std::uint64_t from, Progress& progress,
                      const AfterIteration& after) {
-  Outcome outcome{.limits = limits};
+  Outcome outcome{.limits = limits, .two_aims = parameters_.combination.has_value()};
   recover();
   // A second phase must not begin while the first may still gain. Where none has begun, the iterations so far are those of any patience.
   if (std::optional<PhaseBegin>& next = parameters_.then_joint ? parameters_.then_joint : parameters_.then_mean;

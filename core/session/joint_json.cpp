@@ -26,18 +26,21 @@ std::string_view word(JointState::End end) { return kEnds[static_cast<std::size_
 }  // namespace
 
 StateJson joint_json(const JointFigures& f) {
-  return {word(f.end), f.certified, f.is_push, number_in_json(f.bound), number_in_json(f.gap), f.vertices, f.newton_steps};
+  StateJson json{word(f.end), f.certified, f.is_push, number_in_json(f.bound), number_in_json(f.gap), f.vertices, f.newton_steps};
+  if (f.beyond) json.push_back(true);
+  return json;
 }
 
 JointFigures to_joint_figures(const StateJson& json) {
-  if (!json.is_array() || json.size() != 7) throw UsageError("joint moves of an iteration have 7 values");
+  if (!json.is_array() || json.size() < 7 || json.size() > 8) throw UsageError("joint moves of an iteration have 7 or 8 values");
   return {to_end(json[0]),
           json[1].get<bool>(),
           json[2].get<bool>(),
           to_double(json[3]),
           to_double(json[4]),
           to_index(json[5]),
-          static_cast<int>(std::min<std::uint64_t>(to_whole(json[6]), 1U << 30U))};
+          static_cast<int>(std::min<std::uint64_t>(to_whole(json[6]), 1U << 30U)),
+          json.size() == 8 && json[7].get<bool>()};
 }
 
 StateJson joint_json(const JointState& state) {
@@ -50,14 +53,16 @@ StateJson joint_json(const JointState& state) {
   }
   for (std::size_t v = 0; v < state.levels.size(); ++v)
     if (state.levels[v] != kNoLevel) levels.push_back({v, number_in_json(state.levels[v])});
-  return {{"atoms", atoms},
-          {"levels", levels},
-          {"clusters", state.clusters},
-          {"passes", state.passes},
-          {"untanglings", state.untanglings},
-          {"pass_began_at", number_in_json(state.pass_began_at)},
-          {"pushed", state.pushed},
-          {"end", word(state.end)}};
+  StateJson json{{"atoms", atoms},
+                 {"levels", levels},
+                 {"clusters", state.clusters},
+                 {"passes", state.passes},
+                 {"untanglings", state.untanglings},
+                 {"pass_began_at", number_in_json(state.pass_began_at)},
+                 {"pushed", state.pushed},
+                 {"end", word(state.end)}};
+  if (state.beyond) json["beyond"] = true;
+  return json;
 }
 
 JointState to_joint_state(const StateJson& json, std::size_t vertices) {
@@ -83,6 +88,7 @@ JointState to_joint_state(const StateJson& json, std::size_t vertices) {
   if (json.contains("untanglings")) state.untanglings = to_index(json.at("untanglings"));  // older files have none
   state.pass_began_at = to_double(json.at("pass_began_at"));
   state.pushed = json.at("pushed").get<bool>();
+  state.beyond = json.value("beyond", false);
   state.end = to_end(json.at("end"));
   return state;
 }

@@ -45,7 +45,7 @@ struct SmoothingTask {
   Metric metric = Metric::MeanRatio;
   SearchParameters search{};
   MethodOptions options{};
-  std::optional<Combination> combination{};  // dmo alone: `metric` is its first one
+  std::optional<Combination> combination{};  // dmo and joint: `metric` is its first one
   std::shared_ptr<const SizeField> size{};   // of a combination with a size function
   bool then_joint = false;                   // whether a phase of joint moves may come, which is the run's
   bool then_mean = false;                    // whether a phase may come that raises the mean, see Sweep

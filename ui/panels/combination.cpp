@@ -1,4 +1,6 @@
 // Left, below the parameters: what the active run aims at besides its metric's minimum.
+#include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
@@ -29,12 +31,23 @@ Vec3 middle(const InputMesh& input) {
   return (1.0 / std::max<double>(1.0, static_cast<double>(input.mesh.positions.size()))) * sum;
 }
 
+bool moves_jointly(const RunParameters& p) { return p.then_joint || method_info(p.method).joint; }
+
+/// To begin with: joint moves know metrics alone.
+Combination usual(const PanelContext& context, const RunParameters& p) {
+  Combination combination;
+  const auto other = std::ranges::find_if(context.derived.metrics, [&p](Metric one) { return one != p.metric; });
+  if (moves_jointly(p) && other != context.derived.metrics.end()) combination.second = *other;
+  return combination;
+}
+
 void draw_second(PanelContext& context, const RunParameters& p) {
   labelled(context, "second aim", "what counts once the first metric is above its threshold", metric_combo_width(context));
   const auto* metric = std::get_if<Metric>(&p.combination->second);
   Combo combo(context, "second-aim", metric != nullptr ? metric_title(*metric) : "Density");
   if (!combo.open()) return;
-  if (combo.entry("density", "Density", metric == nullptr,
+  if (!moves_jointly(p) &&
+      combo.entry("density", "Density", metric == nullptr,
                   "sizes of elements after a size function: each vertex goes for the mean of its neighbours, weighted by 1 / size"))
     say(context, p.metric, with(*p.combination, {}));
   for (const Metric one : context.derived.metrics)
@@ -99,8 +112,8 @@ void draw_size(PanelContext& context, const RunView& run, const SizeFunction& si
 namespace {
 
 bool joint_possible(const RunView& run) {
-  return run.input && !run.parameters.combination && !method_info(run.parameters.method).joint &&
-         why_not_joint(*run.input, run.parameters.metric).empty();
+  const RunParameters& p = run.parameters;
+  return run.input && !method_info(p.method).joint && why_not_joint(*run.input, {p.metric, p.combination}).empty();
 }
 
 void draw_phases(PanelContext& context, const RunView& run) {
@@ -127,11 +140,11 @@ void draw_phases(PanelContext& context, const RunView& run) {
 void draw_composite(PanelContext& context, const RunView& run) {
   const RunParameters& p = run.parameters;
   draw_phases(context, run);
-  if (!method_info(p.method).optimises || method_info(p.method).joint || p.then_joint) return;
+  if (!method_info(p.method).optimises) return;
   bool combined = p.combination.has_value();
   if (ImGui::Checkbox("combine", &combined)) {
     if (combined)
-      say(context, p.metric, {});
+      say(context, p.metric, usual(context, p));
     else
       context.send("combine off");
   }

@@ -248,7 +248,7 @@ class Builder {
         Series bound = series_of_run(k, "bound", 2.0);
         bound.width = 1.2;
         add_course(k, std::move(bound), [](const IterationRecord& record) {
-          const bool known = record.joint && record.joint->end == JointState::End::None;
+          const bool known = record.joint && record.joint->end == JointState::End::None && !record.joint->beyond;
           return known ? record.joint->bound : std::numeric_limits<double>::quiet_NaN();
         });
         add_to_legend(plot_.series.back(), "what the cluster that moved can reach at most, by duality");

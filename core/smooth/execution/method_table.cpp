@@ -98,6 +98,10 @@ const MethodInfo& method_info(std::string_view name) {
   throw UsageError(unknown_row("method", name, kMethods));
 }
 
+bool can_combine(const MethodInfo& method, const Combination& combination) {
+  return method.optimises && !(method.joint && combination.size() != nullptr);
+}
+
 std::optional<std::uint64_t> still_iterations(const MethodInfo& method, const MethodOptions& options, bool volume) {
   if (!method.has_directions) return 1;
   const std::uint64_t axes = volume ? 3 : 2;
@@ -118,8 +122,7 @@ void require_possible(const SmoothingTask& task) {
   for (const Refusal& refusal : kRefusals)
     if (refusal.applies(task)) throw UsageError(std::string(refusal.why));
   if (!moves_jointly(task)) return;
-  if (task.combination) throw UsageError("joint moves have one aim, and a combination two");
-  require_joint(*task.input, task.metric);
+  require_joint(*task.input, {task.metric, task.combination});
 }
 
 std::unique_ptr<Smoother> make_smoother(const SmoothingTask& task) {

@@ -28,6 +28,9 @@ struct MethodInfo {
 /// Throws UsageError that lists the known ones.
 [[nodiscard]] const MethodInfo& method_info(std::string_view name);
 
+/// Can the method optimise such a combination? Joint moves know metrics alone.
+[[nodiscard]] bool can_combine(const MethodInfo& method, const Combination& combination);
+
 /// What cannot be together, and why: all other mixes of method, objective, boundary and phases work, but for what joint moves cannot split
 /// into smooth pieces (see why_not_joint).
 struct Refusal {

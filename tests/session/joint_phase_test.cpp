@@ -108,15 +108,23 @@ TEST_P(JointPhaseOf, HasTheSameBitsWhicheverWayItIsReached) {
   }
 }
 
-TEST(JointPhase, GoesOnWithTheSameBitsAfterItWasSaved) {
+/// Some iterations of joint moves, saved and opened: `beyond`: once the second of two aims is raised.
+void expect_the_same_after_it_was_saved(const RunParameters& parameters, bool beyond) {
   const test::TemporaryFolder folder;
   const std::string file = (folder / "session.json").string();
   Progress progress;
   Session session(1), other(1);
   session.generate("random 400 7", progress);
-  (void)session.change(then_joint());
+  (void)session.change(parameters);
   dmoscope::Run& run = session.active();
-  while (!run.joint_since() || run.moment().iteration < *run.joint_since() + 2) run.iterate(1, progress);
+  const auto is_there = [&] {
+    const auto& last = run.history().records().back();
+    return run.joint_since() && run.moment().iteration >= *run.joint_since() + 2 && last.joint->beyond == beyond;
+  };
+  while (!is_there()) {
+    ASSERT_LT(run.moment().iteration, 200U);
+    run.iterate(1, progress);
+  }
   save_state(file, session, {}, progress);
   (void)open_state(file, other, progress, session.input());
   EXPECT_EQ(other.active().parameters(), run.parameters());
@@ -127,6 +135,13 @@ TEST(JointPhase, GoesOnWithTheSameBitsAfterItWasSaved) {
     for (dmoscope::Run* one : {&run, &other.active()}) one->seek({iteration}, progress);
     EXPECT_TRUE(same_bits(other.active().positions(), run.positions())) << iteration;
   }
+}
+
+TEST(JointPhase, GoesOnWithTheSameBitsAfterItWasSaved) {
+  expect_the_same_after_it_was_saved(then_joint(), false);
+  RunParameters both = then_joint();
+  both.combination = Combination{0.3, Metric::MinAngle};
+  expect_the_same_after_it_was_saved(both, true);
 }
 
 TEST(JointPhase, ACancelledClusterIsAsIfItHadNotBegun) {

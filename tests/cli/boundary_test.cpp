@@ -30,8 +30,7 @@ TEST(BoundaryOnTheCommandLine, SlidesAndIsSaid) {
   EXPECT_THAT(said.out, HasSubstr("slide along the boundary, and "));
   for (const auto& wrong : {std::vector<std::string>{"--boundary", "up"},
                             {"--boundary", "slide", "--corner-angle", "0"},
-                            {"--boundary", "slide", "--max-deviation", "2"},
-                            {"--boundary", "slide", "--method", "dvr"}}) {
+                            {"--boundary", "slide", "--max-deviation", "2"}}) {
     std::vector<std::string> words{"smooth", in, "-o", folder / "d.14"};
     words.insert(words.end(), wrong.begin(), wrong.end());
     EXPECT_EQ(run(words).code, 2) << wrong.back();

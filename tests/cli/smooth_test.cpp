@@ -259,8 +259,9 @@ TEST(Smooth, CurvedSurfaces) {
   const auto json = smooth(bent, folder / "out.off", {"--iterations", "5"});
   EXPECT_EQ(json["sliding"], 1);
   EXPECT_GT(json["after"]["minimum"], json["before"]["minimum"]);
+  // Only along the fold is there a place as near to the surface: dvr takes it by the axes.
   for (const char* method : {"active-set", "dvr", "pattern-search"}) {
-    const auto other = smooth(bent, folder / "other.off", {"--iterations", "5", "--method", method});
+    const auto other = smooth(bent, folder / "other.off", {"--iterations", "5", "--method", method, "--directions", "axes"});
     EXPECT_GT(other["after"]["minimum"], other["before"]["minimum"]) << method;
   }
 }

@@ -63,7 +63,7 @@ TEST(Usage, IsRefusedWithTwo) {
       {"smooth", in, "-o", out, "--metric", "beauty"},
       {"smooth", in, "-o", out, "--metric", "scaled-jacobian", "extra"},
       {"smooth", in, "-o", out, "--method", "magic"},
-      {"smooth", in, "-o", out, "--method", "dvr", "--metric", "min-angle"},
+      {"smooth", in, "-o", out, "--method", "laplace", "--combine", "mean-ratio:0.5:min-angle"},
       {"smooth", in, "-o", out, "--method", "laplace", "--backend", "cuda"},
       {"smooth", in, "-o", out, "--method", "laplace", "--relaxation", "1.5"},
       {"smooth", in, "-o", out, "--method", "dvr", "--directions", "up"},

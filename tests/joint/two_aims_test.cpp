@@ -220,7 +220,7 @@ TEST(JointByTwoAims, DensityIsRefusedInWords) {
     (void)testing::make_run(mesh, two_aims("mean-ratio:0.5:density"));
     ADD_FAILURE() << "it was not refused";
   } catch (const UsageError& error) {
-    EXPECT_STREQ(error.what(), "joint moves: the second of two aims can be a metric, but not density");
+    EXPECT_STREQ(error.what(), "joint moves raise the least of something over all elements, and a density is none");
   }
 }
 

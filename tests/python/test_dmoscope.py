@@ -310,7 +310,7 @@ def test_options_are_heard_or_refused():
     points, triangles, _ = sheet()
     mesh = dmoscope.Mesh(points, {"triangle": triangles})
     for options in (dict(max_iterations=2), dict(patience=3), dict(recipe="best", method="laplace"), dict(iterations=3, until_converged=True),
-                    dict(combine="mean-ratio:0.7:min-angle", then="mean")):
+                    dict(combine="mean-ratio:0.7:density", then="mean")):
         with pytest.raises(dmoscope.UsageError):
             dmoscope.smooth(mesh, **options)
     assert any("until-converged" in told for told in dmoscope.smooth(mesh, iterations=2, then="mean").warnings)

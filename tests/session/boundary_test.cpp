@@ -105,8 +105,8 @@ TEST_F(BoundaryInASession, WhatCannotBeIsRefused) {
   for (const char* line : {"boundary up", "corner-angle 0", "corner-angle 181", "max-deviation -1", "max-deviation 1.5"})
     EXPECT_TRUE(fails(line)) << line;
   say("boundary slide");
-  EXPECT_TRUE(fails("method dvr"));
-  EXPECT_EQ(session_.active().parameters().method, "dmo");
+  say("method dvr");
+  EXPECT_EQ(session_.active().parameters().method, "dvr");
   say("generate globe 300 1");
   EXPECT_TRUE(fails("boundary slide"));
   EXPECT_EQ(boundary(), "fixed");

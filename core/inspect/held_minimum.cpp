@@ -94,7 +94,9 @@ class Look {
     if (!all.empty()) attempt("switches that could free it", 0.1, [&] { try_switches(found, all, best); });
     const bool stays = std::ranges::all_of(found.vertices, [](const HeldVertex& one) { return is_fixed(one.by); });
     const bool is_moot = stays || (found.rises() && !q_.joint_where_it_rises);
-    if (q_.task.combination) attempt("a higher threshold", 0.4, [&] { try_threshold(found, best); });
+    // Below the threshold the second aim does not count yet: what more iterations raise there, the threshold does not hold.
+    if (q_.task.combination && (!found.rises() || !(found.quality < q_.task.combination->threshold)))
+      attempt("a higher threshold", 0.4, [&] { try_threshold(found, best); });
     if (q_.joint && (found.change || !is_moot)) attempt("joint moves", 0.5, [&] { try_joint(found, best); });
     if (!found.change && !found.rises() && !all.empty()) attempt("two switches together", 0.7, [&] { try_pairs(found, all); });
     if (found.change) std::erase_if(found.in_vain, [&](const HoldSwitch& one) { return one.frees == found.change->frees; });

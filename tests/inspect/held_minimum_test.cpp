@@ -223,5 +223,19 @@ TEST(WhatHolds, AnyMethodIsOfferedToSlide) {
   EXPECT_TRUE(held.change);
 }
 
+/// A run by two aims that has just begun: the worst element is below the threshold, and more iterations raise it.
+TEST(WhatHolds, BelowTheThresholdOfTwoAimsMoreIterationsRaiseIt) {
+  for (const char* method : {"dmo", "dvr", "active-set"}) {
+    RunParameters parameters;
+    parameters.method = method;
+    parameters.combination = Combination{0.75, Metric::MinAngle};
+    const dmoscope::Run run = run_of(lattice(8, 0.45, 3), parameters, 1);
+    const HeldMinimum held = held_of(run);
+    ASSERT_LT(held.quality, 0.75) << method;
+    EXPECT_TRUE(held.rises()) << method;
+    EXPECT_NE(held.by, Holding::Threshold) << method;
+  }
+}
+
 }  // namespace
 }  // namespace dmoscope

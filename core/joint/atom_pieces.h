@@ -10,7 +10,7 @@ namespace dmoscope::pieces {
 
 using formulas::RealOf;
 
-/// Where the edges of a piece begin.
+/// The first vertex of a piece, from which its edges lead.
 template <class V>
 [[nodiscard]] V origin(V /*edge*/) {
   return V{};

@@ -20,7 +20,7 @@
 
 namespace dmoscope {
 
-/// What an atom's edges are compared with: those of the ideal element there. The last two are of curved surfaces, in space.
+/// The ideal element whose edges an atom's are compared with. The last two belong to curved surfaces, in space.
 enum class AtomShape : std::uint8_t {
   Triangle,
   SquareCorner,

@@ -3,11 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
-#include <fmt/format.h>
-
-#include "core/base/same_bits.h"
 #include "core/joint/defined_atoms.h"
 #include "core/quality/quality.h"
 
@@ -20,13 +16,10 @@ constexpr int kFirstRings = 3, kMostRings = 64;
 constexpr int kMostHalvings = 4;  // of a way that would invert elements
 constexpr int kThirdGrowth = 2;   // from this growth on a cluster may become the whole mesh
 constexpr double kEarlyGap = 0.05, kEarlyRim = 0.02;
-constexpr double kClosedRim = 5e-4;  // share of the multipliers on the rim below which nothing outside holds the cluster
-constexpr double kNearTau = 0.05;    // an atom further below tau does not hold the cluster
 constexpr double kActiveSlack = 2e-3, kActiveMultiplier = 0.01;
 constexpr double kSameLevel = 1e-3, kSameMinimum = 1e-4;  // relative
 constexpr double kLeastGain = 1e-4;                       // of the minimum, in a pass
 constexpr double kPassBand = 0.01;                        // how far above the minimum a pass looks, relative
-constexpr double kNoticed = 0.01;                         // of the mean multiplier
 constexpr double kBeyond = 0.01;                          // how far beyond the threshold the first of two aims is raised, relative
 constexpr double kAbove = 1e-9;                           // and how far above it kept, for what rounding takes
 
@@ -386,41 +379,6 @@ JointCluster ClusterSearch<D>::raise(Index worst) {
   return result;
 }
 
-template <int D>
-std::string ClusterSearch<D>::why_not(const std::vector<Index>& cluster) const {
-  const JointSolution<D>& solution = solved_.solution;
-  if (holds_) return "with those that slide no step was found that leads further";
-  if (solution.end == InteriorPointEnd::Steps) return fmt::format("{} Newton steps did not suffice", options_.max_steps);
-  if (solution.end == InteriorPointEnd::Enough) return "it is beyond the threshold, where the second aim counts";
-  if (solution.end != InteriorPointEnd::Gap) return "no step was found that leads further";
-  if (!(solved_.rim_share < kClosedRim))
-    return fmt::format("{:.2g} % of what holds it lies on the rim of the {} vertices, and {}", 100.0 * solved_.rim_share, cluster.size(),
-                       options_.cluster_at_most > 0 ? "no more are tried here" : "they are as many as may move together");
-  const double bound = 1.0 / (solution.last.tau - solution.last.gap());
-  if (const std::size_t stopped = count_stopped(); stopped > 0)
-    return fmt::format("{} holds {} of those that slide", D == 2 ? "the bound of deviation" : "the bound of deviation, or a feature edge,",
-                       stopped);
-  if (!(bound - reached() <= 4.0 * options_.gap * bound)) return "the metric as judged did not rise as the solution did";
-  return {};
-}
-
-/// How many vertices of what holds the cluster are drawn to where the bound of deviation does not let them go.
-template <int D>
-std::size_t ClusterSearch<D>::count_stopped() const {
-  if (solved_.local.problem.path == nullptr) return 0;
-  const std::vector<Index> stopped = solved_.path->stopped();
-  const JointIterate<D>& at = solved_.solution.last;
-  const auto count = static_cast<double>(at.multipliers.size());
-  std::vector<Index> found;
-  for (std::size_t i = 0; i < at.multipliers.size(); ++i) {
-    if (!is_near(at, i, kNearTau) || at.multipliers[i] <= kNoticed / count) continue;
-    for (const Index v : atom(i).vertices)
-      if (std::ranges::binary_search(stopped, v)) found.push_back(v);
-  }
-  sort_and_unique(found);
-  return found.size();
-}
-
 /// 1 / the greatest f of the cluster's atoms where the vertices stand now.
 template <int D>
 double ClusterSearch<D>::reached() const {
@@ -452,100 +410,18 @@ void ClusterSearch<D>::settle(Index worst, bool certified) {
   }
 }
 
-/// Of the problem's atoms: the mesh's.
+/// The mesh's atom for one of the problem's.
 template <int D>
 const Atom<D>& ClusterSearch<D>::atom(std::size_t local) const {
   const std::size_t raised = solved_.local.atoms.size();
   return local < raised ? mesh_.atoms()[solved_.local.atoms[local]] : first_->atoms()[solved_.local.limited[local - raised]];
 }
 
-/// Is an atom within a share of what its f is to stay below?
+/// Whether an atom's f is within a share of its bound.
 template <int D>
 bool ClusterSearch<D>::is_near(const JointIterate<D>& at, std::size_t local, double share) const {
   const double bound = solved_.local.problem.bound(local, at.tau);
   return bound - at.values[local] <= share * bound;
-}
-
-// ---- what is told of it ----
-
-template <int D>
-JointCluster ClusterSearch<D>::told(const std::vector<Index>& cluster) const {
-  JointCluster result;
-  result.vertices = cluster;
-  result.beyond = first_ != nullptr;
-  result.aim = aim();
-  result.newton_steps = newton_steps_;
-  result.solutions = solutions_;
-  const double bound = solved_.solution.last.tau - solved_.solution.last.gap();
-  result.bound = function_.quality_of(bound);
-  const double least = reached();
-  result.gap = std::max(0.0, (1.0 / bound - least) / least);
-
-  std::vector<Vec3> old(positions_.begin(), positions_.end());
-  for (auto move = moved_from_.rbegin(); move != moved_from_.rend(); ++move) old[move->first] = move->second;
-  for (const Index v : cluster)
-    if (!same_bits(old[v], positions_[v])) result.moved.push_back({v, positions_[v]});
-  const QualityContext context = mesh_.input().quality_context();
-  result.before = result.after = kInfinity;
-  for (const Index e : mesh_.elements_at(cluster)) {
-    const double before = element_quality(context, old, mesh_.metric(), e);
-    const double after = element_quality(context, std::span<const Vec3>(positions_), mesh_.metric(), e);
-    if (before == after) continue;
-    result.before = std::min(result.before, before);
-    result.after = std::min(result.after, after);
-  }
-  tell_forces(result);
-  return result;
-}
-
-template <int D>
-std::string ClusterSearch<D>::aim() const {
-  if (first_ == nullptr) return threshold_ < kInfinity ? fmt::format("the least {}", info(mesh_.metric()).name) : std::string();
-  return fmt::format("the least {} and keeps {} above {}", info(mesh_.metric()).name, info(first_->metric()).name, threshold_);
-}
-
-template <int D>
-void ClusterSearch<D>::tell_forces(JointCluster& result) const {
-  const JointIterate<D>& at = solved_.solution.last;
-  const auto count = static_cast<double>(at.multipliers.size());
-  double sum = 0.0;
-  for (const double multiplier : at.multipliers)
-    if (multiplier > kNoticed / count) sum += multiplier;
-  AtomDerivatives<D> derivatives;
-  const auto& problem = solved_.local.problem;
-  std::map<Index, double> active;  // by element
-  for (std::size_t i = 0; i < at.multipliers.size(); ++i) {
-    if (!(at.multipliers[i] > kNoticed / count)) continue;
-    const Atom<D>& atom = this->atom(i);
-    const double share = at.multipliers[i] / sum;
-    active[atom.element] += share;
-    const AtomFunction<D>& function = i < problem.raised() ? function_ : *problem.limited;
-    function.derive(atom, displaced_edges<D>(problem, i, at.displacements), problem.reference(i), Curvature::Exact, derivatives);
-    // Of q = 1 / f at f = tau, where all that hold the cluster nearly are.
-    const double factor = -share * solved_.local.scale / (at.tau * at.tau);
-    std::array<std::array<double, D>, D + 1> forces{};
-    for (std::size_t j = 0; j < D; ++j)
-      for (std::size_t r = 0; r < D; ++r) {
-        forces[j + 1][r] = factor * derivatives.gradient[j * D + r];
-        forces[0][r] -= forces[j + 1][r];
-      }
-    for (std::size_t k = 0; k <= D; ++k) result.forces.push_back({atom.element, atom.vertices[k], mesh_.lifted(forces[k])});
-  }
-  for (const auto& [element, multiplier] : active) result.active.push_back({element, multiplier});
-  std::ranges::stable_sort(result.active, [](const auto& a, const auto& b) {
-    return a.multiplier != b.multiplier ? a.multiplier > b.multiplier : a.element < b.element;
-  });
-  std::ranges::stable_sort(
-      result.forces, [](const auto& a, const auto& b) { return a.element != b.element ? a.element < b.element : a.vertex < b.vertex; });
-  std::vector<JointCluster::Force> merged;  // an element's atoms in one
-  for (const JointCluster::Force& each : result.forces) {
-    const bool same = !merged.empty() && merged.back().element == each.element && merged.back().vertex == each.vertex;
-    if (same)
-      merged.back().force = merged.back().force + each.force;
-    else
-      merged.push_back(each);
-  }
-  result.forces = std::move(merged);
 }
 
 template class ClusterSearch<2>;

@@ -25,6 +25,10 @@ class ClusterSearch {
   [[nodiscard]] std::optional<JointCluster> run();
 
  private:
+  static constexpr double kClosedRim = 5e-4;  // share of the multipliers on the rim below which nothing outside holds the cluster
+  static constexpr double kNearTau = 0.05;    // an atom further below tau does not hold the cluster
+  static constexpr double kNoticed = 0.01;    // of the mean multiplier
+
   /// A solved cluster, in the mesh's terms.
   struct Solved {
     LocalProblem<D> local;

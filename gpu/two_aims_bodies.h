@@ -18,7 +18,7 @@ DMOSCOPE_LANE_INLINE DMOSCOPE_ANYWHERE decltype(auto) with_metric_in(Metric metr
     return formulas::with_volume_metric(metric, f);
 }
 
-/// What the search maximises: see StarScore.
+/// The number that the search maximises: see StarScore.
 template <Metric M, class Frame>
 class TwoAimsScore {
  public:

@@ -48,7 +48,7 @@ void print_report(const SmoothReport& report, bool as_json);
 /// Whether the run ended as was asked, with no element inverted.
 [[nodiscard]] bool all_well(const SmoothReport& report);
 
-/// What is written of a run: "best" or "last". Throws UsageError.
+/// Reads the word for the iteration that is written, "best" or "last". Throws UsageError.
 void require_output_moment(const std::string& word);
 /// Goes to the iteration that is written; returns a sentence where that is not the last though it was the last that was asked for.
 [[nodiscard]] std::string seek_output_iteration(Run& run, const std::string& write, bool until_converged, Progress& progress);

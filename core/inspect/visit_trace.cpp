@@ -126,7 +126,7 @@ class Look {
       return star_state<M>(mesh_, positions_, trace_.vertex, place);
   }
 
-  /// As DefinedKernel does it. What it chose in level L is what it finds in L levels and does not find in L - 1.
+  /// Repeats the search of DefinedKernel. Its choice in level L is found by a search of L levels and not by one of L - 1.
   bool search_by_formula() requires(M == kDefinedMetric) {
     if (!(trace_.before.jacobian > 0.0)) return false;
     const DefinedSearch<Frame> search(*star_judge_, parameters_);
@@ -218,14 +218,14 @@ class Look {
     return true;
   }
 
-  /// As FastVolumeKernel does it.
+  /// Repeats the search of FastVolumeKernel.
   bool search_by_volume_kernel() {
     StarIn<Frame, double> star;
     gather_star(MeshStar(mesh_, positions_, trace_.vertex), star);
     const Objective<M, false, double, Value::Metric, StarViewIn<Frame, double>> objective(star);
     return search_by_volume_kernel(VolumeStarSearch(M, parameters_), {}, objective);
   }
-  /// As TargetVolumeKernel does it.
+  /// Repeats the search of TargetVolumeKernel.
   bool search_by_target_kernel() {
     const auto star = mesh_.star(trace_.vertex);
     const TetrahedronTargets targets(judge_->targets(), input_.mesh, star);
@@ -284,7 +284,7 @@ class Look {
     end([this](Vec3 target) { return confirm(target); });
   }
 
-  /// As the visits by two aims do it.
+  /// Repeats the plain search for two aims, which finds the winner of the packs.
   void search_for_both() {
     StarJudge<Frame> judge(input_, *composite_);
     judge.begin({.untangling = untangling_});

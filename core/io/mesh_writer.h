@@ -1,5 +1,5 @@
 #pragma once
-// What the writers of text formats that make a file anew have in common.
+// Base of the writers that make a file of a text format anew.
 
 #include <algorithm>
 #include <span>

@@ -1,5 +1,5 @@
 #pragma once
-// What a visit with two aims (see visit/star_judge.h) computes, for any processor: the second aims, and how a place is judged by both.
+// Parts of a visit with two aims (see visit/star_judge.h) that run on any processor: the second aims, and how a place is judged by both.
 
 #include <cmath>
 #include <cstdint>

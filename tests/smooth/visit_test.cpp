@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/mesh/generate.h"
+#include "core/quality/defined_metric.h"
 #include "core/smooth/methods/dvr.h"
 #include "core/smooth/visit/defined_pieces.h"
 #include "tests/smooth/promises.h"
@@ -136,6 +137,54 @@ TEST(Dvr, ComesNearTheBestPlaceOnTheLineByAnyMetric) {
     const Vec3 way = run.positions()[v] - here;
     EXPECT_NEAR(way.x * d.y - way.y * d.x, 0.0, 1e-12) << entry.name;
     EXPECT_GE(star_state(*mesh, run.positions(), entry.metric, v).quality, best - 1e-3) << entry.name;
+  }
+}
+
+/// A hub in a ring of six.
+Mesh wheel_mesh(testing::Random& random) {
+  Mesh mesh;
+  const auto around = [&](double reach) { return Vec3{random(-reach, reach), random(-reach, reach), 0}; };
+  mesh.positions.push_back(around(0.3));
+  for (int k = 0; k < 6; ++k) mesh.positions.push_back(Vec3{std::cos(k * M_PI / 3), std::sin(k * M_PI / 3), 0.0} + around(0.25));
+  for (Index k = 0; k < 6; ++k) testing::add(mesh, {0, k + 1, (k + 1) % 6 + 1});
+  return mesh;
+}
+/// The least metric of the elements with the hub where it is best, by a look everywhere, finer and finer around the best place so far.
+double best_of_wheel(const InputMesh& mesh, Metric metric) {
+  std::vector<Vec3> positions = mesh.mesh.positions;
+  Vec3 best = positions[0];
+  double most = -1e9;
+  for (double width = 2.0; width > 1e-5; width *= 0.3) {
+    const Vec3 centre = best;
+    for (int i = -30; i <= 30; ++i)
+      for (int k = -30; k <= 30; ++k) {
+        positions[0] = centre + Vec3{i * width / 30, k * width / 30, 0.0};
+        const Statistics found = compute_statistics(mesh.quality_context(), positions, metric, std::span<const Index>(), nullptr);
+        if (found.inverted == 0 && found.minimum > most) most = found.minimum, best = positions[0];
+      }
+  }
+  return most;
+}
+
+/// By the built-in metric and by its formula.
+TEST(ActiveSet, ReachesTheBestPlaceOfAStar) {
+  testing::Random random(5);
+  Progress progress;
+  for (const Metric metric : {Metric::MeanRatio, Metric::MinAngle, Metric::ScaledJacobian}) {
+    const Metric typed = parse_metric("formula:" + std::string(formula_of(metric)));
+    int reached = 0, all = 0;
+    for (int trial = 0; trial < 12; ++trial) {
+      const auto mesh = input(wheel_mesh(random));
+      const double best = best_of_wheel(*mesh, metric);
+      for (const Metric by : {metric, typed}) {
+        auto run = make_run(mesh, {.method = "active-set", .metric = by});
+        run.iterate(5, progress);
+        EXPECT_LT(run.statistics().minimum, best + 1e-6);
+        reached += run.statistics().minimum > best - 2e-3 ? 1 : 0;
+        ++all;
+      }
+    }
+    EXPECT_GT(reached, 0.8 * all) << info(metric).name;
   }
 }
 

@@ -20,7 +20,7 @@ namespace dmoscope {
   return text;
 }
 
-/// What may stand between double quotes: a blank for each control character, single quotes for double ones.
+/// Makes a text fit to stand between double quotes: a blank for each control character, single quotes for double ones.
 [[nodiscard]] inline std::string in_quotes(std::string text) {
   std::ranges::replace_if(
       text, [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');

@@ -31,8 +31,8 @@ struct MethodInfo {
 /// Can the method optimise such a combination? Joint moves know metrics alone.
 [[nodiscard]] bool can_combine(const MethodInfo& method, const Combination& combination);
 
-/// What cannot be together, and why: all other mixes of method, objective, boundary and phases work, but for what joint moves cannot split
-/// into smooth pieces (see why_not_joint).
+/// A mix that is refused, and the reason: all other mixes of method, objective, boundary and phases work, but for what joint moves cannot
+/// split into smooth pieces (see why_not_joint).
 struct Refusal {
   std::string_view mix, why;
   bool (*applies)(const SmoothingTask&);  // of its pointers only `input` is read

@@ -15,7 +15,7 @@ constexpr double kLeastStep = 1e-6, kLeastGain = 1e-6, kLongestStep = 1.0;
 constexpr double kNearEstimate = 0.9;
 constexpr int kSteps = 20;
 
-/// What one of the functions is at a place, and how it rises there. V: double on a curve, Vec2<double> in a plane, Vec3 in space.
+/// The value and the gradient of one of the functions at a place. V: double on a curve, Vec2<double> in a plane, Vec3 in space.
 template <class V>
 struct Piece {
   double value;

@@ -15,7 +15,8 @@ class Grid {
 
   [[nodiscard]] bool must_gain() const noexcept { return true; }
 
-  /// Of all levels the first of the best; where it stands if none is better. Grids after the first are centred on the best place so far.
+  /// Finds the first of the best candidates of all levels; the own place if none is better. Grids after the first are centred on the best
+  /// place so far.
   template <class Places, class Frame>
   [[nodiscard]] typename Places::Coordinates choose(const Places& places, const StarScore<Frame>& score, SearchRoom<Frame>& room) const {
     auto best = places.here();

@@ -28,7 +28,7 @@ class Compass {
   }
 
  private:
-  /// Of a sound star above 0, whatever a formula says of it.
+  /// Maps the score of a sound star, which a formula may put below 0, to a rising function above 0.
   static double positive(double value) {
     if (value <= DefinedStar<Plane>::kInverted) return 0.0;
     return value > 0.0 ? 1.0 + value : 1.0 / (1.0 - value);

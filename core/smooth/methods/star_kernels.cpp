@@ -101,7 +101,7 @@ class TargetVolumeKernel final : public StarKernel<Space> {
   [[nodiscard]] std::span<const Index> others(Index vertex) const override { return stars_.of(vertex).vertices; }
 
  private:
-  /// Whether this thread's last winner is that of a star of tetrahedra.
+  /// Whether this thread's last winner belongs to a star of tetrahedra.
   static bool& found_here() {
     thread_local bool found = false;
     return found;

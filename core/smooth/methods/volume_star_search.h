@@ -24,7 +24,7 @@ class VolumeStarSearch {
         kernel_(target_volume_kernel(parameters.simd.value_or(best_simd_level()), crossed)),
         parameters_(parameters) {}
 
-  /// What the kernel finds within `levels` levels for the vertex; a search of fewer levels begins like one of more. Not ready where the
+  /// Finds the winner of the first `levels` levels for the vertex; a search of fewer levels begins like one of more. Not ready where the
   /// plain search has to do it.
   [[nodiscard]] VolumeFound find(const IndexedStars::Star& star, PositionView positions, Index vertex, int levels, Points& points,
                                  const VolumeTargets& targets = {}) const;

@@ -1,5 +1,5 @@
 #pragma once
-// Where a vertex may go that slides along a curve: between its neighbours there.
+// The places of a vertex that slides along a curve: those between its neighbours there.
 
 #include <algorithm>
 #include <optional>
@@ -45,7 +45,7 @@ class CurvePlaces {
   }
   [[nodiscard]] double unit() const { return scale_; }
 
-  /// As many candidates in all as where a vertex is free in a plane.
+  /// n * n candidates a level, as many as a free vertex in a plane has.
   [[nodiscard]] static int candidates_per_axis(int grid_points) { return grid_points * grid_points; }
   template <class F>
   void for_grid(double centre, double omega, int grid_points, const F& f) const {
@@ -55,7 +55,7 @@ class CurvePlaces {
   }
   [[nodiscard]] std::optional<double> middle() const { return std::nullopt; }
   [[nodiscard]] double edge() const { return 0.5 * stretch(); }
-  /// Of the two along the curve.
+  /// The way to the middle of the two neighbours along the curve, or the share `relaxation` of it.
   [[nodiscard]] double way_to_mean(double relaxation) const {
     return place_ + relaxation * (0.5 * (beside_.place_before + beside_.place_after) - place_);
   }
@@ -125,7 +125,7 @@ class CurvePlaces {
     const Curves& curves = domain_.curves();
     if (!(beside_.place_before < place && place < beside_.place_after)) return std::nullopt;
     const Vec3 here = positions_[vertex_], target = curves.at(vertex_, place);
-    // What rounding put elsewhere must still be between the neighbours.
+    // Rounding may put the vertex elsewhere: it must still be between the neighbours.
     const auto landed = curves.place(vertex_, target);
     if (!landed || !curves.neighbours(vertex_, *landed, positions_)) return std::nullopt;
     if (confirm(target) != Confirmation::Gains) return std::nullopt;

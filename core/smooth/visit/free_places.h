@@ -1,5 +1,5 @@
 #pragma once
-// Where a vertex may go that is free to go anywhere: the plane of a planar mesh, or all of a volume.
+// The places of a free vertex: the plane of a planar mesh, or all of space.
 
 #include <optional>
 #include <vector>
@@ -28,7 +28,7 @@ class FreePlaces {
   [[nodiscard]] std::optional<Coordinates> offset(Coordinates at) const { return at; }
   [[nodiscard]] Coordinates shifted(Coordinates by) const { return by; }
   [[nodiscard]] Coordinates way(Coordinates to) const { return times(to, star_.scale); }
-  /// Of a gradient by offsets: how what has it rises along the coordinates at a place.
+  /// Turns a gradient by offsets into one by coordinates at a place.
   [[nodiscard]] Coordinates slope(Coordinates /*at*/, Coordinates gradient) const { return gradient; }
   /// How far the coordinates go in a unit of the star's scale.
   [[nodiscard]] double unit() const { return 1.0; }
@@ -40,7 +40,7 @@ class FreePlaces {
     const CandidateGrid<double, Coordinates> grid{centre, times(star_.box, omega), grid_points};
     for (int i = 0; i < grid.points; ++i) grid.for_slice(i, [&f](int /*index*/, const Coordinates& p) { f(p); });
   }
-  /// Where the search of a tangled star begins.
+  /// The mean of the other corners, from which the search of a tangled star may begin.
   [[nodiscard]] std::optional<Coordinates> middle() const { return middle_of<Coordinates>(StarViewIn<Frame, double>(star_)); }
   /// The mean length of its edges.
   [[nodiscard]] double edge() const { return mean_edge(star_); }
@@ -65,7 +65,7 @@ class FreePlaces {
 
   [[nodiscard]] const StarIn<Frame, double>& star() const { return star_; }
 
-  /// Where it comes to stand by the longest step along the way that confirm(place) lets it go.
+  /// Goes the longest part of the way that confirm(place) allows, and returns the new position; none where it stays.
   template <class Confirm>
   [[nodiscard]] std::optional<Vec3> go(Coordinates way, const Confirm& confirm) const {
     if (way == Coordinates{}) return std::nullopt;

@@ -1,5 +1,5 @@
 #pragma once
-// What a visit works in, kept from one vertex to the next.
+// Working memory of a visit, kept from one vertex to the next.
 
 #include <tuple>
 #include <vector>
@@ -18,7 +18,7 @@ struct SearchRoom {
   FacetWalks::Room walks;
   OverlayRoom overlay;
 
-  /// Of a kind that the frame's own offsets, the places on a curve, or those on a surface are.
+  /// The list of coordinates of one type: double on a curve, Vec2 in a plane and on a surface, Vec3 in space.
   template <class Coordinates>
   [[nodiscard]] std::vector<Coordinates>& list() {
     return std::get<std::vector<Coordinates>>(coordinates);

@@ -1,5 +1,5 @@
 #pragma once
-// Where vertices slide (core/reference/domain.h), as the visits of single vertices see it.
+// The curves and surfaces along which vertices slide (core/reference/domain.h), for visits of single vertices.
 
 #include <memory>
 #include <optional>
@@ -22,16 +22,16 @@ class SlidingDomain {
   [[nodiscard]] const DeviationBound& bound() const { return *bound_; }
   [[nodiscard]] bool single_precision() const noexcept { return single_precision_; }
 
-  /// Where a vertex on a surface stands; nowhere where the surface is not near it.
+  /// Finds the facet beneath a vertex on a surface; none where the surface is not near it.
   [[nodiscard]] std::optional<FacetPlace> place(Index vertex, Vec3 position) const;
-  /// It goes to where that facet is beneath it.
+  /// Notes the facet beneath the new place of a vertex, from which the next look starts.
   void expect(Index vertex, Index facet) const;
 
  private:
   std::shared_ptr<const Domain> domain_;  // null: nothing slides
   std::optional<DeviationBound> bound_;   // none: likewise
   bool single_precision_;
-  /// Where a vertex was last found on the surface. A place follows from the position, so no result depends on it; one visit at a time looks
+  /// The last place of a vertex on the surface. It follows from the position, so no result depends on it; one visit at a time looks
   /// at it.
   struct Found {
     Vec3 position{};

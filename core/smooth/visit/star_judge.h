@@ -22,7 +22,7 @@ namespace dmoscope {
 /// The second aim of the phase that raises the mean: the mean quality of the star, by the first metric.
 struct MeanOfStar {};
 
-/// What a visit maximises. Which of two places is better for a vertex is decided in this order. While an element of the star is inverted:
+/// The objective of a visit. Which of two places is better for a vertex is decided in this order. While an element of the star is inverted:
 /// where it is less so (see UntanglingObjective). While the star's least first metric is not beyond the threshold: where that is greater.
 /// Then: where the second aim is greater. Beyond means above the threshold; for the mean, not below it, so that a star whose least is the
 /// floor stays unless its mean rises. Nothing is beyond an infinite threshold: the first metric is the only aim.
@@ -30,7 +30,7 @@ struct CompositeObjective {
   Metric first = Metric::MeanRatio;
   double threshold = 0.7;  // at least 0
   std::variant<Metric, std::shared_ptr<const SizeField>, MeanOfStar> second = MeanOfStar{};
-  /// Of the mean: a metric whose least in the star falls neither below the floor nor, where it is below that, any further.
+  /// With the mean as second aim: a metric whose least in the star falls neither below the floor nor, where it is below that, any further.
   struct Guard {
     Metric metric;
     double floor;
@@ -44,15 +44,15 @@ struct CompositeObjective {
 
 /// A metric as the only aim.
 [[nodiscard]] CompositeObjective single_objective(Metric metric);
-/// What a combination aims at; `size`: its size function, null where the second aim is a metric.
+/// The objective of a combination; `size`: its size function, null where the second aim is a metric.
 [[nodiscard]] CompositeObjective composite_objective(Metric first, const Combination& combination, std::shared_ptr<const SizeField> size);
-/// What a phase that raises the mean aims at.
+/// The objective of a phase that raises the mean of `metric` and keeps its least from falling below `floor`.
 [[nodiscard]] CompositeObjective raise_mean_above(Metric metric, double floor);
-/// The same of a sweep of one, after visits by a combination or by one metric alone.
+/// The objective of a sweep in that phase: with the sweep's floors, of which a combination has two.
 [[nodiscard]] CompositeObjective raise_mean_in(const Sweep& sweep, Metric metric, const std::optional<Combination>& combination);
-/// What the task's visits aim at before such a phase.
+/// The objective of the task's own visits, which come before that phase.
 [[nodiscard]] CompositeObjective objective_of(const SmoothingTask& task);
-/// The same as plain data; none where its sizes are those of a nodal field.
+/// An objective as plain data; none where its sizes are those of a nodal field.
 [[nodiscard]] std::optional<Aims> plain_aims(const CompositeObjective& composite);
 
 /// The two aims that a visit has; none: one metric alone.
@@ -68,7 +68,7 @@ template <class Frame>
 using JudgedStarView = std::conditional_t<std::is_same_v<Frame, Curved>, SurfaceStarView,
                                           std::conditional_t<std::is_same_v<Frame, Plane>, StarView<double>, VolumeStarView<double>>>;
 
-/// What is needed of a metric, so that any two can be combined without a template for each pair.
+/// The functions of one metric in a table, so that any two can be combined without a template for each pair.
 template <class Frame>
 struct MetricFunctions {
   using View = JudgedStarView<Frame>;
@@ -86,7 +86,7 @@ struct MetricFunctions {
   void (*untangling)(const View&, const Untangling&, const CandidateList&, double* out);
   void (*pieces)(const JudgedStar<Frame>&, Offset, std::vector<StarPiece<Frame>>& out);  // appends the metric's: see StarPiece
 };
-/// Of a built-in metric.
+/// The row of a built-in metric.
 template <class Frame>
 [[nodiscard]] const MetricFunctions<Frame>& metric_functions(Metric metric);
 
@@ -102,7 +102,7 @@ struct DefinedStars {
   std::shared_ptr<const DefinedStar<Frame>> first, second, guard;
 };
 
-/// What a kernel needs to know of the aims, but for densities.
+/// Describes the aims to a kernel, but for densities.
 template <class Frame>
 [[nodiscard]] CompositeSearch<Frame> search_for(const CompositeObjective& composite, const SearchParameters& parameters) {
   CompositeSearch<Frame> task;
@@ -117,7 +117,7 @@ template <class Frame>
   }
   return task;
 }
-/// With a star and what its density is measured from.
+/// Adds a star to that, and the place from which its density is measured.
 template <class Frame>
 void take_star(CompositeSearch<Frame>& task, const CompositeObjective& composite, const JudgedStar<Frame>& star,
                const DensityTarget<Frame>& target) {
@@ -128,8 +128,8 @@ void take_star(CompositeSearch<Frame>& task, const CompositeObjective& composite
   task.edge = target.edge;
 }
 
-/// What a search maximises, as the paper's eq. (8) has it: the least first metric (or, untangling, what is raised while an element is
-/// inverted, which is <= 0); beyond the threshold that plus the second aim, which is positive. The star must outlive it.
+/// The number that a search maximises, as the paper's eq. (8) has it: the least first metric (or, untangling, what is raised while an
+/// element is inverted, which is <= 0); beyond the threshold that plus the second aim, which is positive. The star must outlive it.
 template <class Frame>
 class StarScore {
  public:
@@ -140,9 +140,9 @@ class StarScore {
             const DensityTarget<Frame>& target, DefinedStars<Frame> defined = {}, CompositeListKernel<Frame> list_kernel = nullptr);
 
   [[nodiscard]] bool tangled() const noexcept { return untangling_.has_value(); }
-  /// Whether it is above 0 wherever nothing is inverted: formulas may say what they want.
+  /// Whether the score is above 0 wherever nothing is inverted: that of a formula need not be.
   [[nodiscard]] bool positive_where_sound() const noexcept { return !defined_.first; }
-  /// The same as if no element were inverted where the vertex stands.
+  /// The score of the star as if no element were inverted where the vertex stands.
   [[nodiscard]] StarScore of_sound_star() const {
     StarScore other(*this);
     other.untangling_.reset();
@@ -165,7 +165,7 @@ class StarScore {
 
  private:
   [[nodiscard]] double least(Offset p, double enough) const;
-  /// Where the star's least first metric is `least`.
+  /// The score of a place whose least first metric is `least`.
   [[nodiscard]] double with_second(Offset p, double least) const {
     if (!composite_.beyond(least)) return least;
     return composite_.guard && guarded(p) < guard_floor_ ? greatest_below_ : composite_.threshold + second(p);

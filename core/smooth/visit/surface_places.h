@@ -1,6 +1,6 @@
 #pragma once
-// Where a vertex may go that slides on a surface: wherever a straight way in the plane that touches it there leads, taken down to the facet
-// beneath; not beyond a feature edge, nor where the surface turns away.
+// The places of a vertex that slides on a surface: wherever a straight way in the plane that touches it there leads, taken down to the
+// facet beneath; not beyond a feature edge, nor where the surface turns away.
 
 #include <algorithm>
 #include <optional>
@@ -49,7 +49,7 @@ class SurfacePlaces {
     for (int i = 0; i < grid.points; ++i) grid.for_slice(i, [&f](int /*index*/, const Coordinates& p) { f(p); });
   }
   [[nodiscard]] std::optional<Coordinates> middle() const { return std::nullopt; }
-  /// Of the edges of the surface.
+  /// The mean length of the edges of the surface at the vertex, in units of the star's scale.
   [[nodiscard]] double edge() const {
     double sum = 0.0, count = 0.0;
     for_neighbours([&](Vec3 way) { sum += length(way), count += 1.0; });

@@ -123,7 +123,7 @@ class Visit {
     return places.go(found.way, confirmation(positions, vertex, found.before ? &*found.before : nullptr));
   }
 
-  /// Of a curved surface: nothing is free there.
+  /// Stands for the mesh of free vertices on curved surfaces, which have none.
   struct NoMesh {
     explicit NoMesh(const InputMesh& /*input*/) {}
   };

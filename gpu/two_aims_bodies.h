@@ -41,7 +41,7 @@ class TwoAimsScore {
   }
   [[nodiscard]] DMOSCOPE_LANE_INLINE DMOSCOPE_ANYWHERE double second(Offset p) const {
     if (aims_.second == Aims::Second::Density) return target_.density(p);
-    if (aims_.second == Aims::Second::Mean) return mean_of<M>(star_, p);
+    if (aims_.second == Aims::Second::Mean) return mean_of<M>(star_, p, aims_.mean);
     double least = std::numeric_limits<float>::max();  // as Worth begins
     star_.template for_each<true>([&](const auto& element) { least = scalar::min(least, worth_of(element, p)); });
     return least;
@@ -140,7 +140,7 @@ struct VisitTwoAims {
     const PositionView positions = positions_of(task);
     if constexpr (std::is_same_v<Frame, Plane>)
       if (task.aims.second == Aims::Second::Density) return wanted(task, vertex).density(mesh.frame.offset(place, positions[vertex]));
-    if (task.aims.raise_mean()) return mean_at_place<M>(mesh, positions, vertex, place);
+    if (task.aims.raise_mean()) return mean_at_place<M>(mesh, positions, vertex, place, task.aims.mean);
     return with_metric_in<Frame>(task.aims.metric,
                                  [&]<Metric S>() DMOSCOPE_INLINE_LAMBDA { return star_state<S>(mesh, positions, vertex, place).quality; });
   }

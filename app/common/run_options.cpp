@@ -89,8 +89,8 @@ void add_run_options(CLI::App& subcommand, RunOptions& options) {
       ->needs(combine);
   subcommand
       .add_option("--then", options.then,
-                  "After the minimum has converged: joint (joint moves, which raise the minimum further), mean (raise the mean without "
-                  "lowering the minimum), or both")
+                  "After the minimum has converged: joint (joint moves, which raise the minimum further), mean (raise the harmonic mean without "
+                  "lowering the minimum; or arithmetic-mean, geometric-mean, inverse-square-mean), or both")
       ->type_name("mean|joint|joint,mean");
   std::string recipes = "Method and phases under one name:";
   for (const Recipe& one : recipe_table())

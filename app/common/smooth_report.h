@@ -12,6 +12,7 @@
 #include "core/inspect/joint_hold.h"
 #include "core/run/crossing_faces.h"
 #include "core/run/ending.h"
+#include "core/run/report_card.h"
 #include "core/run/run.h"
 
 namespace dmoscope::app {
@@ -30,6 +31,7 @@ struct SmoothReport {
   std::uint64_t inside_alone_before = 0;    // elements that only their inside inverted
   std::optional<LeftInverted> left{};       // of what is written
   std::optional<CrossingFaces> crossing{};  // likewise
+  std::optional<ReportCard> card{};         // likewise; none where many processes have the mesh
   std::optional<HeldMinimum> held{};        // likewise
   std::vector<std::string> warnings{};
   std::optional<Provenance> provenance{};
@@ -45,8 +47,8 @@ struct SmoothReport {
 
 /// Prints it, for a person or as JSON, and complains where the run has not converged as was asked.
 void print_report(const SmoothReport& report, bool as_json);
-/// Whether the run ended as was asked, with no element inverted.
-[[nodiscard]] bool all_well(const SmoothReport& report);
+/// Whether the run ended as was asked, with no element inverted; `strict`: and with nothing worse than in the input.
+[[nodiscard]] bool all_well(const SmoothReport& report, bool strict);
 
 /// Reads the word for the iteration that is written, "best" or "last". Throws UsageError.
 void require_output_moment(const std::string& word);

@@ -20,7 +20,7 @@ void choose_aim(RunOptions& chosen, std::string aim) {
   constexpr std::string_view kThen = "then ";
   const std::string then = aim.starts_with(kThen) ? aim.substr(kThen.size()) : "nothing";
   if (aim != "alone" && then == "nothing")
-    throw UsageError("after the comma stands 'alone', 'then mean', 'then joint' or 'then joint,mean'");
+    throw UsageError("after the comma stands 'alone', or 'then' and what --then takes, such as 'then mean'");
   if (!chosen.combine.empty()) chosen.metric = info(parse_combination(chosen.combine, chosen.size_function).first).name;
   chosen.combine.clear();
   chosen.size_function.clear();

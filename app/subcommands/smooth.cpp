@@ -47,6 +47,7 @@ struct SmoothOptions {
   MemoryLimit memory;
   bool json = false;
   bool provenance = false;
+  bool strict = false;
   std::string command_line;
 };
 
@@ -180,11 +181,12 @@ int smooth(const SmoothOptions& options) {
                             .inside_alone_before = count_inverted(input->quality_context(), input->mesh.positions).inside_alone,
                             .left = std::move(left),
                             .crossing = crossing,
+                            .card = report_card(run, pool.get()),
                             .held = std::move(held),
                             .warnings = std::move(warnings),
                             .provenance = std::move(provenance)};
   print_report(result, options.json);
-  return all_well(result) ? 0 : 1;
+  return all_well(result, options.strict) ? 0 : 1;
 }
 
 }  // namespace
@@ -210,6 +212,7 @@ void add_smooth(CLI::App& app, Action& action, const std::string& command_line) 
   subcommand->add_flag(
       "--provenance", options->provenance,
       "Say in a comment of the mesh written what made it: the input's hash, version, options; where the format has comments");
+  subcommand->add_flag("--strict", options->strict, "Exit with 1 where anything of the report card is worse than in the input, too");
   subcommand->add_flag("--json", options->json, "Print one JSON object and nothing else on standard output");
   const CLI::Option* iterations = subcommand->get_option("--iterations");
   subcommand->callback([options, iterations, &action] {

@@ -73,8 +73,10 @@ std::span<const CommandRow> objective_commands() {
         "Raises the metric FIRST up to THRESHOLD, beyond it SECOND: a metric, or density by SIZE (h1:X,Y, h2:X,Y, constant, field:NAME)."},
        {1, 2, combine}},
       {{"size-point", "size-point X Y [Z]", "Moves the point of the size function h1 or h2."}, {2, 3, set_size_point}},
-      {{"then", "then mean|joint|joint,mean [PATIENCE]|nothing",
-        "What follows once the minimum has converged: joint moves, which raise it further; the rise of the mean, with it as floor."},
+      {{"then", "then mean|joint|joint,mean|KIND-mean [PATIENCE]|nothing",
+        "What follows once the minimum has converged: joint moves, which raise it further; the rise of the mean, with it as floor: the "
+        "harmonic one, "
+        "or arithmetic-mean, geometric-mean, inverse-square-mean."},
        {1, 2, then}},
   };
   return table;

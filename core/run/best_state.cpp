@@ -12,11 +12,15 @@ BestState::BestState(const RunParameters& parameters)
     : rule_(parameters.combination                     ? Rule::Last
             : method_info(parameters.method).optimises ? Rule::MinimumThenMean
                                                        : Rule::Values),
+      may_cost_mean_(parameters.mean != MeanKind::Arithmetic),
       least_rise_(parameters.then_mean || parameters.then_joint ? std::numeric_limits<double>::denorm_min() : kLeastRise) {}
 
 void BestState::take(const IterationRecord& record) {
   if (!first_ && !is_better(record)) return;
-  if (first_) std::tie(minimum_, movable_) = std::tuple(record.statistics.minimum, record.statistics.movable_minimum);
+  if (first_) {
+    input_ = record.statistics;
+    std::tie(minimum_, movable_) = std::tuple(record.statistics.minimum, record.statistics.movable_minimum);
+  }
   first_ = false;
   best_ = record.iteration;
   statistics_ = record.statistics;
@@ -25,15 +29,24 @@ void BestState::take(const IterationRecord& record) {
 bool BestState::rises(const IterationRecord& record) const {
   const Statistics& now = record.statistics;
   if (now.inverted != statistics_.inverted) return now.inverted < statistics_.inverted;
+  const bool keeps_minimum = !(now.minimum < minimum_) && !(now.movable_minimum < movable_);
+  if (record.raises_mean && may_cost_mean_ && keeps_minimum) return true;  // the mean that is raised never falls
   // The worst element may have a part between fixed vertices that nothing changes, so that joint moves raise others alone.
-  if (record.joint && record.moved > 0 && !(now.minimum < minimum_) && !(now.movable_minimum < movable_)) return true;
+  if (record.joint && record.moved > 0 && keeps_minimum) return true;
   // As differences: where nothing is movable both are infinite, and that is no rise.
   return now.minimum - minimum_ >= least_rise_ || now.movable_minimum - movable_ >= least_rise_;
+}
+
+bool BestState::is_worse_than_input(const Statistics& now) const {
+  if (now.inverted != input_.inverted) return now.inverted > input_.inverted;
+  const double rise = now.minimum - input_.minimum, of_movable = now.movable_minimum - input_.movable_minimum;
+  return rise < 0.0 || (!(rise >= kLeastRise) && !(of_movable >= kLeastRise) && now.mean < input_.mean);
 }
 
 bool BestState::is_better(const IterationRecord& record) {
   const Statistics& now = record.statistics;
   if (rule_ == Rule::Last) return true;
+  if (is_worse_than_input(now)) return false;
   if (rule_ == Rule::MinimumThenMean) {
     if (!rises(record))
       return now.inverted == statistics_.inverted && !(now.minimum < minimum_) && !(now.movable_minimum < movable_) &&

@@ -18,7 +18,8 @@ inline constexpr double kLeastRise = 1e-6;
 ///   phase follows, any rise counts: it begins with the best state, and must not lower the minimum.
 /// - Of another method: fewest inverted elements, then greatest minimum, then greatest movable minimum, then greatest mean.
 /// - Of a run for two aims, which gives up some of the first for the second: the last.
-/// Among equals the last.
+/// Of a run by one metric, never one that is worse than the input by fewest inverted elements, then greatest minimum (a rise of less than
+/// kLeastRise is none), then greatest mean. Among equals the last.
 class BestState {
  public:
   explicit BestState(const RunParameters& parameters);
@@ -30,11 +31,15 @@ class BestState {
   [[nodiscard]] bool is_better(const IterationRecord& record);
   [[nodiscard]] bool rises(const IterationRecord& record) const;
 
+  /// By the number of inverted elements, then the minimum, then the mean.
+  [[nodiscard]] bool is_worse_than_input(const Statistics& now) const;
+
   Rule rule_;
-  double least_rise_;  // Rule::MinimumThenMean
+  bool may_cost_mean_;  // does the phase that raises another mean than the statistics' cost some of that?
+  double least_rise_;   // Rule::MinimumThenMean
   bool first_ = true;
   std::uint64_t best_ = 0;
-  Statistics statistics_;                 // of the best
+  Statistics input_, statistics_;         // of the input and of the best
   double minimum_ = 0.0, movable_ = 0.0;  // Rule::MinimumThenMean: at the last rise
 };
 

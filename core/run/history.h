@@ -35,6 +35,7 @@ struct IterationRecord {
   std::uint64_t searched = 0;  // vertices visited without those passed over, see Smoother::searched; 0 also where that is not known
   std::optional<JointFigures> joint{};
   std::optional<double> second{};  // the movable minimum of a combination's second metric, where a phase may come that keeps it
+  bool raises_mean = false;        // an iteration of the phase that raises a mean: see Sweep
 };
 
 /// Positions that lie far from the host (on a device) are worth bringing only to keep them where that takes but a modest share of the time:

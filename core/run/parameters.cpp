@@ -263,10 +263,19 @@ std::string target_sentence(const InputMesh& input, Metric metric) {
 }
 
 void set_then(RunParameters& parameters, std::string_view words, const PhaseBegin& begin) {
-  constexpr std::array<std::string_view, 4> kThen{"mean", "joint", "joint,mean", "nothing"};
-  if (std::ranges::find(kThen, words) == kThen.end()) throw UsageError(unknown_value("later phases", std::string(words), kThen));
-  parameters.then_joint = words.starts_with("joint") ? std::optional(begin) : std::nullopt;
-  parameters.then_mean = words.ends_with("mean") ? std::optional(begin) : std::nullopt;
+  constexpr std::string_view kJoint = "joint";
+  const bool joint = words == kJoint || words.starts_with("joint,");
+  const std::string_view mean = joint ? words.substr(std::min(words.size(), kJoint.size() + 1)) : words;
+  const auto kind = std::ranges::find(kMeanKinds, mean, [](MeanKind each) { return name(each); });
+  const bool known = kind != kMeanKinds.end();
+  if (!known && words != kJoint && words != "nothing") {
+    std::vector<std::string_view> choices{"joint", "joint,mean", "nothing"};
+    for (const MeanKind each : kMeanKinds) choices.push_back(name(each));
+    throw UsageError(unknown_value("later phases", std::string(words), choices));
+  }
+  parameters.then_joint = joint ? std::optional(begin) : std::nullopt;
+  parameters.then_mean = known ? std::optional(begin) : std::nullopt;
+  parameters.mean = known ? *kind : MeanKind::Harmonic;
 }
 
 void be_patient(RunParameters& parameters, std::uint64_t patience) {
@@ -275,12 +284,14 @@ void be_patient(RunParameters& parameters, std::uint64_t patience) {
 }
 
 std::string then_words(const RunParameters& parameters) {
-  if (parameters.then_joint) return parameters.then_mean ? "joint,mean" : "joint";
-  return parameters.then_mean ? "mean" : "nothing";
+  const std::string mean(parameters.then_mean ? name(parameters.mean) : "");
+  if (parameters.then_joint) return mean.empty() ? "joint" : "joint," + mean;
+  return mean.empty() ? "nothing" : mean;
 }
 
 std::string then_text(const RunParameters& parameters) {
-  return fmt::format("{}{}", parameters.then_joint ? ", then joint" : "", parameters.then_mean ? ", then mean" : "");
+  return fmt::format("{}{}", parameters.then_joint ? ", then joint" : "",
+                     parameters.then_mean ? fmt::format(", then {}", name(parameters.mean)) : "");
 }
 
 std::string other_than_usual(const RunParameters& parameters, bool surface) {

@@ -38,7 +38,8 @@ struct RunParameters {
   MethodOptions options{};
   std::optional<Combination> combination{};  // of `metric`, the first, with a second aim
   std::optional<PhaseBegin> then_joint{};    // a phase of joint moves after the method's
-  std::optional<PhaseBegin> then_mean{};     // a phase that raises the mean, the last one
+  std::optional<PhaseBegin> then_mean{};     // a phase that raises a mean, the last one
+  MeanKind mean = MeanKind::Harmonic;        // which one
   VisitOrder order{};
   std::vector<Index> fixed{};  // the user's fixed set, besides boundary and unused vertices and, as `interfaces` says, those on interfaces
   InterfaceRule interfaces = InterfaceRule::Fixed;
@@ -91,7 +92,7 @@ void aim_at(RunParameters& parameters, const Target& target);
 /// "targets: 1204 elements of layers as they were, ...".
 [[nodiscard]] std::string target_sentence(const InputMesh& input, Metric metric);
 
-/// Sets the phases after the method's: "mean", "joint", "joint,mean" or "nothing". Throws UsageError.
+/// Sets the phases after the method's: "joint", a MeanKind's name, both with a comma between them, or "nothing". Throws UsageError.
 void set_then(RunParameters& parameters, std::string_view words, const PhaseBegin& begin);
 /// The first phase ends no sooner than it would alone.
 void be_patient(RunParameters& parameters, std::uint64_t patience);

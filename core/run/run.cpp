@@ -146,7 +146,9 @@ void Run::forget_after(std::uint64_t iteration) {
   first_phase_.forget_after(iteration);
 }
 
-Sweep Run::sweep() const { return sweep_after(history_.records(), at_.moment.iteration, mean_since(), input_->has_strays); }
+Sweep Run::sweep() const {
+  return sweep_after(history_.records(), at_.moment.iteration, {mean_since(), parameters_.mean}, input_->has_strays);
+}
 
 std::uint64_t Run::ask_smoother(std::uint64_t first, std::uint64_t count) {
   if (const Sweep now = sweep(); begun_ != now) {
@@ -224,7 +226,9 @@ void Run::recover() {
 void Run::record(const RunProgress& done) {
   const std::uint64_t iteration = at_.moment.iteration;
   if (iteration < history_.records().size()) return;  // been here before
-  history_.record({iteration, statistics(), done.moved, done.seconds, done.searched, done.joint, second_minimum()});
+  const auto mean = mean_since();
+  history_.record(
+      {iteration, statistics(), done.moved, done.seconds, done.searched, done.joint, second_minimum(), mean && *mean < iteration});
   unkept_seconds_ += done.seconds;
   if (next_phase(parameters_) != nullptr) {
     const auto since = first_phase_end();

@@ -335,7 +335,7 @@ Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, std:
     const Phase phase = phase_of(reached);
     const bool begins = phase != std::exchange(phase_before, phase);
     if (begins) outcome.phases = phases_reached(phase);
-    if (begins || (phase == Phase::Mean && now.mean - mean >= limits.rise)) {
+    if (begins || (phase == Phase::Mean && std::abs(now.mean - mean) >= limits.rise)) {
       since_rise = 0;
       mean = now.mean;
     }

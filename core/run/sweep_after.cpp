@@ -29,10 +29,11 @@ bool untangles_jointly(std::span<const IterationRecord> records, std::uint64_t i
   return iterations_since_untangled(records, iteration - 1) < since;
 }
 
-Sweep sweep_after(std::span<const IterationRecord> records, std::uint64_t iteration, std::optional<std::uint64_t> mean_since, bool strays) {
+Sweep sweep_after(std::span<const IterationRecord> records, std::uint64_t iteration, const MeanPhase& mean, bool strays) {
   const Statistics& now = records[iteration].statistics;
   Sweep sweep{.iteration = iteration};
-  if (mean_since && *mean_since <= iteration) {
+  if (mean.since && *mean.since <= iteration) {
+    sweep.mean = mean.kind;
     sweep.floor = now.movable_minimum;
     sweep.second_floor = records[iteration].second;
   }

@@ -19,10 +19,15 @@ struct UntanglingPlan {
   static constexpr std::uint64_t kEnd = 50;     // no more attempts from here on
 };
 
-/// Of the iteration after records[iteration], which must exist. `mean_since`: see Run::mean_since(); `strays`: whether the input has any,
-/// see InputMesh, so that a run of it begins with repairs.
-[[nodiscard]] Sweep sweep_after(std::span<const IterationRecord> records, std::uint64_t iteration, std::optional<std::uint64_t> mean_since,
-                                bool strays);
+/// The phase that raises a mean.
+struct MeanPhase {
+  std::optional<std::uint64_t> since{};  // see Run::mean_since()
+  MeanKind kind = MeanKind::Harmonic;
+};
+
+/// The sweep of the iteration after records[iteration], which must exist. `strays`: whether the input has any, see InputMesh, so that a run
+/// of it begins with repairs.
+[[nodiscard]] Sweep sweep_after(std::span<const IterationRecord> records, std::uint64_t iteration, const MeanPhase& mean, bool strays);
 
 /// Whether vertices of inverted elements are then moved together instead of one by one: once where an attempt has moved nothing, and once
 /// after the last.

@@ -10,6 +10,7 @@
 #include "core/formula/evaluator.h"
 #include "core/mesh/mesh_view.h"
 #include "core/quality/defined_quality.h"
+#include "core/quality/power_mean.h"
 #include "core/search/grid_search.h"
 #include "core/search/mesh_star.h"
 #include "core/search/surface_star.h"
@@ -237,10 +238,10 @@ class DefinedStar {
     for (std::size_t i = 0; i < offsets.size(); ++i) out[i] = std::max(out[i], kInverted);
   }
   static constexpr double kInverted = -1e9;
-  [[nodiscard]] double mean(Offset p) const {
-    double sum = 0.0;
-    for (const Incidence& at : order_) sum += judge_.quality(at, positions_, vertex_, place(p));
-    return sum / static_cast<double>(order_.size());
+  [[nodiscard]] double mean(Offset p, MeanKind kind) const {
+    PowerMean<double> mean(kind);
+    for (const Incidence& at : order_) mean.add(judge_.quality(at, positions_, vertex_, place(p)));
+    return mean.value(static_cast<double>(order_.size()));
   }
 
  private:

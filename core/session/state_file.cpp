@@ -121,7 +121,10 @@ Json json_of(const RunParameters& p) {
   if (p.combination && p.combination->size() != nullptr) json["size_function"] = to_text(*p.combination->size());
   if (!p.kinds.empty()) json["kinds"] = json_of(p.kinds);  // files of before do not have it
   if (p.then_joint) json["then_joint"] = json_of(*p.then_joint);
-  if (p.then_mean) json["then_mean"] = json_of(*p.then_mean);
+  if (p.then_mean) {
+    json["then_mean"] = json_of(*p.then_mean);
+    json["then_mean"]["raises"] = name(p.mean);
+  }
   return json;
 }
 
@@ -148,11 +151,13 @@ RunParameters to_parameters(const Json& json) {
   if (json.contains("kinds")) p.kinds = to_kinds(json.at("kinds"));
   p.then_joint = to_phase(json, "then_joint");
   p.then_mean = to_phase(json, "then_mean");
+  // Files of before the choice raise the arithmetic mean.
+  if (p.then_mean) p.mean = parse_mean_kind(json.at("then_mean").value("raises", std::string(name(MeanKind::Arithmetic))));
   return p;
 }
 
 /// [minimum, mean, movable minimum, ceiling, worst element, inverted, moved, seconds]; of joint moves what joint_json() says; the second
-/// metric's movable minimum, where it is known.
+/// metric's movable minimum, where it is known; true of the phase that raises a mean.
 Json json_of(const IterationRecord& r) {
   const Statistics& s = r.statistics;
   Json json{number_in_json(s.minimum),
@@ -165,16 +170,19 @@ Json json_of(const IterationRecord& r) {
             number_in_json(r.seconds)};
   if (r.joint) json.push_back(joint_json(*r.joint));
   if (r.second) json.push_back(number_in_json(*r.second));
+  if (r.raises_mean) json.push_back(true);
   return json;
 }
 
 IterationRecord to_record(const Json& json, std::uint64_t iteration) {
-  if (!json.is_array() || json.size() < 8 || json.size() > 10) throw UsageError("a record of an iteration has 8 to 10 values");
+  if (!json.is_array() || json.size() < 8 || json.size() > 11) throw UsageError("a record of an iteration has 8 to 11 values");
   IterationRecord record{iteration, {}, to_whole(json[6]), to_double(json[7])};
   record.statistics = {to_double(json[0]), to_double(json[1]), to_double(json[2]), to_double(json[3]), kNoIndex, to_index(json[5])};
   if (to_whole(json[4]) != kNoIndex) record.statistics.worst_element = to_index(json[4]);
   for (std::size_t i = 8; i < json.size(); ++i) {
-    if (json[i].is_number() || json[i].is_string())
+    if (json[i].is_boolean())
+      record.raises_mean = json[i].get<bool>();
+    else if (json[i].is_number() || json[i].is_string())
       record.second = to_double(json[i]);
     else
       record.joint = to_joint_figures(json[i]);

@@ -26,13 +26,13 @@ template <class Frame>
 }
 
 template <class Frame>
-[[nodiscard]] double defined_mean(const DefinedStarJudge<Frame>& judge, PositionView positions, Index vertex, Vec3 place) {
-  double sum = 0.0;
+[[nodiscard]] double defined_mean(const DefinedStarJudge<Frame>& judge, PositionView positions, Index vertex, Vec3 place, MeanKind kind) {
+  PowerMean<double> mean(kind);
   for (Incidence at : judge.mesh.star(vertex)) {
     at.corner = kNoIndex;  // all of the element
-    sum += judge.quality(at, positions, vertex, place);
+    mean.add(judge.quality(at, positions, vertex, place));
   }
-  return sum / static_cast<double>(judge.mesh.star(vertex).size());
+  return mean.value(static_cast<double>(judge.mesh.star(vertex).size()));
 }
 
 /// As confirm_at().

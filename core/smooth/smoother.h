@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/quality/power_mean.h"
 #include "core/quality/quality.h"
 #include "core/search/untangling.h"
 #include "core/smooth/task.h"
@@ -22,6 +23,7 @@ struct Sweep {
   std::uint64_t iteration = 0;  // of the run; 0: from the input on
   /// Second phase: raise the mean quality of the stars, with this as their floor: the least quality of the elements that can move.
   std::optional<double> floor{};
+  MeanKind mean = MeanKind::Harmonic;  // which one
   /// And the least of a combination's second metric, which that phase keeps as well.
   std::optional<double> second_floor{};
   /// While the mesh has inverted elements.

@@ -7,6 +7,7 @@
 #include "core/mesh/mesh_view.h"
 #include "core/mesh/position_view.h"
 #include "core/numeric/scalar.h"
+#include "core/quality/power_mean.h"
 #include "core/search/star.h"
 #include "core/smooth/composite_objective.h"
 #include "core/smooth/edge_neighbours.h"
@@ -38,6 +39,7 @@ struct SizeFormula {
 struct Aims {
   enum class Second : std::uint8_t { Mean, Metric, Density };
   Second second = Second::Mean;
+  MeanKind mean = MeanKind::Harmonic;                     // Second::Mean
   dmoscope::Metric metric = dmoscope::Metric::MeanRatio;  // Second::Metric
   double threshold = 0.0;
   SizeFormula size{};  // Second::Density
@@ -81,27 +83,28 @@ template <class SizeAt>
   return {{sum.x / weights, sum.y / weights}, lengths / count};
 }
 
-/// The mean metric of a star with its vertex at an offset, by the search's formulas; summed in the star's order.
+/// A mean of the metric of a star with its vertex at an offset, by the search's formulas; summed in the star's order.
 template <Metric M, class StarT, class Point>
-[[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE double mean_of(const StarT& star, Point p) {
-  double sum = 0.0, count = 0.0;
+[[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE double mean_of(const StarT& star, Point p, MeanKind kind) {
+  PowerMean<double> mean(kind);
+  double count = 0.0;
   star.template for_each<true>([&](const auto& element) {
-    sum += evaluate<M>(element.with(p));
+    mean.add(evaluate<M>(element.with(p)));
     count += 1.0;
   });
-  return sum / count;
+  return mean.value(count);
 }
 
 /// The same by the statistics', with the vertex at a place.
 template <Metric M, class Frame>
 [[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE double mean_at_place(const MeshView<Frame>& mesh, PositionView positions, Index vertex,
-                                                                     Vec3 place) {
+                                                                     Vec3 place, MeanKind kind) {
   const auto at = [&](Index v) { return v == vertex ? place : positions[v]; };
-  double sum = 0.0;
+  PowerMean<double> mean(kind);
   for (const Incidence& incidence : mesh.star(vertex))
     visit_shape(mesh.frame_of(incidence.element), mesh.corners_of(incidence.element), at,
-                [&sum](const auto& shape) { sum += evaluate<M>(shape); });
-  return sum / static_cast<double>(mesh.star(vertex).size());
+                [&mean](const auto& shape) { mean.add(evaluate<M>(shape)); });
+  return mean.value(static_cast<double>(mesh.star(vertex).size()));
 }
 
 /// What would become of a vertex that goes from where its star is `before` to where it is `after`? `aims`: Aims or what else has its

@@ -24,83 +24,16 @@ struct Extent {
   }
 };
 
-/// Finds the elements of stacks; by the sides of elements, which are edges in the plane and faces in space.
-class Finder {
+/// How wide and high elements are that stand on one of their sides.
+class Shapes {
  public:
-  Finder(const Mesh& mesh, const Geometry& geometry) : mesh_(mesh), plane_(geometry.plane), height_(mesh.elements.size()) {}
-
-  BoundaryLayers run(bool volume) {
-    if (volume)
-      from_faces();
-    else
-      from_edges();
-    for (Index e = 0; e < mesh_.elements.size(); ++e) {
-      if (height_[e] == 0) continue;
-      layers_.elements.push_back(e);
-      layers_.heights.push_back(height_[e]);
-      layers_.most = std::max(layers_.most, height_[e]);
-    }
-    return std::move(layers_);
-  }
-
- private:
-  [[nodiscard]] double distance(Index a, Index b) const { return length(plane_.difference(mesh_.positions[a], mesh_.positions[b])); }
-
-  // In the plane: a side is a quadrilateral's edge i, from corner i to i + 1.
-
-  void from_edges() {
-    const Topology topology(mesh_);
-    across_.assign(4 * std::size_t{mesh_.elements.size()}, kNoIndex);
-    std::vector<std::pair<Index, Index>> walls;  // element, edge
-    for_each_edge(mesh_, topology, [&](Edge edge, std::span<const EdgeSide> sides) {
-      if (sides.size() == 1) walls.emplace_back(sides[0].element, edge_of(sides[0].element, edge));
-      if (sides.size() != 2) return;
-      across_[4 * std::size_t{sides[0].element} + edge_of(sides[0].element, edge)] = sides[1].element;
-      across_[4 * std::size_t{sides[1].element} + edge_of(sides[1].element, edge)] = sides[0].element;
-    });
-    for (const auto& [element, edge] : walls) climb_edges(element, edge);
-  }
-
-  [[nodiscard]] Index edge_of(Index element, Edge edge) const {
-    const auto corners = mesh_.elements.corners(element);
-    const Index n = static_cast<Index>(corners.size());
-    for (Index i = 0; i < n; ++i) {
-      const Index a = corners[i], b = corners[(i + 1) % n];
-      if ((a == edge.low && b == edge.high) || (a == edge.high && b == edge.low)) return i;
-    }
-    return 0;
-  }
+  Shapes(const Mesh& mesh, const Plane& plane, std::span<const Vec3> positions) : mesh_(mesh), plane_(plane), positions_(positions) {}
 
   /// Of a quadrilateral that stands on its edge.
   [[nodiscard]] Extent extent(Index element, Index edge) const {
     const auto c = mesh_.elements.corners(element);
     const auto side = [&](Index i) { return distance(c[(edge + i) % 4], c[(edge + i + 1) % 4]); };
     return {0.5 * (side(0) + side(2)), 0.5 * (side(1) + side(3))};
-  }
-
-  void climb_edges(Index element, Index edge) {
-    double below = 0.0;
-    for (std::uint16_t height = 1; height < kHighest; ++height) {
-      if (mesh_.elements.kind(element) != ElementKind::Quadrilateral || height_[element] != 0) return;
-      const Extent here = extent(element, edge);
-      if (!here.is_layer_on(below, height == 1 ? kAtWall : kAbove)) return;
-      below = here.height;
-      height_[element] = height;
-      if (height == 1) ++layers_.stacks;
-      const Index opposite = (edge + 2) % 4, next = across_[4 * std::size_t{element} + opposite];
-      if (next == kNoIndex) return;
-      const auto c = mesh_.elements.corners(element);
-      const Index a = c[opposite], b = c[(opposite + 1) % 4];
-      edge = edge_of(next, {std::min(a, b), std::max(a, b)});
-      element = next;
-    }
-  }
-
-  // In space: a side is a face.
-
-  void from_faces() {
-    const FaceNeighbours neighbours(mesh_);
-    for (const ElementFace& wall : neighbours.boundary()) climb_faces(neighbours, wall);
   }
 
   /// The face that stands opposite to one; none where there is no such face.
@@ -148,17 +81,99 @@ class Finder {
     return corner;
   }
 
+ private:
+  [[nodiscard]] double distance(Index a, Index b) const { return length(plane_.difference(positions_[a], positions_[b])); }
+
+  const Mesh& mesh_;
+  const Plane& plane_;
+  std::span<const Vec3> positions_;
+};
+
+/// Finds the elements of stacks; by the sides of elements, which are edges in the plane and faces in space.
+class Finder {
+ public:
+  Finder(const Mesh& mesh, const Geometry& geometry)
+      : mesh_(mesh), shapes_(mesh, geometry.plane, mesh.positions), height_(mesh.elements.size()), base_(mesh.elements.size()) {}
+
+  BoundaryLayers run(bool volume) {
+    if (volume)
+      from_faces();
+    else
+      from_edges();
+    for (Index e = 0; e < mesh_.elements.size(); ++e) {
+      if (height_[e] == 0) continue;
+      layers_.elements.push_back(e);
+      layers_.heights.push_back(height_[e]);
+      layers_.bases.push_back(base_[e]);
+      layers_.most = std::max(layers_.most, height_[e]);
+    }
+    return std::move(layers_);
+  }
+
+ private:
+  // In the plane: a side is a quadrilateral's edge i, from corner i to i + 1.
+
+  void from_edges() {
+    const Topology topology(mesh_);
+    across_.assign(4 * std::size_t{mesh_.elements.size()}, kNoIndex);
+    std::vector<std::pair<Index, Index>> walls;  // element, edge
+    for_each_edge(mesh_, topology, [&](Edge edge, std::span<const EdgeSide> sides) {
+      if (sides.size() == 1) walls.emplace_back(sides[0].element, edge_of(sides[0].element, edge));
+      if (sides.size() != 2) return;
+      across_[4 * std::size_t{sides[0].element} + edge_of(sides[0].element, edge)] = sides[1].element;
+      across_[4 * std::size_t{sides[1].element} + edge_of(sides[1].element, edge)] = sides[0].element;
+    });
+    for (const auto& [element, edge] : walls) climb_edges(element, edge);
+  }
+
+  [[nodiscard]] Index edge_of(Index element, Edge edge) const {
+    const auto corners = mesh_.elements.corners(element);
+    const Index n = static_cast<Index>(corners.size());
+    for (Index i = 0; i < n; ++i) {
+      const Index a = corners[i], b = corners[(i + 1) % n];
+      if ((a == edge.low && b == edge.high) || (a == edge.high && b == edge.low)) return i;
+    }
+    return 0;
+  }
+
+  void climb_edges(Index element, Index edge) {
+    double below = 0.0;
+    for (std::uint16_t height = 1; height < kHighest; ++height) {
+      if (mesh_.elements.kind(element) != ElementKind::Quadrilateral || height_[element] != 0) return;
+      const Extent here = shapes_.extent(element, edge);
+      if (!here.is_layer_on(below, height == 1 ? kAtWall : kAbove)) return;
+      below = here.height;
+      height_[element] = height;
+      base_[element] = static_cast<std::uint8_t>(edge);
+      if (height == 1) ++layers_.stacks;
+      const Index opposite = (edge + 2) % 4, next = across_[4 * std::size_t{element} + opposite];
+      if (next == kNoIndex) return;
+      const auto c = mesh_.elements.corners(element);
+      const Index a = c[opposite], b = c[(opposite + 1) % 4];
+      edge = edge_of(next, {std::min(a, b), std::max(a, b)});
+      element = next;
+    }
+  }
+
+  // In space: a side is a face.
+
+  void from_faces() {
+    const FaceNeighbours neighbours(mesh_);
+    for (const ElementFace& wall : neighbours.boundary()) climb_faces(neighbours, wall);
+  }
+
   void climb_faces(const FaceNeighbours& neighbours, ElementFace at) {
     double below = 0.0;
     for (std::uint16_t height = 1; height < kHighest; ++height) {
       const ElementKind kind = mesh_.elements.kind(at.element);
       if ((kind != ElementKind::Hexahedron && kind != ElementKind::Wedge) || height_[at.element] != 0) return;
-      const auto other = opposite(kind, at.face);
+      const auto other = Shapes::opposite(kind, at.face);
       if (!other) return;
-      const Extent here = extent(at.element, at.face, *other);
+      const Extent here = shapes_.extent(at.element, at.face, *other);
       if (!here.is_layer_on(below, height == 1 ? kAtWall : kAbove)) return;
       below = here.height;
       height_[at.element] = height;
+      base_[at.element] = static_cast<std::uint8_t>(at.face);
       if (height == 1) ++layers_.stacks;
       const ElementFace top{at.element, *other};
       const Index next = neighbours.of(at.element)[*other];
@@ -169,8 +184,9 @@ class Finder {
   }
 
   const Mesh& mesh_;
-  const Plane& plane_;
+  Shapes shapes_;
   std::vector<std::uint16_t> height_;  // by element; 0: in no stack
+  std::vector<std::uint8_t> base_;     // by element: the side that it stands on
   std::vector<Index> across_;          // by element and edge
   BoundaryLayers layers_;
 };
@@ -179,6 +195,13 @@ class Finder {
 
 BoundaryLayers find_boundary_layers(const Mesh& mesh, const Geometry& geometry) {
   return Finder(mesh, geometry).run(geometry.shape == Shape::Volume);
+}
+
+double height_on(const Mesh& mesh, const Geometry& geometry, std::span<const Vec3> positions, Index element, Index base) {
+  const Shapes shapes(mesh, geometry.plane, positions);
+  if (geometry.shape != Shape::Volume) return shapes.extent(element, base).height;
+  const auto other = Shapes::opposite(mesh.elements.kind(element), base);
+  return other ? shapes.extent(element, base, *other).height : 0.0;
 }
 
 }  // namespace dmoscope

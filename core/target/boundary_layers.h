@@ -1,6 +1,8 @@
 #pragma once
 // Boundary layers: stacks of stretched quadrilaterals, wedges or hexahedra that grow from a boundary.
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/mesh/mesh.h"
@@ -11,6 +13,7 @@ namespace dmoscope {
 struct BoundaryLayers {
   std::vector<Index> elements;         // ascending
   std::vector<std::uint16_t> heights;  // of each its place in its stack: 1 is at the wall
+  std::vector<std::uint8_t> bases;     // of each the side that it stands on: an edge, from corner i to i + 1, or a face, see faces_of()
   Index stacks = 0;
   std::uint16_t most = 0;  // layers of the highest stack
   [[nodiscard]] bool empty() const noexcept { return elements.empty(); }
@@ -20,5 +23,8 @@ struct BoundaryLayers {
 /// on from one side of an element to the opposite one, while elements are at least 1.2 times as wide as high, and not less than 0.8 times
 /// as high as the one below: layers get higher from the wall on. An element is in the stack that comes first to it. Linear in their number.
 [[nodiscard]] BoundaryLayers find_boundary_layers(const Mesh& mesh, const Geometry& geometry);
+
+/// How high an element of a stack stands on one of its sides: the mean of the edges away from it, in mesh units.
+[[nodiscard]] double height_on(const Mesh& mesh, const Geometry& geometry, std::span<const Vec3> positions, Index element, Index base);
 
 }  // namespace dmoscope

@@ -82,9 +82,9 @@ TEST(DeviceTwoAimsScore, SumsAsTheProcessorDoes) {
     const Vec2<double> place{0.01, -0.02};
     const double least = metric_functions<Plane>(Metric::MeanRatio).least_at(expected, place, -1.0);
     if (score.tangled() || !aims.beyond(least)) continue;
-    const double mean = metric_functions<Plane>(Metric::MeanRatio).mean_at(expected, place, -1.0);
+    const double mean = metric_functions<Plane>(Metric::MeanRatio).mean_at(expected, place, MeanKind::Harmonic);
     EXPECT_TRUE(same(score(place), 0.1 + mean)) << vertex;
-    if (!same(mean_of<Metric::MeanRatio>(star.star(), place), mean)) ++otherwise;
+    if (!same(mean_of<Metric::MeanRatio>(star.star(), place, MeanKind::Harmonic), mean)) ++otherwise;
   }
   EXPECT_GT(otherwise, 0U) << "the order matters";
 }

@@ -155,9 +155,9 @@ TEST(SweepAfter, CountsAnewWhenFewerAreInvertedAndNotWhenAsManyOrMore) {
 
 TEST(SweepAfter, TheFloorOfTheMeanIsTheMinimumFromTheVeryIterationOn) {
   const std::vector<IterationRecord> records = records_with({0, 0, 0, 0});
-  EXPECT_EQ(sweep_after(records, 1, 2, false).floor, Sweep{}.floor);
-  EXPECT_EQ(sweep_after(records, 2, 2, false).floor, -3.0);
-  EXPECT_EQ(sweep_after(records, 3, 2, false).floor, -4.0);
+  EXPECT_EQ(sweep_after(records, 1, {2}, false).floor, Sweep{}.floor);
+  EXPECT_EQ(sweep_after(records, 2, {2}, false).floor, -3.0);
+  EXPECT_EQ(sweep_after(records, 3, {2}, false).floor, -4.0);
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ Sweep sweep_of(const RunView& run, const Moment& shown, const InputMesh& input) 
   if (shown == run.moment) return run.sweep;
   if (shown.iteration >= run.records.size())
     throw UsageError("The run has no record of this iteration any more, nor the floor that its visits keep to.");
-  return sweep_after(run.records.whole(), shown.iteration, run.phases.mean_since, input.has_strays);
+  return sweep_after(run.records.whole(), shown.iteration, {run.phases.mean_since, run.parameters.mean}, input.has_strays);
 }
 
 /// What the run's smoother is made from, but for the order of its visits.

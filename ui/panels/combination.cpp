@@ -121,6 +121,7 @@ void draw_phases(PanelContext& context, const RunView& run) {
   bool then_joint = p.then_joint.has_value(), then_mean = p.then_mean.has_value();
   const auto say_then = [&] {
     RunParameters wanted;
+    wanted.mean = p.mean;
     if (then_joint) wanted.then_joint.emplace();
     if (then_mean) wanted.then_mean.emplace();
     context.send("then " + then_words(wanted));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/quality/metric.h"
+#include "core/quality/power_mean.h"
 #include "core/search/parameters.h"
 #include "core/search/star.h"
 #include "core/search/surface_star.h"
@@ -40,8 +41,9 @@ struct CompositeSearch {
   double threshold = 0.0;
   bool inclusive = false;  // is a star whose least is the threshold beyond it?
   Second second = Second::Mean;
-  Metric metric = Metric::MeanRatio;  // Second::Metric
-  Offset wanted{};                    // Second::Density: see DensityTarget
+  MeanKind mean = MeanKind::Harmonic;  // Second::Mean
+  Metric metric = Metric::MeanRatio;   // Second::Metric
+  Offset wanted{};                     // Second::Density: see DensityTarget
   double edge = 0.0;
 };
 

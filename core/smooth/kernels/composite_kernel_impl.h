@@ -240,17 +240,17 @@ class Kernel {
   /// Over all elements, as they were found just before.
   [[nodiscard]] D mean(const Point& p) const {
     const std::size_t simplices = task_.star.simplices.size;
-    D sum(0.0);
-    for (std::size_t i = 0; i < simplices; ++i) sum = sum + first_.quality[i];
+    PowerMean<D> mean(task_.mean);
+    for (std::size_t i = 0; i < simplices; ++i) mean.add(first_.quality[i]);
     std::size_t others = 0;
     if constexpr (formulas::kDefinedForOthers<M, Point>) {
       task_.star.for_others([&](const auto& element) {
         // Objective, which speaks for blind metrics, keeps none.
-        sum = sum + (formulas::kSignTellsInversion<M, Point> ? first_.others[others] : formulas::metric<M>(element.with(p)));
+        mean.add(formulas::kSignTellsInversion<M, Point> ? first_.others[others] : formulas::metric<M>(element.with(p)));
         ++others;
       });
     }
-    return sum / D(static_cast<double>(simplices + others));
+    return mean.value(static_cast<double>(simplices + others));
   }
 
   /// Where the candidates of a level stand along its last two axes, in the order of their indices: as CandidateGrid has it.
@@ -304,7 +304,7 @@ class Kernel {
   }
   void take_bounds() {
     if constexpr (kBounded) {
-      if (is_bounded()) bounds_.take(task_.star, kSpace && first_.keeps_others ? first_.elsewhere.data() : nullptr);
+      if (is_bounded()) bounds_.take(task_.star, task_.mean, kSpace && first_.keeps_others ? first_.elsewhere.data() : nullptr);
     }
   }
   /// What a candidate must reach to win.

@@ -18,8 +18,8 @@ namespace dmoscope::composite {
 /// Every simplex, and every corner of another element that changes with the vertex, is a form: of two functions of the vertex's place, v
 /// affine and s quadratic. In the plane its mean ratio is v / s (see RatioForm), in space the cube root of v |v| / s^3 (see MeanRatioForm).
 /// That without the root is its rank. Both functions are taken around the centre of a grid and, in float, with room for all rounding: never
-/// below the true v, never above the true s. The cube root is concave: at most its tangent at the rank that the element has in the centre.
-/// So no root is needed, and the bound is closest where the grid is fine.
+/// below the true v, never above the true s. What a mean adds up of a rank is concave: at most its tangent at the rank that the element has
+/// in the centre. So no root is needed, and the bound is closest where the grid is fine.
 /// D, F: packs of doubles and of floats of one processor.
 template <class Frame, class D, class F>
 class RatioBounds {
@@ -29,7 +29,8 @@ class RatioBounds {
   using Hope = typename F::batch_bool_type;
 
   /// `elsewhere`: in space, by element that is no simplex, the least mean ratio of the corners that stay; null: not known.
-  void take(const Lists& star, const D* elsewhere) {
+  void take(const Lists& star, MeanKind mean, const D* elsewhere) {
+    mean_ = mean;
     pieces_ = elements_ = 0;
     for (std::size_t i = 0; i < star.simplices.size; ++i) {
       begin_element(1.0);
@@ -46,7 +47,7 @@ class RatioBounds {
 
   /// For places that are no farther from `centre` than `half` along each axis; in the plane of two.
   void move_to(const std::array<double, 3>& centre, const std::array<double, 3>& half) {
-    greatest_sum_ = 0.0;
+    greatest_sum_ = sizes_ = 0.0;
     for (std::size_t i = 0; i < elements_; ++i) {
       double rank = caps_[i], most = caps_[i];
       for (std::size_t k = first_[i]; k < first_[i + 1]; ++k) {
@@ -58,6 +59,7 @@ class RatioBounds {
       slopes_[i] = static_cast<float>(tangent.slope);
       most_[i] = static_cast<float>(most * kMore);
       greatest_sum_ += tangent.at_zero + tangent.slope * most * kMore;
+      sizes_ += size(tangent.at_zero) + tangent.slope * most;
     }
   }
 
@@ -65,7 +67,8 @@ class RatioBounds {
   void set_needs(double least, double mean) {
     const auto elements = static_cast<double>(elements_);
     least_ = static_cast<float>(rank_of_ratio(least) * kLess);
-    sum_ = mean > 0.0 ? static_cast<float>(mean * elements - (elements + 8.0) * 0x1p-22 * (greatest_sum_ + 1.0)) : -kMost;
+    const bool counts = mean > 0.0 && mean_ != MeanKind::Geometric;
+    sum_ = counts ? static_cast<float>(sum_of(mean) * elements - (elements + 8.0) * 0x1p-22 * (sizes_ + 1.0)) : -kMost;
   }
 
   /// May a place reach what is needed? `d`: from the centre.
@@ -152,14 +155,25 @@ class RatioBounds {
   }
 
   static double rank_of_ratio(double ratio) { return kSpace ? ratio * ratio * ratio : ratio; }
-  /// What is never below the mean ratio of a rank: at_zero + slope * rank.
+  /// A rising function of the mean: what the mean of that many equal qualities adds up for each.
+  [[nodiscard]] double sum_of(double quality) const {
+    if (mean_ == MeanKind::Harmonic) return -1.0 / quality;
+    return mean_ == MeanKind::InverseSquare ? -1.0 / (quality * quality) : quality;
+  }
+  /// A line that is never below sum_of() the mean ratio of a rank: at_zero + slope * rank.
   struct Tangent {
     double at_zero, slope;
   };
-  static Tangent tangent_at(double rank) {
-    if constexpr (!kSpace) return {0.0, 1.0};
-    const double at = rank > kLeastTangent ? rank : kLeastTangent, root = scalar::refined_cube_root(at, scalar::rough_cube_root(at));
-    return {2.0 / 3.0 * root, 1.0 / (3.0 * root * root)};
+  [[nodiscard]] Tangent tangent_at(double rank) const {
+    if (!kSpace && mean_ == MeanKind::Arithmetic) return {0.0, 1.0};
+    const double at = rank > kLeastTangent ? rank : kLeastTangent;
+    const double quality = kSpace ? scalar::refined_cube_root(at, scalar::rough_cube_root(at)) : at;
+    const double by_rank = kSpace ? 1.0 / (3.0 * quality * quality) : 1.0;  // the slope of the quality
+    const double by_quality = mean_ == MeanKind::Harmonic        ? 1.0 / (quality * quality)
+                              : mean_ == MeanKind::InverseSquare ? 2.0 / (quality * quality * quality)
+                                                                 : 1.0;
+    const double slope = by_quality * by_rank;
+    return {sum_of(quality) - slope * at, slope};
   }
   /// The rank of v and s.
   static double rank(double v, double s) { return kSpace ? v * size(v) / (s * s * s) : v / s; }
@@ -214,7 +228,8 @@ class RatioBounds {
   }
 
   std::size_t pieces_ = 0, elements_ = 0;
-  double greatest_sum_ = 0.0;
+  MeanKind mean_ = MeanKind::Harmonic;
+  double greatest_sum_ = 0.0, sizes_ = 0.0;  // of the sum's terms
   float least_ = 0.0F, sum_ = 0.0F;
   std::uint16_t first_[kMaxElements + 1];  // of an element's pieces
   std::uint16_t order_[kMaxElements];

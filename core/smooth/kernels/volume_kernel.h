@@ -7,6 +7,7 @@
 #include "core/base/vec.h"
 #include "core/mesh/topology.h"
 #include "core/quality/metric.h"
+#include "core/quality/power_mean.h"
 #include "core/search/parameters.h"
 #include "core/smooth/kernels/indexed_star.h"
 
@@ -48,8 +49,8 @@ struct BeforeAndAfter {
 struct VolumeKernel {
   VolumeFound (*search)(const VolumeSearch& search) = nullptr;
   // Of the elements for which the metric is defined:
-  BeforeAndAfter (*least_ranks)(const VolumeComparison& comparison) = nullptr;  // formulas::rank_around
-  BeforeAndAfter (*means)(const VolumeComparison& comparison) = nullptr;        // formulas::metric
+  BeforeAndAfter (*least_ranks)(const VolumeComparison& comparison) = nullptr;           // formulas::rank_around
+  BeforeAndAfter (*means)(const VolumeComparison& comparison, MeanKind kind) = nullptr;  // formulas::metric
   // Is every hexahedron and wedge certain to be valid inside with the vertex at `after`? Where not, validity_of() has to say.
   bool (*valid_after)(const VolumeComparison& comparison) = nullptr;
 };

@@ -152,28 +152,32 @@ template <Metric M, class D>
   return {least_slot_of(least_before), least_slot_of(least_after)};
 }
 template <Metric M, class D>
-[[gnu::flatten]] BeforeAndAfter means(const VolumeComparison& task) {
+[[gnu::flatten]] BeforeAndAfter means(const VolumeComparison& task, MeanKind kind) {
   const Vec3Of<D> before = point_of<D>(task.before), after = point_of<D>(task.after);
   alignas(64) double numbers[D::size];
   for (std::size_t k = 0; k < D::size; ++k) numbers[k] = static_cast<double>(static_cast<std::int32_t>(k));
   const D slot = D::load_aligned(numbers);
-  D sum_before(0.0), sum_after(0.0);
+  PowerMean<D> mean_before(kind), mean_after(kind);
   double count = 0.0;
   for_packs<D>(task.star, task.others, [&]<class Element>(const Element& element, std::size_t used) {
     if constexpr (std::is_same_v<Element, StarTetrahedron<D>> || formulas::kDefinedForCorners<M>) {
       const double here = static_cast<double>(static_cast<std::int32_t>(used));
       const auto counts = slot < D(here);
-      sum_before += xsimd::select(counts, formulas::metric<M>(element.with(before)), D(0.0));
-      sum_after += xsimd::select(counts, formulas::metric<M>(element.with(after)), D(0.0));
+      const auto add = [&](PowerMean<D>& mean, const Vec3Of<D>& at) {
+        mean.join(xsimd::select(counts, mean.term(formulas::metric<M>(element.with(at))), mean.neutral()));
+      };
+      add(mean_before, before);
+      add(mean_after, after);
       count += here;
     }
   });
-  BeforeAndAfter mean;
-  sum_before.store_aligned(numbers);
-  for (const double each : numbers) mean.before += each / count;
-  sum_after.store_aligned(numbers);
-  for (const double each : numbers) mean.after += each / count;
-  return mean;
+  const auto value = [&](const PowerMean<D>& mean) {
+    mean.total().store_aligned(numbers);
+    PowerMean<double> all(kind);
+    for (const double each : numbers) all.join(each);
+    return all.value(count);
+  };
+  return {value(mean_before), value(mean_after)};
 }
 
 template <class D>

@@ -64,7 +64,7 @@ std::optional<bool> AimsKernel<Frame>::gains(PositionView positions, Index verte
     const MetricFunctions<Frame>& first = metric_functions<Frame>(composite.first);
     const BeforeAndAfter least{first.least_at(star, Offset{}, 0.0), first.least_at(star, step, 0.0)};
     return gains_for_certain(composite.threshold, least, [&]() -> BeforeAndAfter {
-      if (second == nullptr) return {first.mean_at(star, Offset{}, 0.0), first.mean_at(star, step, 0.0)};
+      if (second == nullptr) return {first.mean_at(star, Offset{}, aims_.mean), first.mean_at(star, step, aims_.mean)};
       const auto rank_at = metric_functions<Frame>(*second).least_rank_at;
       return {rank_at(star, Offset{}), rank_at(star, step)};
     });

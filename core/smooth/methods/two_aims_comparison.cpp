@@ -20,7 +20,7 @@ std::optional<bool> TwoAimsComparison::gains(const IndexedStar& star, const Star
   if (!has_metric(star, first_)) return std::nullopt;
   const VolumeComparison task{star, points.at.data(), from, target};
   return gains_for_certain(aims_.threshold, least(first_, first_kernel_, task), [&]() -> BeforeAndAfter {
-    if (aims_.raise_mean()) return first_kernel_.means(task);
+    if (aims_.raise_mean()) return first_kernel_.means(task, aims_.mean);
     return has_metric(star, aims_.metric) ? least(aims_.metric, second_kernel_, task) : BeforeAndAfter{};
   });
 }

@@ -11,8 +11,8 @@ namespace dmoscope {
 namespace {
 
 template <Metric M, class Frame>
-double mean_of_star(const MeshView<Frame>& mesh, PositionView positions, Index vertex, Vec3 place) {
-  return mean_at_place<M>(mesh, positions, vertex, place);
+double mean_of_star(const MeshView<Frame>& mesh, PositionView positions, Index vertex, Vec3 place, MeanKind kind) {
+  return mean_at_place<M>(mesh, positions, vertex, place, kind);
 }
 
 // Flattened: in a source with so many metrics the compiler leaves calls in the innermost loops, which take 2.5 times as long.
@@ -36,8 +36,8 @@ double least_rank_at(const JudgedStarView<Frame>& star, OffsetIn<Frame, double> 
 }
 
 template <Metric M, class Frame>
-double mean_at(const JudgedStarView<Frame>& star, OffsetIn<Frame, double> p, double /*enough*/) {
-  return mean_of<M>(star, p);
+double mean_at(const JudgedStarView<Frame>& star, OffsetIn<Frame, double> p, MeanKind kind) {
+  return mean_of<M>(star, p, kind);
 }
 
 template <Metric M, class Frame>
@@ -105,10 +105,12 @@ CompositeObjective objective_of(const SmoothingTask& task) {
   return task.combination ? composite_objective(task.metric, *task.combination, task.size) : single_objective(task.metric);
 }
 
-CompositeObjective raise_mean_above(Metric metric, double floor) { return {metric, floor > 0.0 ? floor : 0.0, MeanOfStar{}, {}}; }
+CompositeObjective raise_mean_above(Metric metric, double floor, MeanKind kind) {
+  return {metric, floor > 0.0 ? floor : 0.0, MeanOfStar{kind}, {}};
+}
 
 CompositeObjective raise_mean_in(const Sweep& sweep, Metric metric, const std::optional<Combination>& combination) {
-  CompositeObjective mean = raise_mean_above(metric, *sweep.floor);
+  CompositeObjective mean = raise_mean_above(metric, *sweep.floor, sweep.mean);
   if (combination && sweep.second_floor) mean.guard = {std::get<Metric>(combination->second), *sweep.second_floor};
   return mean;
 }
@@ -130,6 +132,8 @@ std::optional<Aims> plain_aims(const CompositeObjective& composite) {
     if (!formula) return std::nullopt;
     aims.second = Aims::Second::Density;
     aims.size = *formula;
+  } else {
+    aims.mean = std::get<MeanOfStar>(composite.second).kind;
   }
   return aims;
 }
@@ -156,8 +160,6 @@ StarScore<Frame>::StarScore(const CompositeObjective& composite, const std::opti
   if (!defined_.first) first_ = &metric_functions<Frame>(composite.first);
   if (const auto* metric = std::get_if<Metric>(&composite.second); metric != nullptr && is_built_in(*metric))
     second_ = metric_functions<Frame>(*metric).least_at;
-  else if (composite.raise_mean() && !defined_.first)
-    second_ = first_->mean_at;
   if (composite.guard) guard_floor_ = std::min(composite.guard->floor, guarded({}));
 }
 
@@ -183,7 +185,9 @@ template <class Frame>
 double StarScore<Frame>::second(Offset p) const {
   if (second_ != nullptr) return second_(*star_, p, kAll);
   if (defined_.second) return positive(defined_.second->least(p));
-  return composite_.raise_mean() ? positive(defined_.first->mean(p)) : target_.density(p);
+  const auto* mean = std::get_if<MeanOfStar>(&composite_.second);
+  if (mean == nullptr) return target_.density(p);
+  return defined_.first ? positive(defined_.first->mean(p, mean->kind)) : first_->mean_at(*star_, p, mean->kind);
 }
 
 template <class Frame>
@@ -305,8 +309,9 @@ StarState StarJudge<Frame>::state(Metric metric, PositionView positions, Index v
 
 template <class Frame>
 double StarJudge<Frame>::mean(PositionView positions, Index vertex, Vec3 place) const {
-  if (!first_) return metric_functions<Frame>(composite_.first).mean(view_, positions, vertex, place);
-  return defined_mean(star_judge(*first_), positions, vertex, place);
+  const MeanKind kind = std::get<MeanOfStar>(composite_.second).kind;
+  if (!first_) return metric_functions<Frame>(composite_.first).mean(view_, positions, vertex, place, kind);
+  return defined_mean(star_judge(*first_), positions, vertex, place, kind);
 }
 
 template <class Frame>

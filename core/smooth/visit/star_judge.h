@@ -20,7 +20,9 @@
 namespace dmoscope {
 
 /// The second aim of the phase that raises the mean: the mean quality of the star, by the first metric.
-struct MeanOfStar {};
+struct MeanOfStar {
+  MeanKind kind = MeanKind::Harmonic;
+};
 
 /// The objective of a visit. Which of two places is better for a vertex is decided in this order. While an element of the star is inverted:
 /// where it is less so (see UntanglingObjective). While the star's least first metric is not beyond the threshold: where that is greater.
@@ -46,8 +48,8 @@ struct CompositeObjective {
 [[nodiscard]] CompositeObjective single_objective(Metric metric);
 /// The objective of a combination; `size`: its size function, null where the second aim is a metric.
 [[nodiscard]] CompositeObjective composite_objective(Metric first, const Combination& combination, std::shared_ptr<const SizeField> size);
-/// The objective of a phase that raises the mean of `metric` and keeps its least from falling below `floor`.
-[[nodiscard]] CompositeObjective raise_mean_above(Metric metric, double floor);
+/// The objective of a phase that raises a mean of `metric` and keeps its least from falling below `floor`.
+[[nodiscard]] CompositeObjective raise_mean_above(Metric metric, double floor, MeanKind kind = MeanKind::Harmonic);
 /// The objective of a sweep in that phase: with the sweep's floors, of which a combination has two.
 [[nodiscard]] CompositeObjective raise_mean_in(const Sweep& sweep, Metric metric, const std::optional<Combination>& combination);
 /// The objective of the task's own visits, which come before that phase.
@@ -75,11 +77,11 @@ struct MetricFunctions {
   using Offset = OffsetIn<Frame, double>;
   // By the statistics' formulas, with the vertex at a place.
   StarState (*state)(const MeshView<Frame>&, PositionView, Index vertex, Vec3 place);
-  double (*mean)(const MeshView<Frame>&, PositionView, Index vertex, Vec3 place);
+  double (*mean)(const MeshView<Frame>&, PositionView, Index vertex, Vec3 place, MeanKind kind);
   // By the search's, with the vertex at an offset.
   double (*least_at)(const View&, Offset, double enough);  // what is no more than `enough` may be greater than it is
   double (*least_rank_at)(const View&, Offset);            // a rising function of the least
-  double (*mean_at)(const View&, Offset, double enough);
+  double (*mean_at)(const View&, Offset, MeanKind kind);
   bool (*is_tangled)(const View&, const Untangling&);
   // At each of a list of offsets: least_at(), and what is raised while an element is inverted.
   void (*least)(const View&, const CandidateList&, double enough, double* out);
@@ -111,6 +113,7 @@ template <class Frame>
   task.omega = parameters.omega;
   task.threshold = composite.threshold;
   task.inclusive = composite.raise_mean();
+  if (const auto* mean = std::get_if<MeanOfStar>(&composite.second)) task.mean = mean->kind;
   if (const auto* metric = std::get_if<Metric>(&composite.second)) {
     task.second = CompositeSearch<Frame>::Second::Metric;
     task.metric = *metric;
@@ -185,7 +188,7 @@ class StarScore {
   const MetricFunctions<Frame>* first_ = nullptr;  // of a built-in metric
   double greatest_below_;                          // the greatest number not beyond the threshold
   double guard_floor_ = kAll;
-  double (*second_)(const View&, Offset, double enough) = nullptr;  // of one, or the mean by one; null: the density, or a defined metric
+  double (*second_)(const View&, Offset, double enough) = nullptr;  // a built-in second metric; else null
 };
 
 /// Judges stars by an objective. The mesh must outlive it.

@@ -1,0 +1,70 @@
+#pragma once
+// Means of qualities above 0. All rise where a quality rises; they differ in how much a bad element counts.
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "core/base/host_device.h"
+#include "core/numeric/scalar.h"
+
+namespace dmoscope {
+
+/// The power means of exponents -1, 1, 0 and -2. The arithmetic one is indifferent to where quality comes from: it lets one element become
+/// bad if several others win a little. The harmonic one weighs an element by the inverse square of its quality: bad elements count most.
+enum class MeanKind : std::uint8_t { Harmonic, Arithmetic, Geometric, InverseSquare };
+
+/// "mean" (the harmonic one, the usual), "arithmetic-mean", "geometric-mean" or "inverse-square-mean".
+[[nodiscard]] std::string_view name(MeanKind kind);
+inline constexpr std::array kMeanKinds{MeanKind::Harmonic, MeanKind::Arithmetic, MeanKind::Geometric, MeanKind::InverseSquare};
+/// Throws UsageError.
+[[nodiscard]] MeanKind parse_mean_kind(std::string_view word);
+
+/// Adds up qualities and tells a rising function of their mean, above 0: the mean itself, of the geometric one the product of the sixteenth
+/// roots. R: a scalar or a pack, whose slots get the bits that scalars get.
+template <class R>
+class PowerMean {
+ public:
+  DMOSCOPE_ANYWHERE explicit PowerMean(MeanKind kind) : kind_(kind), total_(kind == MeanKind::Geometric ? R(1.0) : R(0.0)) {}
+
+  DMOSCOPE_ANYWHERE void add(R quality) { join(term(quality)); }
+  /// A quality's part of the total; that of a slot which does not count.
+  [[nodiscard]] DMOSCOPE_ANYWHERE R term(R quality) const {
+    using scalar::sqrt;
+    switch (kind_) {
+      case MeanKind::Arithmetic:
+        break;
+      case MeanKind::Harmonic:
+        return R(1.0) / quality;
+      case MeanKind::InverseSquare:
+        return R(1.0) / (quality * quality);
+      case MeanKind::Geometric:
+        return sqrt(sqrt(sqrt(sqrt(quality))));
+    }
+    return quality;
+  }
+  [[nodiscard]] DMOSCOPE_ANYWHERE R neutral() const { return kind_ == MeanKind::Geometric ? R(1.0) : R(0.0); }
+  DMOSCOPE_ANYWHERE void join(R term) { total_ = kind_ == MeanKind::Geometric ? total_ * term : total_ + term; }
+  [[nodiscard]] DMOSCOPE_ANYWHERE R total() const { return total_; }
+  /// The total of `count` qualities becomes their mean.
+  [[nodiscard]] DMOSCOPE_ANYWHERE R value(double count) const {
+    using scalar::sqrt;
+    switch (kind_) {
+      case MeanKind::Arithmetic:
+        return total_ / R(count);
+      case MeanKind::Harmonic:
+        return R(count) / total_;
+      case MeanKind::InverseSquare:
+        return sqrt(R(count) / total_);
+      case MeanKind::Geometric:
+        break;
+    }
+    return total_;
+  }
+
+ private:
+  MeanKind kind_;
+  R total_;
+};
+
+}  // namespace dmoscope

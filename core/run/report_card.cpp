@@ -1,0 +1,231 @@
+#include "core/run/report_card.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/base/number_text.h"
+#include "core/mesh/edges.h"
+#include "core/mesh/faces.h"
+#include "core/mesh/volume.h"
+#include "core/quality/metric_phrase.h"
+#include "core/run/percentiles.h"
+#include "core/target/boundary_layers.h"
+
+namespace dmoscope {
+
+namespace {
+
+constexpr double kOfLeast = 0.01, kLeastFall = 1e-6, kOfOthers = 0.005, kOfCounts = 0.001, kOfGrowth = 1.25, kMuchGrowth = 2.0,
+                 kOfWall = 1.1;
+constexpr std::array kBounds{0.1, 0.2, 0.3};
+
+Verdict compare(double before, double after, double tolerance) {
+  if (after < before - tolerance) return Verdict::Worse;
+  return after > before + tolerance ? Verdict::Better : Verdict::Same;
+}
+Verdict opposite(Verdict verdict) {
+  if (verdict == Verdict::Same) return verdict;
+  return verdict == Verdict::Worse ? Verdict::Better : Verdict::Worse;
+}
+
+/// Figures of all elements by one metric.
+struct Qualities {
+  double least = 0.0, mean = 0.0;
+  Percentiles percentiles;
+  std::array<double, kBounds.size()> below{};
+  std::size_t count = 0;  // of the elements that the metric is defined for
+
+  Qualities(const InputMesh& input, std::span<const Vec3> positions, Metric metric, ThreadPool* pool) {
+    std::vector<double> all(input.mesh.elements.size());
+    element_qualities(input.quality_context(), positions, metric, pool, all);
+    std::erase_if(all, [](double q) { return std::isnan(q); });
+    count = all.size();
+    if (count == 0) return;
+    least = std::ranges::min(all);
+    mean = std::accumulate(all.begin(), all.end(), 0.0) / static_cast<double>(count);
+    for (std::size_t i = 0; i < kBounds.size(); ++i)
+      below[i] = static_cast<double>(std::ranges::count_if(all, [&](double q) { return q < kBounds[i]; }));
+    percentiles = percentiles_of(all);
+  }
+};
+
+double measure(const Mesh& mesh, const Plane& plane, std::span<const Vec3> positions, Index element) {
+  if (info(mesh.elements.kind(element)).dimension == 3) return std::abs(signed_volume(mesh.elements, positions, element));
+  const auto corners = mesh.elements.corners(element);
+  const auto from_first = [&](std::size_t i) { return plane.difference(positions[corners[i]], positions[corners[0]]); };
+  Vec3 twice{};
+  for (std::size_t i = 2; i < corners.size(); ++i) twice = twice + cross(from_first(i - 1), from_first(i));
+  return 0.5 * length(twice);
+}
+
+std::vector<double> measures(const InputMesh& input, std::span<const Vec3> positions) {
+  std::vector<double> all(input.mesh.elements.size());
+  for (Index e = 0; e < all.size(); ++e) all[e] = measure(input.mesh, input.geometry.plane, positions, e);
+  return all;
+}
+
+/// Calls visit(element, neighbour) once for each pair that shares an edge, in a volume a face.
+template <class Visit>
+void for_neighbours(const InputMesh& input, const Visit& visit) {
+  if (!input.is_volume()) {
+    for_each_edge(input.mesh, input.topology, [&](Edge, std::span<const EdgeSide> sides) {
+      if (sides.size() == 2) visit(sides[0].element, sides[1].element);
+    });
+    return;
+  }
+  const FaceNeighbours neighbours(input.mesh);
+  for (Index e = 0; e < input.mesh.elements.size(); ++e)
+    for (const Index other : neighbours.of(e))
+      if (other != kNoIndex && e < other) visit(e, other);
+}
+
+class Card {
+ public:
+  Card(const InputMesh& input, std::span<const Vec3> before, std::span<const Vec3> after, ThreadPool* pool)
+      : input_(input), before_(before), after_(after), pool_(pool) {}
+
+  void add_metric(Metric metric, bool tells) {
+    const Qualities was(input_, before_, metric, pool_), is(input_, after_, metric, pool_);
+    if (was.count == 0 || is.count == 0) return;
+    const std::string of = metric_phrase(metric);
+    const auto add = [&](std::string name, double from, double to, Verdict verdict, std::string_view kept_by) {
+      card_.figures.push_back({of, std::move(name), from, to, tells ? verdict : Verdict::Same, std::string(kept_by)});
+    };
+    const double of_least = std::max(kLeastFall, kOfLeast * std::abs(was.least));
+    add("least", was.least, is.least, compare(was.least, is.least, of_least), "");
+    constexpr std::string_view kMean = "then mean";
+    add("1 %", was.percentiles.p1, is.percentiles.p1, compare(was.percentiles.p1, is.percentiles.p1, kOfOthers), kMean);
+    add("5 %", was.percentiles.p5, is.percentiles.p5, compare(was.percentiles.p5, is.percentiles.p5, kOfOthers), kMean);
+    add("mean", was.mean, is.mean, compare(was.mean, is.mean, kOfOthers), kMean);
+    const double few = kOfCounts * static_cast<double>(was.count);
+    for (std::size_t i = 0; i < kBounds.size(); ++i)
+      add(fmt::format("below {}", kBounds[i]), was.below[i], is.below[i], opposite(compare(was.below[i], is.below[i], few)), kMean);
+  }
+
+  void add_mesh() {
+    const auto inverted = [&](std::span<const Vec3> positions) {
+      return static_cast<double>(count_inverted(input_.quality_context(), positions).all);
+    };
+    add("inverted", inverted(before_), inverted(after_), 0.0, "");
+    const std::vector<double> was = measures(input_, before_), is = measures(input_, after_);
+    const auto growth = [&](const std::vector<double>& sizes) {
+      double most = 1.0;
+      for_neighbours(input_, [&](Index a, Index b) {
+        const double ratio = std::max(sizes[a], sizes[b]) / std::min(sizes[a], sizes[b]);
+        if (ratio > most && std::isfinite(ratio)) most = ratio;
+      });
+      return most;
+    };
+    const double from = growth(was), to = growth(is);
+    add("growth", from, to, std::max((kOfGrowth - 1.0) * from, kMuchGrowth - from), "target input");
+    add_walls();
+  }
+
+  ReportCard finish() {
+    const auto any = [this](Verdict verdict) {
+      return std::ranges::any_of(card_.figures, [verdict](const CardFigure& figure) { return figure.verdict == verdict; });
+    };
+    card_.verdict = any(Verdict::Worse) ? Verdict::Worse : any(Verdict::Better) ? Verdict::Better : Verdict::Same;
+    return std::move(card_);
+  }
+
+ private:
+  /// A figure of the mesh, the less the better.
+  void add(std::string name, double from, double to, double tolerance, std::string_view kept_by) {
+    card_.figures.push_back({"", std::move(name), from, to, opposite(compare(from, to, tolerance)), std::string(kept_by)});
+  }
+  void add_walls() {
+    const BoundaryLayers layers = find_boundary_layers(input_.mesh, input_.geometry);
+    if (layers.empty()) return;
+    double most = 1.0;
+    for (std::size_t i = 0; i < layers.elements.size(); ++i) {
+      if (layers.heights[i] != 1) continue;
+      const auto height = [&](std::span<const Vec3> positions) {
+        return height_on(input_.mesh, input_.geometry, positions, layers.elements[i], layers.bases[i]);
+      };
+      const double was = height(before_), is = height(after_);
+      if (was > 0.0 && is > 0.0) most = std::max({most, is / was, was / is});
+    }
+    add("wall cells", 1.0, most, kOfWall - 1.0, "target layers:input");
+  }
+
+  const InputMesh& input_;
+  std::span<const Vec3> before_, after_;
+  ThreadPool* pool_;
+  ReportCard card_;
+};
+
+}  // namespace
+
+std::string_view name(Verdict verdict) {
+  constexpr std::array<std::string_view, 3> kNames{"better", "same", "worse"};
+  return kNames[static_cast<std::size_t>(verdict)];
+}
+
+std::string CardFigure::short_phrase() const {
+  if (name == "wall cells") return fmt::format("wall cells up to {} times as high or as low", four_digits(after));
+  const bool counts = name == "inverted" || name.starts_with("below");
+  const auto text = [counts](double value) { return counts ? fmt::format("{:.0f}", value) : four_digits(value); };
+  return fmt::format("{} {} -> {}", name, text(before), text(after));
+}
+
+std::string CardFigure::phrase() const {
+  if (of.empty()) return short_phrase();
+  return name.starts_with("below") ? fmt::format("{} {}", of, short_phrase()) : fmt::format("{} of {}", short_phrase(), of);
+}
+
+std::vector<const CardFigure*> ReportCard::worse() const {
+  std::vector<const CardFigure*> found;
+  for (const CardFigure& figure : figures)
+    if (figure.verdict == Verdict::Worse) found.push_back(&figure);
+  return found;
+}
+
+std::string ReportCard::sentence(bool as_options) const {
+  if (verdict == Verdict::Same) return "The same as the input, within small tolerances";
+  if (verdict == Verdict::Better) return "Better than the input, and worse in nothing";
+  // By what keeps them, the figures that nothing keeps first.
+  std::vector<std::string> parts;
+  const auto all = worse();
+  std::vector<std::string> keepers;
+  for (const CardFigure* figure : all)
+    if (std::ranges::find(keepers, figure->kept_by) == keepers.end()) keepers.push_back(figure->kept_by);
+  std::ranges::stable_sort(keepers, {}, [](const std::string& keeper) { return !keeper.empty(); });
+  for (const std::string& keeper : keepers) {
+    std::vector<std::string> phrases;
+    for (const CardFigure* figure : all)
+      if (figure->kept_by == keeper) phrases.push_back(figure->phrase());
+    parts.push_back(fmt::format("{}{}", fmt::join(phrases, ", "),
+                                keeper.empty() ? ""
+                                : as_options   ? fmt::format(" (--{} keeps it)", keeper)
+                                               : fmt::format(" ('{}' keeps it)", keeper)));
+  }
+  return fmt::format("Worse than the input: {}", fmt::join(parts, "; "));
+}
+
+ReportCard report_card(const InputMesh& input, std::span<const Vec3> before, std::span<const Vec3> after, std::span<const Metric> raised,
+                       ThreadPool* pool) {
+  Card card(input, before, after, pool);
+  const bool aimed = std::ranges::any_of(raised, [](Metric metric) { return !target_of(metric).is_ideal(); });
+  for (const Metric metric : raised) card.add_metric(metric, true);
+  for (const Metric metric : {Metric::MeanRatio, Metric::ScaledJacobian})
+    if (std::ranges::find(raised, metric) == raised.end()) card.add_metric(metric, !aimed);
+  card.add_mesh();
+  return card.finish();
+}
+
+ReportCard report_card(const Run& run, ThreadPool* pool) {
+  const RunParameters& p = run.parameters();
+  std::vector<Metric> raised{p.metric};
+  const auto* second = p.combination ? std::get_if<Metric>(&p.combination->second) : nullptr;
+  if (second != nullptr) raised.push_back(*second);
+  return report_card(run.input(), run.input().mesh.positions, run.positions(), raised, pool);
+}
+
+}  // namespace dmoscope

@@ -1,0 +1,55 @@
+#pragma once
+// What a run made of a mesh as a whole, against its input: not its metric's minimum alone.
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/run/run.h"
+
+namespace dmoscope {
+
+enum class Verdict { Better, Same, Worse };
+/// "better", "same" or "worse".
+[[nodiscard]] std::string_view name(Verdict verdict);
+
+/// One figure of a mesh, before and after.
+struct CardFigure {
+  std::string of;    // "mean ratio"; empty of the mesh itself
+  std::string name;  // "least", "1 %", "5 %", "mean", "below 0.1"; "inverted", "growth", "wall cells"
+  double before = 0.0, after = 0.0;
+  Verdict verdict = Verdict::Same;
+  std::string kept_by{};  // the option that would have kept it; empty: none does
+  /// "mean of mean ratio 0.957 -> 0.844".
+  [[nodiscard]] std::string phrase() const;
+  /// The same without what it is of.
+  [[nodiscard]] std::string short_phrase() const;
+};
+
+/// - By the metric that is raised, a combination's second one, mean ratio and scaled Jacobian: the least, the quality that a hundredth and
+/// a
+///   twentieth of the elements are not better than, the mean, and how many elements are below 0.1, 0.2 and 0.3.
+/// - Inverted elements, proved. The growth: how many times as large as a neighbour across an edge (in a volume: a face) an element is, at
+///   most. Wall cells, where the input has boundary layers: how many times as high the first one of a stack has become at most, or as low.
+/// Worse is: the least lower by more than a hundredth, another quality by more than 0.005, more elements inverted or below a bound (by more
+/// than a thousandth of all), the growth more than a quarter greater and above 2, wall cells by more than a tenth. Against targets other
+/// than ideal elements the metric that is raised alone tells.
+struct ReportCard {
+  std::vector<CardFigure> figures;
+  Verdict verdict = Verdict::Same;  // worse where a figure is; better where one is and none is worse
+
+  [[nodiscard]] std::vector<const CardFigure*> worse() const;
+  /// "Better than the input, and worse in nothing", "Worse than the input: mean of mean ratio 0.957 -> 0.844 (--then mean keeps it)".
+  /// `as_options`: as the command line has them, else as commands.
+  [[nodiscard]] std::string sentence(bool as_options) const;
+};
+
+/// Where the run stands, against its input. Brings the positions; costs a few looks at each element.
+[[nodiscard]] ReportCard report_card(const Run& run, ThreadPool* pool);
+
+/// The same of any two states of a mesh. `raised`: the metrics that were, the first one first.
+[[nodiscard]] ReportCard report_card(const InputMesh& input, std::span<const Vec3> before, std::span<const Vec3> after,
+                                     std::span<const Metric> raised, ThreadPool* pool);
+
+}  // namespace dmoscope

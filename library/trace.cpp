@@ -52,11 +52,12 @@ Trace trace(const Mesh& mesh, Index vertex, const SmoothOptions& options) {
     const RunRequest request = request_of(*input, options);
     const dmoscope::Run run(input, request.parameters, nullptr, 0);
     const dmoscope::Sweep sweep = run.sweep();
-    const auto composite = composite_objective_of_visit(run.parameters().metric, run.parameters().combination, run.size_field(), sweep);
+    const auto composite =
+        composite_objective_of_visit(run.parameters().metric, run.parameters().combination, run.size_field(), sweep, run.guard());
     const auto& positions = input->mesh.positions;
     const auto look = [&](auto function) {
-      return function(*input, positions, run.fixed(), run.parameters().metric, run.parameters().search, vertex, composite,
-                      sweep.untangling);
+      return function(*input, positions, run.fixed(), run.parameters().metric, run.parameters().search, vertex, composite, sweep.untangling,
+                      run.guard());
     };
     if (input->is_volume()) return trace_of(look(dmoscope::trace_volume_visit), [](const dmoscope::Vec3& offset) { return offset; });
     const dmoscope::Plane plane = input->geometry.plane;

@@ -37,6 +37,7 @@ std::string rank_phrase(Metric metric) {
 
 /// "mean ratio up to 0.7, beyond it 0.7 + density"
 std::string both_phrase(const CompositeObjective& composite) {
+  if (composite.is_single()) return metric_phrase(composite.first);
   const auto* metric = std::get_if<Metric>(&composite.second);
   const std::string second = metric != nullptr ? metric_phrase(*metric) : composite.raise_mean() ? "mean of the star" : "density";
   return fmt::format("{} {} {:.6g}, {} {:.6g} + {}", metric_phrase(composite.first), composite.raise_mean() ? "below" : "up to",
@@ -66,14 +67,15 @@ class Look {
   using Trace = VisitTraceIn<Offset>;
 
   Look(const InputMesh& input, PositionView positions, Metric metric, const SearchParameters& parameters, Index vertex,
-       const std::optional<CompositeObjective>& composite, const Untangling& untangling)
+       const std::optional<CompositeObjective>& composite, const Untangling& untangling, const std::optional<Guard>& guard)
       : input_(input),
         metric_(metric),
         mesh_(input.view<Frame>()),
         positions_(positions),
         parameters_(parameters),
-        composite_(composite),
+        objective_(composite.value_or(single_objective(metric))),
         untangling_(untangling) {
+    if (guard) objective_.guard = guard;
     trace_.vertex = vertex;
     trace_.metric = metric;
     if constexpr (kDefined) {
@@ -90,10 +92,16 @@ class Look {
       trace_.end = VisitEnd::Fixed;
     else if (untangling_.repair && trace_.before.jacobian > 0.0)
       trace_.end = VisitEnd::Waits;
-    else if (composite_)
-      search_for_both();
+    else if (!objective_.is_single())
+      search_for_both(false);
     else if ((parameters_.precision == Precision::Double && !kDefined) || !search_fast())
       search_plainly();
+    if (breaks_guard()) {
+      trace_.fast = false;
+      trace_.halvings = 0;
+      trace_.to = trace_.from;
+      search_for_both(true);
+    }
     trace_.step = mesh_.frame.offset(trace_.to, trace_.from);
     if (trace_.end == VisitEnd::Moved) trace_.after = state(trace_.to);
     add_elements();
@@ -285,22 +293,31 @@ class Look {
   }
 
   /// Repeats the plain search for two aims, which finds the winner of the packs.
-  void search_for_both() {
-    StarJudge<Frame> judge(input_, *composite_);
+  void search_for_both(bool guarded) {
+    StarJudge<Frame> judge(input_, objective_);
     judge.begin({.untangling = untangling_});
     StarIn<Frame, double> star;
     judge.gather(positions_, trace_.vertex, star);
     Recorder<Offset> recorder(star.scale);
-    trace_.combined = true;
+    trace_.combined = !objective_.is_single();
     trace_.untangling = judge.is_tangled(star);
     if (!untangling_.repair || trace_.untangling) {
       const Offset middle = trace_.untangling ? middle_of<Offset>(StarViewIn<Frame, double>(star)) : Offset{};
-      (void)grid_search<double>(judge.score_of(star, positions_, trace_.vertex, trace_.untangling), star.box, parameters_, recorder, Solo{},
-                                trace_.untangling ? &middle : nullptr);
+      (void)grid_search<double>(judge.score_of(star, positions_, trace_.vertex, trace_.untangling, guarded), star.box, parameters_,
+                                recorder, Solo{}, trace_.untangling ? &middle : nullptr);
     }
-    trace_.value_phrase = (trace_.untangling ? untangling_phrase(kVolume, untangling_) : "") + both_phrase(*composite_);
+    trace_.value_phrase = (trace_.untangling ? untangling_phrase(kVolume, untangling_) : "") + both_phrase(objective_);
     take(std::move(recorder), [this](Offset offset) { return stored(offset); });
-    end([&](Vec3 target) { return judge.confirm(positions_, trace_.vertex, target); });
+    end([&](Vec3 target) {
+      const Confirmation found = judge.confirm(positions_, trace_.vertex, target);
+      const bool kept = !guarded || found != Confirmation::Gains || judge.keeps_guard(positions_, trace_.vertex, target);
+      return kept ? found : Confirmation::TooFar;
+    });
+  }
+  /// Whether the guard alone does not let the vertex go where it would.
+  [[nodiscard]] bool breaks_guard() const {
+    if (trace_.end != VisitEnd::Moved || !objective_.guard) return false;
+    return !StarJudge<Frame>(input_, objective_).keeps_guard(positions_, trace_.vertex, trace_.to);
   }
 
   [[nodiscard]] bool has_corners() const {
@@ -336,7 +353,7 @@ class Look {
   void end(const Confirm& confirm) {
     const auto halves = [&](Vec3 target) {
       const Confirmation found = confirm(target);
-      trace_.halvings += found == Confirmation::Inverts ? 1 : 0;
+      trace_.halvings += found == Confirmation::TooFar ? 1 : 0;
       return found;
     };
     const ConfirmedMove move = confirmed_move(
@@ -378,7 +395,7 @@ class Look {
   MeshView<Frame> mesh_;
   PositionView positions_;
   const SearchParameters& parameters_;
-  const std::optional<CompositeObjective>& composite_;
+  CompositeObjective objective_;
   const Untangling& untangling_;
   Trace trace_;
 };
@@ -435,20 +452,20 @@ std::string VisitSummary::sentence() const {
 
 VisitTrace trace_visit(const InputMesh& input, PositionView positions, std::span<const std::uint8_t> fixed, Metric metric,
                        const SearchParameters& parameters, Index vertex, const std::optional<CompositeObjective>& composite,
-                       const Untangling& untangling) {
+                       const Untangling& untangling, const std::optional<Guard>& guard) {
   const bool is_fixed = require_traceable(input, Shape::Planar, fixed, metric, parameters, vertex);
   const auto look = [&]<Metric M>() {
-    return Look<M, Plane>(input, positions, metric, parameters, vertex, composite, untangling).run(is_fixed);
+    return Look<M, Plane>(input, positions, metric, parameters, vertex, composite, untangling, guard).run(is_fixed);
   };
   return is_built_in(metric) ? formulas::with_planar_metric(metric, look) : look.template operator()<kDefinedMetric>();
 }
 
 VolumeTrace trace_volume_visit(const InputMesh& input, PositionView positions, std::span<const std::uint8_t> fixed, Metric metric,
                                const SearchParameters& parameters, Index vertex, const std::optional<CompositeObjective>& composite,
-                               const Untangling& untangling) {
+                               const Untangling& untangling, const std::optional<Guard>& guard) {
   const bool is_fixed = require_traceable(input, Shape::Volume, fixed, metric, parameters, vertex);
   const auto look = [&]<Metric M>() {
-    return Look<M, Space>(input, positions, metric, parameters, vertex, composite, untangling).run(is_fixed);
+    return Look<M, Space>(input, positions, metric, parameters, vertex, composite, untangling, guard).run(is_fixed);
   };
   return is_built_in(metric) ? formulas::with_volume_metric(metric, look) : look.template operator()<kDefinedMetric>();
 }

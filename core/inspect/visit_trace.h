@@ -93,15 +93,18 @@ using VolumeTrace = VisitTraceIn<Vec3>;         // in a volume
 /// trace, so `to` has the bits that the smoother would store. Costs as much as the star is large, whatever the mesh.
 /// `fixed`: one per vertex, as Run::fixed. Throws UsageError for a mesh that is not planar, a vertex that does not exist, parameters out of
 /// range, or a metric that is not defined for its star. `aims`: of a visit that has two, see composite_objective_of_visit; then its first
-/// is `metric`. `untangling`: of the iteration, as Run::sweep() has it.
+/// is `metric`. `untangling`: of the iteration, as Run::sweep() has it. `guard`: of a visit by one metric, see Run::guard(); where the
+/// winner breaks it, what is told is the search that knows of it.
 [[nodiscard]] VisitTrace trace_visit(const InputMesh& input, PositionView positions, std::span<const std::uint8_t> fixed, Metric metric,
                                      const SearchParameters& parameters, Index vertex,
-                                     const std::optional<CompositeObjective>& composite = {}, const Untangling& untangling = {});
+                                     const std::optional<CompositeObjective>& composite = {}, const Untangling& untangling = {},
+                                     const std::optional<Guard>& guard = {});
 
 /// The same for a volume mesh. The fast search compares ranks in float and reports only which candidate it chose in each level. The values
 /// here are the metric in double, so among nearly equal candidates the chosen one need not be the first of the largest.
 [[nodiscard]] VolumeTrace trace_volume_visit(const InputMesh& input, PositionView positions, std::span<const std::uint8_t> fixed,
                                              Metric metric, const SearchParameters& parameters, Index vertex,
-                                             const std::optional<CompositeObjective>& composite = {}, const Untangling& untangling = {});
+                                             const std::optional<CompositeObjective>& composite = {}, const Untangling& untangling = {},
+                                             const std::optional<Guard>& guard = {});
 
 }  // namespace dmoscope

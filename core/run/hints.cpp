@@ -53,7 +53,9 @@ UntanglingLook untangling_hint(const Run& run, std::shared_ptr<ThreadPool> pool,
 
 std::optional<HeldMinimum> what_holds(const Run& run, ThreadPool* pool, Progress& progress, const HoldLook& look) {
   const RunParameters& p = run.parameters();
-  HeldQuestion question{task_of(run.shared_input(), p), run.positions(), run.fixed(), p.fixed, p.standing(), p.max_deviation};
+  SmoothingTask task = task_of(run.shared_input(), p);
+  task.guard = run.guard();
+  HeldQuestion question{std::move(task), run.positions(), run.fixed(), p.fixed, p.standing(), p.max_deviation};
   question.task.domain = run.domain();
   question.task.size = run.size_field();
   question.untangling.floor = run.sweep().untangling.floor;

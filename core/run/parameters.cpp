@@ -121,6 +121,16 @@ const std::array kTable{
                   .in_title = [](const P& p) { return fmt::format("directions {}", p.options.seed); },
                   .before = "1",
                   .item = "directions-seed"},
+    ParameterInfo{
+        .name = "guard",
+        .title = "guard",
+        .type = "METRIC:input|METRIC:VALUE|off",
+        .doc = "A metric whose least falls neither below that of the input (or a value) nor, where it is below, any further, whatever "
+               "metric is raised; not that metric itself, and not where targets are given",
+        .to_text = [](const P& p) { return to_text(p.guard); },
+        .from_text = [](P& p, Word word) { p.guard = parse_guard(word); },
+        .in_title = [](const P& p) { return "guard " + to_text(p.guard); },
+        .before = "off"},
     ParameterInfo{.name = "order",
                   .title = "order",
                   .type = "natural|shuffle:SEED",

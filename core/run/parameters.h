@@ -13,6 +13,7 @@
 #include "core/quality/defined_metric.h"
 #include "core/quality/metric.h"
 #include "core/reference/standing.h"
+#include "core/run/guard.h"
 #include "core/run/phases.h"
 #include "core/search/parameters.h"
 #include "core/smooth/execution/accelerator.h"
@@ -36,10 +37,11 @@ struct RunParameters {
   Metric metric = Metric::MeanRatio;
   SearchParameters search{};
   MethodOptions options{};
-  std::optional<Combination> combination{};  // of `metric`, the first, with a second aim
-  std::optional<PhaseBegin> then_joint{};    // a phase of joint moves after the method's
-  std::optional<PhaseBegin> then_mean{};     // a phase that raises a mean, the last one
-  MeanKind mean = MeanKind::Harmonic;        // which one
+  std::optional<Combination> combination{};      // of `metric`, the first, with a second aim
+  std::optional<PhaseBegin> then_joint{};        // a phase of joint moves after the method's
+  std::optional<PhaseBegin> then_mean{};         // a phase that raises a mean, the last one
+  MeanKind mean = MeanKind::Harmonic;            // which one
+  std::optional<GuardRule> guard = GuardRule{};  // what falls no further, whatever is raised
   VisitOrder order{};
   std::vector<Index> fixed{};  // the user's fixed set, besides boundary and unused vertices and, as `interfaces` says, those on interfaces
   InterfaceRule interfaces = InterfaceRule::Fixed;

@@ -1,5 +1,7 @@
 #include "core/run/run.h"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "core/base/memory.h"
@@ -52,6 +54,19 @@ std::shared_ptr<const SizeField> make_size_field(const std::shared_ptr<const Inp
   return function != nullptr ? std::make_shared<const SizeField>(input, *function) : nullptr;
 }
 
+std::optional<Guard> find_guard(const InputMesh& input, const RunParameters& p, std::span<const Index> immovable, ThreadPool* pool) {
+  const auto* second = p.combination ? std::get_if<Metric>(&p.combination->second) : nullptr;
+  const bool aimed = !target_of(p.metric).is_ideal() || (second != nullptr && !target_of(*second).is_ideal());
+  if (!p.guard || p.guard->metric == p.metric || aimed) return std::nullopt;
+  if (p.guard->floor) return Guard{p.guard->metric, *p.guard->floor};
+  const QualityContext context = input.quality_context();
+  const Statistics of_input = input.share ? input.share->statistics(context, input.mesh.positions, p.guard->metric, immovable, pool)
+                                          : compute_statistics(context, input.mesh.positions, p.guard->metric, immovable, pool);
+  // Where elements are inverted, or none can move, there is nothing to keep.
+  if (!(of_input.movable_minimum > 0.0) || std::isinf(of_input.movable_minimum)) return std::nullopt;
+  return Guard{p.guard->metric, of_input.movable_minimum};
+}
+
 std::vector<Vec3> working_copy(std::span<const Vec3> positions) {
   std::vector<Vec3> copy;
   reserve_large(copy, positions.size());
@@ -72,6 +87,7 @@ Run::Run(std::shared_ptr<const InputMesh> input, RunParameters parameters, std::
       colouring_(make_colouring(*input_, fixed(), parameters_.order, pool_.get())),
       immovable_(immovable_elements(input_->mesh, fixed(), pool_.get())),
       size_(make_size_field(input_, parameters_.combination)),
+      guard_(find_guard(*input_, parameters_, immovable_, pool_.get())),
       executor_(choose_executor(parameters_.backend, acceleration_, task())),
       positions_(working_copy(input_->mesh.positions)),
       blocks_(block_plan()),
@@ -103,6 +119,7 @@ SmoothingTask Run::task() const {
   SmoothingTask task = task_of(input_, parameters_);
   task.colouring = colouring_;
   task.size = size_;
+  task.guard = guard_;
   task.domain = domain_;
   task.immovable = immovable_;
   task.pool = pool_.get();

@@ -109,6 +109,8 @@ class Run {
   [[nodiscard]] Sweep sweep() const;
   /// Of a combination with a size function; else null.
   [[nodiscard]] const std::shared_ptr<const SizeField>& size_field() const noexcept { return size_; }
+  /// What its rule comes to: none where it is off, or says nothing that the metrics that are raised do not.
+  [[nodiscard]] const std::optional<Guard>& guard() const noexcept { return guard_; }
   /// What smooths, whatever was asked for: never Backend::Auto.
   [[nodiscard]] Backend backend() const noexcept { return executor_.backend; }
   /// On a device: which; on the CPU: why not cuda, empty where it was not wanted.
@@ -226,6 +228,7 @@ class Run {
   [[nodiscard]] bool joint_follows(std::uint64_t iteration) const;
   [[nodiscard]] bool joint_untangling_follows(std::uint64_t iteration) const;
   [[nodiscard]] std::vector<std::uint8_t> held_jointly() const;
+  [[nodiscard]] JointAims joint_aims() const;
   [[nodiscard]] JointClusters& joint_clusters();
   void move_jointly(Progress& progress);
   void untangle_jointly(Progress& progress);
@@ -254,6 +257,7 @@ class Run {
   std::shared_ptr<const Colouring> colouring_;
   std::vector<Index> immovable_;
   std::shared_ptr<const SizeField> size_;
+  std::optional<Guard> guard_;
   Executor executor_;  // its smoother is null while the run rests
   RunProgress at_;
   mutable PositionBuffer positions_;  // positions() downloads

@@ -95,9 +95,16 @@ std::shared_ptr<const JointStanding> Run::joint_standing() const {
   return state ? std::make_shared<const JointStanding>(JointStanding{iteration, std::move(*state)}) : nullptr;
 }
 
+/// A guard is a first aim that is reached already.
+JointAims Run::joint_aims() const {
+  if (!guard_ || parameters_.combination) return {parameters_.metric, parameters_.combination};
+  const JointAims guarded(guard_->metric, Combination{std::nextafter(guard_->floor, 0.0), parameters_.metric});
+  return why_not_joint(*input_, guarded).empty() ? guarded : JointAims(parameters_.metric);
+}
+
 JointClusters& Run::joint_clusters() {
   if (!joint_clusters_)
-    joint_clusters_ = std::make_unique<JointClusters>(*input_, JointAims(parameters_.metric, parameters_.combination), fixed_,
+    joint_clusters_ = std::make_unique<JointClusters>(*input_, joint_aims(), fixed_,
                                                       JointSliding{domain_, parameters_.max_deviation * input_->geometry.size});
   return *joint_clusters_;
 }

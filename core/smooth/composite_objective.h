@@ -47,6 +47,13 @@ struct Combination {
 /// as validate() does.
 [[nodiscard]] std::pair<Metric, Combination> parse_combination(std::string_view text, std::string_view size = {});
 
+/// A metric whose least in a star falls neither below the floor nor, where it is below that, any further, whatever else is raised.
+struct Guard {
+  Metric metric;
+  double floor;
+  friend bool operator==(const Guard&, const Guard&) = default;
+};
+
 /// For titles: "mean-ratio > 0.7 · density h1".
 [[nodiscard]] std::string phrase(Metric first, const Combination& combination);
 

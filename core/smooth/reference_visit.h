@@ -116,9 +116,9 @@ template <class Frame>
   return false;
 }
 
-/// What the statistics' formulas say of a place that a search has found. Inverts: the vertex would gain there, but a hexahedron or wedge
-/// would become inverted; a place nearer to where it stands may do.
-enum class Confirmation : std::uint8_t { GainsNothing, Gains, Inverts };
+/// What the statistics' formulas say of a place that a search has found. TooFar: the vertex would gain there, but a hexahedron or wedge
+/// would become inverted, or a guard be broken; a place nearer to where it stands may do.
+enum class Confirmation : std::uint8_t { GainsNothing, Gains, TooFar };
 
 /// Of a place that is better. `tangled`: is an element of the star inverted at a corner that the vertex changes? Where none is, none may
 /// become inverted, not inside either; an attempt to untangle may lose one for another.
@@ -130,7 +130,7 @@ template <class Frame>
   if (!std::is_same_v<Frame, Space> && (!tangled || rule.attempt)) return Confirmation::Gains;
   const SoundnessChange change = soundness_change(mesh, positions, vertex, target, tangled && rule.attempt);
   if (change.lost <= change.won) return Confirmation::Gains;
-  return change.lost_inside ? Confirmation::Inverts : Confirmation::GainsNothing;
+  return change.lost_inside ? Confirmation::TooFar : Confirmation::GainsNothing;
 }
 
 /// What would become of a vertex whose star is `before` at `target`, where it is after()?
@@ -177,7 +177,7 @@ template <class Offset, class Place, class Confirm>
     move.to = place(step);
     const Confirmation found = confirm(move.to);
     move.gains = found == Confirmation::Gains;
-    if (found != Confirmation::Inverts) break;
+    if (found != Confirmation::TooFar) break;
     step = times(step, 0.5);
   }
   return move;

@@ -47,6 +47,7 @@ struct SmoothingTask {
   MethodOptions options{};
   std::optional<Combination> combination{};  // dmo and joint: `metric` is its first one
   std::shared_ptr<const SizeField> size{};   // of a combination with a size function
+  std::optional<Guard> guard{};              // what falls no further, whatever is raised
   bool then_joint = false;                   // whether a phase of joint moves may come, which is the run's
   bool then_mean = false;                    // whether a phase may come that raises the mean, see Sweep
   bool slides = false;                       // whether vertices of the boundary or of interfaces slide

@@ -43,6 +43,7 @@ RunView view_of(Run& run, bool percentiles) {
   view.phases = run.phases();
   if (view.moment.is_iteration_end()) view.joint = run.joint_iteration(view.moment.iteration);
   view.size = run.size_field();
+  view.guard = run.guard();
   view.visits_per_iteration = run.visits_per_iteration();
   view.colouring = run.shared_colouring();
   view.free_vertices = static_cast<Index>(run.visits_per_iteration());

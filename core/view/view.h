@@ -91,6 +91,7 @@ struct RunView {
   RunPhases phases;                             // see Run
   std::shared_ptr<const JointIteration> joint;  // what the iteration at whose end the run stands did, where that was a joint move
   std::shared_ptr<const SizeField> size;        // see Run::size_field
+  std::optional<Guard> guard;                   // see Run::guard
   std::uint64_t visits_per_iteration = 0;
   std::shared_ptr<const Colouring> colouring;  // of the free vertices, in the order of the visits
   Index free_vertices = 0;

@@ -41,7 +41,7 @@ void follow(dmoscope::Run& run, const Worth& worth) {
     const Index vertex = run.colouring().order[run.moment().visits];
     const std::vector<Vec3> positions(run.positions().begin(), run.positions().end());
     const auto composite =
-        composite_objective_of_visit(run.parameters().metric, run.parameters().combination, run.size_field(), run.sweep());
+        composite_objective_of_visit(run.parameters().metric, run.parameters().combination, run.size_field(), run.sweep(), run.guard());
     ASSERT_TRUE(composite);
     const VisitTrace trace = trace_visit(input, positions, run.fixed(), run.parameters().metric, run.parameters().search, vertex, composite,
                                          run.sweep().untangling);

@@ -53,6 +53,7 @@ SmoothingTask task_of(const RunView& run, const Frame& frame) {
   task.options = p.options;
   task.combination = p.combination;
   task.size = run.size;
+  task.guard = run.guard;
   task.then_mean = p.then_mean.has_value();
   task.slides = lets_slide(*frame.input, p.standing());
   task.domain = run.domain;
@@ -255,7 +256,7 @@ Inspection inspect(const SessionView& session, Index vertex) {
   try {
     gather_star(inspection, frame, vertex);
     const Sweep sweep = sweep_of(run, frame.moment, *frame.input);
-    const auto composite = composite_objective_of_visit(run.parameters.metric, run.parameters.combination, run.size, sweep);
+    const auto composite = composite_objective_of_visit(run.parameters.metric, run.parameters.combination, run.size, sweep, run.guard);
     if (!composite && !method_info(run.parameters.method).searches_grid) inspection.other_method = run.parameters.method;
     if (slides) {
       SurfaceVisit visit = trace_surface_visit(task_of(run, frame), frame.positions, vertex, sweep, composite);
@@ -265,7 +266,7 @@ Inspection inspect(const SessionView& session, Index vertex) {
     }
     const auto trace = [&](auto traced) {
       return traced(*frame.input, frame.positions, run.fixed, run.parameters.metric, run.parameters.search, vertex, composite,
-                    sweep.untangling);
+                    sweep.untangling, run.guard);
     };
     if (frame.input->is_volume()) {
       inspection.solid = trace(trace_volume_visit);

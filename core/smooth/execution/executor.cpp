@@ -7,6 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/base/unknown_value.h"
+#include "core/quality/metric_phrase.h"
 #include "core/smooth/execution/choose_executor.h"
 #include "core/smooth/execution/method_table.h"
 #include "core/smooth/size_field.h"
@@ -33,6 +34,7 @@ std::string obstacle(const Acceleration& acceleration, const SmoothingTask& task
   if (!method_info(task.method).accelerated) return fmt::format("{} runs on the CPU alone", task.method);
   if (const std::string why = obstacle_of_defined(task); !why.empty()) return why;
   if (task.combination && task.then_mean) return "a phase that raises the mean keeps two minima on the CPU alone";
+  if (task.guard) return fmt::format("the guard on {} is kept on the CPU alone (guard off)", metric_phrase(task.guard->metric));
   if (task.slides || task.input->is_surface()) return "vertices slide on the CPU alone";
   if (task.size && !task.size->formula()) return "sizes out of a nodal field are looked up on the CPU alone";
   if (task.search.precision == Precision::Double && !task.input->is_volume() && !task.combination && is_built_in(task.metric))

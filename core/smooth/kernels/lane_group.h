@@ -216,7 +216,8 @@ class LaneGroup {
   [[nodiscard]] bool gains(std::size_t slot) {
     using visit_rules::Verdict;
     const Verdict verdict = kernel().verdict(slot);
-    return verdict == Verdict::Move || (verdict == Verdict::MoveIfExact && task_.gains(task_.owner, rank_[slot], to_[slot].target));
+    if (verdict == Verdict::Move && !task_.is_guarded) return true;
+    return verdict != Verdict::Stay && task_.gains(task_.owner, rank_[slot], to_[slot].target);
   }
 
   /// Wakes the neighbours of a vertex that moved; it stays awake itself.

@@ -22,9 +22,11 @@ struct LaneTask {
   const double* targets;              // of elements that have targets: see StarTargets; else null
   const std::uint32_t* first_target;  // likewise, by rank
 
-  void* owner;  // for the two below
-  /// Exactly: would the vertex of this rank gain by standing at `position` (3 coordinates)? Leaves it where it is.
-  bool (*gains)(void* owner, Index rank, const double* position);
+  void* owner;      // for the two below
+  bool is_guarded;  // must every move be asked for?
+  /// Exactly: would the vertex of this rank gain by standing at `position` (3 coordinates)? A guard may change the position. Leaves the
+  /// vertex where it is.
+  bool (*gains)(void* owner, Index rank, double* position);
   /// The reference's visit of the vertex of this rank; true if it moved.
   bool (*visit_alone)(void* owner, Index rank);
 };

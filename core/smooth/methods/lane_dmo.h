@@ -100,9 +100,13 @@ class LaneDmo final : public Smoother {
     task.targets = targets_.numbers.data();
     task.first_target = targets_.first.data();
     task.owner = this;
-    task.gains = [](void* owner, Index rank, const double* p) {
+    task.is_guarded = alone_.is_guarded();
+    task.gains = [](void* owner, Index rank, double* p) {
       auto& self = *static_cast<LaneDmo*>(owner);
-      return self.alone_.gains(self.table_.vertex_of_rank[rank], {p[0], p[1], p[2]}, self.view());
+      thread_local Visit<Plane, Grid>::Scratch room;  // kept: stepping allocates nothing
+      const auto target = self.alone_.confirmed(self.table_.vertex_of_rank[rank], {p[0], p[1], p[2]}, self.view(), room);
+      if (target) p[0] = target->x, p[1] = target->y, p[2] = target->z;
+      return target.has_value();
     };
     task.visit_alone = [](void* owner, Index rank) {
       auto& self = *static_cast<LaneDmo*>(owner);

@@ -17,7 +17,7 @@ class ThenMean final : public Smoother {
       second_.reset();
       first_->begin(sweep);
     } else if (!second_ || floors_ != std::pair(sweep.floor, sweep.second_floor)) {
-      second_ = make_dmo_smoother(task_, raise_mean_in(sweep, task_.metric, task_.combination));
+      second_ = make_dmo_smoother(task_, raise_mean_in(sweep, task_.metric, task_.combination, task_.guard));
       floors_ = {sweep.floor, sweep.second_floor};
     }
   }

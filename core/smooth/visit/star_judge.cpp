@@ -102,24 +102,32 @@ CompositeObjective composite_objective(Metric first, const Combination& combinat
 CompositeObjective single_objective(Metric metric) { return {metric, std::numeric_limits<double>::infinity(), metric, {}}; }
 
 CompositeObjective objective_of(const SmoothingTask& task) {
-  return task.combination ? composite_objective(task.metric, *task.combination, task.size) : single_objective(task.metric);
+  CompositeObjective objective =
+      task.combination ? composite_objective(task.metric, *task.combination, task.size) : single_objective(task.metric);
+  objective.guard = task.guard;
+  return objective;
 }
 
 CompositeObjective raise_mean_above(Metric metric, double floor, MeanKind kind) {
   return {metric, floor > 0.0 ? floor : 0.0, MeanOfStar{kind}, {}};
 }
 
-CompositeObjective raise_mean_in(const Sweep& sweep, Metric metric, const std::optional<Combination>& combination) {
+CompositeObjective raise_mean_in(const Sweep& sweep, Metric metric, const std::optional<Combination>& combination,
+                                 const std::optional<Guard>& guard) {
   CompositeObjective mean = raise_mean_above(metric, *sweep.floor, sweep.mean);
+  mean.guard = guard;
   if (combination && sweep.second_floor) mean.guard = {std::get<Metric>(combination->second), *sweep.second_floor};
   return mean;
 }
 
 std::optional<CompositeObjective> composite_objective_of_visit(Metric metric, const std::optional<Combination>& combination,
-                                                               const std::shared_ptr<const SizeField>& size, const Sweep& sweep) {
-  if (sweep.floor) return raise_mean_in(sweep, metric, combination);
-  if (combination) return composite_objective(metric, *combination, size);
-  return std::nullopt;
+                                                               const std::shared_ptr<const SizeField>& size, const Sweep& sweep,
+                                                               const std::optional<Guard>& guard) {
+  if (sweep.floor) return raise_mean_in(sweep, metric, combination, guard);
+  if (!combination) return std::nullopt;
+  CompositeObjective objective = composite_objective(metric, *combination, size);
+  objective.guard = guard;
+  return objective;
 }
 
 std::optional<Aims> plain_aims(const CompositeObjective& composite) {
@@ -144,27 +152,28 @@ DensityTarget<Plane> density_target(const SizeField& size, const PlanarView& mes
 
 bool is_for_kernels(const CompositeObjective& composite) {
   const auto* second = std::get_if<Metric>(&composite.second);
-  return is_built_in(composite.first) && (second == nullptr || is_built_in(*second)) && !composite.guard;
+  return is_built_in(composite.first) && (second == nullptr || is_built_in(*second));
 }
 
 template <class Frame>
 StarScore<Frame>::StarScore(const CompositeObjective& composite, const std::optional<Untangling>& untangling, const JudgedStar<Frame>& star,
-                            const DensityTarget<Frame>& target, DefinedStars<Frame> defined, CompositeListKernel<Frame> list_kernel)
+                            const DensityTarget<Frame>& target, DefinedStars<Frame> defined, CompositeListKernel<Frame> list_kernel,
+                            bool guarded)
     : composite_(composite),
       star_(&star),
       target_(target),
       untangling_(untangling),
       defined_(std::move(defined)),
-      list_kernel_(list_kernel) {
+      list_kernel_(guarded ? nullptr : list_kernel) {
   greatest_below_ = composite.raise_mean() ? std::nextafter(composite.threshold, -1.0) : composite.threshold;
   if (!defined_.first) first_ = &metric_functions<Frame>(composite.first);
   if (const auto* metric = std::get_if<Metric>(&composite.second); metric != nullptr && is_built_in(*metric))
     second_ = metric_functions<Frame>(*metric).least_at;
-  if (composite.guard) guard_floor_ = std::min(composite.guard->floor, guarded({}));
+  if (guarded && composite.guard && !untangling) guard_floor_ = std::min(composite.guard->floor, least_of_guard({}));
 }
 
 template <class Frame>
-double StarScore<Frame>::guarded(Offset p) const {
+double StarScore<Frame>::least_of_guard(Offset p) const {
   return defined_.guard ? defined_.guard->least(p) : metric_functions<Frame>(composite_.guard->metric).least_at(*star_, p, kAll);
 }
 
@@ -224,7 +233,8 @@ std::size_t StarScore<Frame>::first_best(CandidateList& candidates, double& best
   least(candidates, std::min(best, greatest_below_), worth);
   std::size_t first = candidates.size();
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    worth[i] = with_second(candidates.get<Offset>(i), worth[i]);
+    const auto p = candidates.get<Offset>(i);
+    worth[i] = guarded(p, with_second(p, worth[i]), best);
     if (worth[i] > best) best = worth[i], first = i;
   }
   return first;
@@ -321,20 +331,28 @@ bool StarJudge<Frame>::is_tangled(const Star& star) const {
 }
 
 template <class Frame>
-StarScore<Frame> StarJudge<Frame>::score_of(const Star& star, PositionView positions, Index vertex, bool tangled) const {
+StarScore<Frame> StarJudge<Frame>::score_of(const Star& star, PositionView positions, Index vertex, bool tangled, bool guarded) const {
   DefinedStars<Frame> defined;
   if (first_) defined.first = std::make_shared<const DefinedStar<Frame>>(star_judge(*first_), positions, vertex);
   if (second_) defined.second = std::make_shared<const DefinedStar<Frame>>(star_judge(*second_), positions, vertex);
   if (guard_) defined.guard = std::make_shared<const DefinedStar<Frame>>(star_judge(*guard_), positions, vertex);
-  return {composite_,  tangled ? std::optional(untangling_) : std::nullopt, star, density_of(star, positions, vertex), std::move(defined),
-          list_kernel_};
+  return {composite_,
+          tangled ? std::optional(untangling_) : std::nullopt,
+          star,
+          density_of(star, positions, vertex),
+          std::move(defined),
+          list_kernel_,
+          guarded};
 }
 
 template <class Frame>
 bool StarJudge<Frame>::keeps_guard(PositionView positions, Index vertex, Vec3 target) const {
   if (!composite_.guard) return true;
-  const auto least = [&](Vec3 place) { return state(composite_.guard->metric, positions, vertex, place).quality; };
-  return least(target) >= std::min(composite_.guard->floor, least(positions[vertex]));
+  const auto at = [&](Vec3 place) { return state(composite_.guard->metric, positions, vertex, place); };
+  const double there = at(target).quality;
+  if (there >= composite_.guard->floor) return true;
+  const StarState here = at(positions[vertex]);
+  return !(here.jacobian > 0.0) || there >= here.quality;
 }
 
 template <class Frame>
@@ -343,9 +361,7 @@ Confirmation StarJudge<Frame>::confirm(PositionView positions, Index vertex, Vec
   const StarState before = known != nullptr ? *known : state(composite_.first, positions, vertex, here);
   const auto after = [&] { return state(composite_.first, positions, vertex, target); };
   if (composite_.is_single()) return confirm_from(view_, positions, vertex, target, untangling_, before, after);
-  const auto second_rises = [&] {
-    return second(positions, vertex, target) > second(positions, vertex, here) && keeps_guard(positions, vertex, target);
-  };
+  const auto second_rises = [&] { return second(positions, vertex, target) > second(positions, vertex, here); };
   const auto soundness = [&](bool tangled) { return confirm_soundness(view_, positions, vertex, target, tangled, untangling_); };
   return confirm_by_two(composite_, before, after(), untangling_, soundness, second_rises);
 }

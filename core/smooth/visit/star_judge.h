@@ -32,12 +32,7 @@ struct CompositeObjective {
   Metric first = Metric::MeanRatio;
   double threshold = 0.7;  // at least 0
   std::variant<Metric, std::shared_ptr<const SizeField>, MeanOfStar> second = MeanOfStar{};
-  /// With the mean as second aim: a metric whose least in the star falls neither below the floor nor, where it is below that, any further.
-  struct Guard {
-    Metric metric;
-    double floor;
-  };
-  std::optional<Guard> guard{};
+  std::optional<Guard> guard{};  // of stars without inverted elements
 
   [[nodiscard]] bool raise_mean() const noexcept { return std::holds_alternative<MeanOfStar>(second); }
   [[nodiscard]] bool beyond(double least) const noexcept { return is_beyond(least, threshold, raise_mean()); }
@@ -51,16 +46,17 @@ struct CompositeObjective {
 /// The objective of a phase that raises a mean of `metric` and keeps its least from falling below `floor`.
 [[nodiscard]] CompositeObjective raise_mean_above(Metric metric, double floor, MeanKind kind = MeanKind::Harmonic);
 /// The objective of a sweep in that phase: with the sweep's floors, of which a combination has two.
-[[nodiscard]] CompositeObjective raise_mean_in(const Sweep& sweep, Metric metric, const std::optional<Combination>& combination);
+[[nodiscard]] CompositeObjective raise_mean_in(const Sweep& sweep, Metric metric, const std::optional<Combination>& combination,
+                                               const std::optional<Guard>& guard);
 /// The objective of the task's own visits, which come before that phase.
 [[nodiscard]] CompositeObjective objective_of(const SmoothingTask& task);
 /// An objective as plain data; none where its sizes are those of a nodal field.
 [[nodiscard]] std::optional<Aims> plain_aims(const CompositeObjective& composite);
 
-/// The two aims that a visit has; none: one metric alone.
+/// The two aims that a visit has; none: one metric alone, maybe with a guard.
 [[nodiscard]] std::optional<CompositeObjective> composite_objective_of_visit(Metric metric, const std::optional<Combination>& combination,
                                                                              const std::shared_ptr<const SizeField>& size,
-                                                                             const Sweep& sweep);
+                                                                             const Sweep& sweep, const std::optional<Guard>& guard = {});
 
 /// The star of a vertex in double: Frame is Plane, Space or Curved.
 template <class Frame>
@@ -138,9 +134,11 @@ class StarScore {
  public:
   using View = JudgedStarView<Frame>;
   using Offset = OffsetIn<Frame, double>;
-  /// `untangling`: of a star with inverted elements; else none. `list_kernel`: null: the plain search alone.
+  /// `untangling`: of a star with inverted elements; else none. `list_kernel`: null: the plain search alone. `guarded`: whether no place is
+  /// worth anything to which the guard does not let the vertex go.
   StarScore(const CompositeObjective& composite, const std::optional<Untangling>& untangling, const JudgedStar<Frame>& star,
-            const DensityTarget<Frame>& target, DefinedStars<Frame> defined = {}, CompositeListKernel<Frame> list_kernel = nullptr);
+            const DensityTarget<Frame>& target, DefinedStars<Frame> defined = {}, CompositeListKernel<Frame> list_kernel = nullptr,
+            bool guarded = false);
 
   [[nodiscard]] bool tangled() const noexcept { return untangling_.has_value(); }
   /// Whether the score is above 0 wherever nothing is inverted: that of a formula need not be.
@@ -154,7 +152,7 @@ class StarScore {
 
   /// `best`: what is worth no more may come out greater than it is, but never above this: nobody goes there.
   [[nodiscard]] double operator()(Offset p, double best = kAll) const {
-    return with_second(p, this->least(p, std::min(best, greatest_below_)));
+    return guarded(p, with_second(p, this->least(p, std::min(best, greatest_below_))), best);
   }
   /// The first of the candidates that are worth most, if that is more than `best`, which it becomes; else their number.
   [[nodiscard]] std::size_t first_best(CandidateList& candidates, double& best) const;
@@ -170,11 +168,15 @@ class StarScore {
   [[nodiscard]] double least(Offset p, double enough) const;
   /// The score of a place whose least first metric is `least`.
   [[nodiscard]] double with_second(Offset p, double least) const {
-    if (!composite_.beyond(least)) return least;
-    return composite_.guard && guarded(p) < guard_floor_ ? greatest_below_ : composite_.threshold + second(p);
+    return composite_.beyond(least) ? composite_.threshold + second(p) : least;
   }
   [[nodiscard]] double second(Offset p) const;
-  [[nodiscard]] double guarded(Offset p) const;  // the guard's least metric
+  /// The score of a place that is worth `value`, or below all where that is more than `best` and the guard does not let the vertex go
+  /// there.
+  [[nodiscard]] double guarded(Offset p, double value, double best) const {
+    return value > best && guard_floor_ > kAll && least_of_guard(p) < guard_floor_ ? kAll : value;
+  }
+  [[nodiscard]] double least_of_guard(Offset p) const;
   void least(const CandidateList& candidates, double enough, std::vector<double>& out) const;
   void append(Metric metric, const DefinedStar<Frame>* defined, Offset p, std::vector<StarPiece<Frame>>& out) const;
   void append_second(Offset p, std::vector<StarPiece<Frame>>& out) const;
@@ -204,12 +206,16 @@ class StarJudge {
   /// The star of a vertex, whether an element of it is inverted, and what a search maximises in it.
   void gather(PositionView positions, Index vertex, Star& star) const;
   [[nodiscard]] bool is_tangled(const Star& star) const;
-  [[nodiscard]] StarScore<Frame> score_of(const Star& star, PositionView positions, Index vertex, bool tangled) const;
+  /// `guarded`: see StarScore.
+  [[nodiscard]] StarScore<Frame> score_of(const Star& star, PositionView positions, Index vertex, bool tangled, bool guarded = false) const;
   /// How good its star is by a metric, the first or second one, with a vertex at a place; by the statistics' formulas.
   [[nodiscard]] StarState state(Metric metric, PositionView positions, Index vertex, Vec3 place) const;
-  /// By the statistics' own formulas: does the vertex gain by standing at `target`? `before`: its star by the first metric where it
-  /// stands, where that is known.
+  /// By the statistics' own formulas: does the vertex gain by standing at `target`, whatever the guard says? `before`: its star by the
+  /// first metric where it stands, where that is known.
   [[nodiscard]] Confirmation confirm(PositionView positions, Index vertex, Vec3 target, const StarState* before = nullptr) const;
+
+  /// Whether the guard lets the vertex go there, where one is and no element of the star is inverted.
+  [[nodiscard]] bool keeps_guard(PositionView positions, Index vertex, Vec3 target) const;
 
   [[nodiscard]] const CompositeObjective& composite() const noexcept { return composite_; }
   [[nodiscard]] const MeshView<Frame>& mesh() const noexcept { return view_; }
@@ -226,7 +232,6 @@ class StarJudge {
   CompositeObjective composite_;
   Untangling untangling_{};
   CompositeListKernel<Frame> list_kernel_ = nullptr;
-  [[nodiscard]] bool keeps_guard(PositionView positions, Index vertex, Vec3 target) const;
 
   std::shared_ptr<const DefinedJudge> first_, second_, guard_;  // of metrics that are not built in
 };

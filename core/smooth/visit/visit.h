@@ -44,8 +44,14 @@ class Visit {
   }
   [[nodiscard]] std::span<const Index> others(Index vertex) const { return kernel_ ? kernel_->others(vertex) : std::span<const Index>(); }
   [[nodiscard]] bool slides(Index vertex) const { return domain_.slides(vertex); }
-  [[nodiscard]] bool gains(Index vertex, Vec3 target, PositionView positions) const {
-    return judge_.confirm(positions, vertex, target) == Confirmation::Gains;
+  [[nodiscard]] bool is_guarded() const noexcept { return judge_.composite().guard.has_value(); }
+  /// Where a free vertex goes for which a kernel has found a target: another one where the guard does not let it go there.
+  [[nodiscard]] std::optional<Vec3> confirmed(Index vertex, Vec3 target, PositionView positions, Scratch& scratch) const {
+    bool breaks_guard = false;
+    if (confirmation(positions, vertex, &breaks_guard)(target) == Confirmation::Gains) return target;
+    if constexpr (!std::is_same_v<Frame, Curved>)
+      if (breaks_guard) return search_guarded(FreePlaces<Frame>(mesh_, positions, vertex, scratch.star), positions, vertex, scratch);
+    return std::nullopt;
   }
 
   [[nodiscard]] std::optional<Vec3> target(PositionView positions, Index vertex, Scratch& scratch) const {
@@ -59,17 +65,39 @@ class Visit {
  private:
   [[nodiscard]] bool waits(bool tangled) const { return judge_.untangling().repair && method_.must_gain() && !tangled; }
 
+  /// `guarded`: see StarScore.
   template <class Places>
-  [[nodiscard]] auto choose(const Places& places, PositionView positions, Index vertex, bool tangled, Scratch& scratch) const {
+  [[nodiscard]] auto choose(const Places& places, PositionView positions, Index vertex, bool tangled, bool guarded,
+                            Scratch& scratch) const {
     if constexpr (Method::kSearches)
-      return method_.choose(places, judge_.score_of(scratch.star, positions, vertex, tangled), scratch.room);
+      return method_.choose(places, judge_.score_of(scratch.star, positions, vertex, tangled, guarded), scratch.room);
     else
       return method_.choose(places);
   }
-  [[nodiscard]] auto confirmation(PositionView positions, Index vertex, const StarState* before = nullptr) const {
-    return [this, positions, vertex, before](Vec3 target) {
-      return method_.must_gain() ? judge_.confirm(positions, vertex, target, before) : Confirmation::Gains;
+  /// Whether the statistics' formulas let the vertex go to a place. `breaks_guard`: becomes true where the guard alone does not; null: a
+  /// place nearer to where it stands may do then.
+  [[nodiscard]] auto confirmation(PositionView positions, Index vertex, bool* breaks_guard, const StarState* before = nullptr) const {
+    return [this, positions, vertex, breaks_guard, before](Vec3 target) {
+      if (!method_.must_gain()) return Confirmation::Gains;
+      const Confirmation found = judge_.confirm(positions, vertex, target, before);
+      if (found != Confirmation::Gains || judge_.keeps_guard(positions, vertex, target)) return found;
+      if (breaks_guard == nullptr) return Confirmation::TooFar;
+      *breaks_guard = true;
+      return Confirmation::GainsNothing;
     };
+  }
+  /// Goes where the method chooses; where the guard does not let it, where the method chooses among the places to which it does.
+  template <class Places>
+  [[nodiscard]] std::optional<Vec3> go(const Places& places, PositionView positions, Index vertex, bool tangled, Scratch& scratch) const {
+    bool breaks_guard = false;
+    const auto target =
+        places.go(choose(places, positions, vertex, tangled, false, scratch), confirmation(positions, vertex, &breaks_guard));
+    return breaks_guard ? go_guarded(places, positions, vertex, tangled, scratch) : target;
+  }
+  template <class Places>
+  [[nodiscard]] std::optional<Vec3> go_guarded(const Places& places, PositionView positions, Index vertex, bool tangled,
+                                               Scratch& scratch) const {
+    return places.go(choose(places, positions, vertex, tangled, true, scratch), confirmation(positions, vertex, nullptr));
   }
 
   [[nodiscard]] std::optional<Vec3> slide(PositionView positions, Index vertex, Scratch& scratch) const {
@@ -78,16 +106,16 @@ class Visit {
     if (waits(tangled)) return std::nullopt;
     const auto go = [&](const auto& places) -> std::optional<Vec3> {
       if (!places) return std::nullopt;
-      const auto confirm = confirmation(positions, vertex);
       if constexpr (requires { method_.from_above(*places, scratch.star); }) {
         if (!tangled) {
           if (const auto way = method_.from_above(*places, scratch.star)) {
             if (*way == Vec2<double>{}) return std::nullopt;
-            if (const auto target = places->go(*way, confirm)) return target;
+            bool breaks_guard = false;
+            if (const auto target = places->go(*way, confirmation(positions, vertex, &breaks_guard))) return target;
           }
         }
       }
-      return places->go(choose(*places, positions, vertex, tangled, scratch), confirm);
+      return this->go(*places, positions, vertex, tangled, scratch);
     };
     if (domain_.on_curve(vertex))
       return go(CurvePlaces<Frame>::of(domain_, judge_.mesh(), positions, vertex, scratch.star.scale, scratch.room));
@@ -102,25 +130,39 @@ class Visit {
     const FreePlaces<Frame> places(mesh_, positions, vertex, scratch.star);
     if (kernel_ && !judge_.untangling().repair) {
       const auto found = kernel_->find(positions, vertex, judge_.untangling());
-      if (found.ready) return move_to(places, found, positions, vertex);
+      if (found.ready) return move_to(places, found, positions, vertex, scratch);
     }
+    return search(places, positions, vertex, scratch);
+  }
+  /// After a search that did not know of the guard.
+  [[nodiscard]] std::optional<Vec3> search_guarded(const FreePlaces<Frame>& places, PositionView positions, Index vertex,
+                                                   Scratch& scratch) const {
+    if constexpr (Method::kSearches) judge_.gather(positions, vertex, scratch.star);
+    return go_guarded(places, positions, vertex, false, scratch);
+  }
+  [[nodiscard]] std::optional<Vec3> search(const FreePlaces<Frame>& places, PositionView positions, Index vertex, Scratch& scratch) const {
     bool tangled = false;
     if constexpr (Method::kSearches) {
       judge_.gather(positions, vertex, scratch.star);
       tangled = judge_.is_tangled(scratch.star);
       if (waits(tangled)) return std::nullopt;
     }
-    return places.go(choose(places, positions, vertex, tangled, scratch), confirmation(positions, vertex));
+    return go(places, positions, vertex, tangled, scratch);
   }
   [[nodiscard]] std::optional<Vec3> move_to(const FreePlaces<Frame>& places, const typename StarKernel<Frame>::Found& found,
-                                            PositionView positions, Index vertex) const {
+                                            PositionView positions, Index vertex, Scratch& scratch) const {
     if (found.way == OffsetIn<Frame, double>{}) return std::nullopt;
     const auto target = mesh_.moved(positions[vertex], found.way);
     if (!target) return std::nullopt;
     const std::optional<bool> known = kernel_->gains(positions, vertex, *target);
     if (known && !*known) return std::nullopt;
-    if (known && (!has_inside_ || kernel_->valid_at(vertex, *target) || keeps_sound(mesh_.view, positions, vertex, *target))) return target;
-    return places.go(found.way, confirmation(positions, vertex, found.before ? &*found.before : nullptr));
+    if (known && (!has_inside_ || kernel_->valid_at(vertex, *target) || keeps_sound(mesh_.view, positions, vertex, *target)) &&
+        judge_.keeps_guard(positions, vertex, *target))
+      return target;
+    bool breaks_guard = false;
+    const auto confirm = confirmation(positions, vertex, &breaks_guard, found.before ? &*found.before : nullptr);
+    const auto confirmed = places.go(found.way, confirm);
+    return breaks_guard ? search_guarded(places, positions, vertex, scratch) : confirmed;
   }
 
   /// Stands for the mesh of free vertices on curved surfaces, which have none.

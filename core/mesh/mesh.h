@@ -142,6 +142,8 @@ struct Mesh {
   ElementTable elements;
   std::vector<Field> fields;
   std::vector<Group> groups;
+  /// Vertices that the file says are one, a period apart.
+  std::vector<std::pair<Index, Index>> periodic{};
   /// Elements whose winding was reversed after reading (see orientation.h); empty if none, else one entry per element.
   std::vector<std::uint8_t> flipped;
   /// The file holds 32-bit coordinates, or says so: moved vertices are put on such, so that what is judged is what will be read.

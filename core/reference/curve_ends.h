@@ -19,7 +19,8 @@ enum class HeldOn : std::uint8_t {
   Named,      // the file gives it a meaning
   Rule,       // boundary or interfaces stay
   Unmatched,  // the surface of another mesh that it should slide on is too far away, or has no feature edge there
-  Hand        // a person made it a corner
+  Hand,       // a person made it a corner
+  Tied        // it belongs to another vertex: see core/mesh/ties.h
 };
 
 /// A vertex slides between two neighbours once exactly two edges of curves have met at it, unless it is held.

@@ -58,10 +58,11 @@ void Domain::find_feature_edges() {
 bool Domain::is_feature(Index a, Index b) const { return std::ranges::binary_search(feature_edges_, edge_ends(a, b)); }
 
 std::string_view Domain::why_held(Index vertex) const {
-  constexpr std::array<std::string_view, 9> kWhy{
+  constexpr std::array<std::string_view, 10> kWhy{
       {"", "it is a corner: the boundary or feature edge turns there by more than the corner angle", "feature edges meet there",
        "a feature edge ends there", "parts of the mesh touch there, or cannot be wound alike", "the file gives it a meaning",
-       "what it lies on stays", "the surface to slide on is too far away, or has no feature edge there", "it was made a corner by hand"}};
+       "what it lies on stays", "the surface to slide on is too far away, or has no feature edge there", "it was made a corner by hand",
+       "it belongs to another vertex, from which it would part"}};
   return kWhy[static_cast<std::size_t>(held_[vertex])];
 }
 
@@ -77,15 +78,20 @@ std::string Domain::sentence() const {
                         : said_in_plane_ ? "along interfaces and feature edges"
                                          : "along interfaces");
   if (faces_.any() && on_curves_ > 0) text += fmt::format(" ({} on feature edges)", grouped(on_curves_));
-  Index held = 0, unmatched = 0;
+  Index held = 0, unmatched = 0, tied = 0;
   for (Index v = 0; v < held_.size(); ++v) {
     held += is_held(v) ? 1 : 0;
     unmatched += held_[v] == HeldOn::Unmatched ? 1 : 0;
+    tied += held_[v] == HeldOn::Tied ? 1 : 0;
   }
-  if (is_surface_ && held > unmatched) text += fmt::format("; corners and ends of feature edges hold {}", grouped(held - unmatched));
+  if (is_surface_ && held > unmatched + tied)
+    text += fmt::format("; corners and ends of feature edges hold {}", grouped(held - unmatched - tied));
   if (unmatched > 0)
     text += fmt::format("; {} {}, for {} is too far away, or has no feature edge there", counted(unmatched, "vertex", "vertices"),
                         unmatched == 1 ? "stays" : "stay", surface_);
+  if (tied > 0)
+    text += fmt::format("; {} {}, for each belongs to another one, from which it would part (periodic, at a seam, or one cell thick)",
+                        counted(tied, "vertex", "vertices"), tied == 1 ? "stays" : "stay");
   return text;
 }
 

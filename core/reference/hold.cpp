@@ -3,6 +3,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/mesh/ties.h"
+
 namespace dmoscope {
 
 void hold_corners(const InputMesh& input, const StandingRule& rule, CurveEnds& ends) {
@@ -40,6 +42,12 @@ void hold_named_points(const InputMesh& input, CurveEnds& ends) {
   for (const Group* group : points)
     for (const Index v : group->members)
       if (is_required(*group) || !list.surrounds(v)) ends.hold(v, HeldOn::Named);
+}
+
+void hold_tied(const InputMesh& input, CurveEnds& ends) {
+  const std::vector<Tie> ties = find_ties(input.mesh, input.topology, input.faces);
+  for (Index v = 0; v < ends.size(); ++v)
+    if (ties[v] != Tie::None) ends.hold(v, HeldOn::Tied);
 }
 
 }  // namespace dmoscope

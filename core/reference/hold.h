@@ -18,4 +18,7 @@ void hold_ends_of_names(const NamedEdges& names, CurveEnds& ends);
 /// Holds points that the file names, but in lists of all that there are, and the corners of required elements and faces.
 void hold_named_points(const InputMesh& input, CurveEnds& ends);
 
+/// Holds vertices that belong to others, so that they do not part.
+void hold_tied(const InputMesh& input, CurveEnds& ends);
+
 }  // namespace dmoscope

@@ -24,6 +24,7 @@ CurveEnds planar_ends(const InputMesh& input, const StandingRule& rule) {
   hold_corners(input, rule, ends);
   NamedEdges names(input.mesh, input.topology);
   hold_ends_of_names(names, ends);
+  hold_tied(input, ends);
   hold_named_points(input, ends);
   if (rule.interfaces == InterfaceRule::Free) return ends;
   for (Index v = 0; v < ends.size(); ++v)

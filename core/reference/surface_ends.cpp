@@ -220,6 +220,7 @@ class SurfaceFinder {
     hold_said_corners();
     if (attachment_ == nullptr) hold_corners(input_, rule_, ends_);
     hold_ends_of_names(names_, ends_);
+    hold_tied(input_, ends_);
     hold_named_points(input_, ends_);
   }
 

@@ -3,6 +3,7 @@
 #include "core/smooth/kernels/ratio_bounds.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <ostream>
@@ -51,15 +52,27 @@ struct Sample {
 };
 
 struct Worth {
-  double least = 1.0, sum = 0.0, count = 0.0;
+  double least = 1.0;
+  std::vector<double> qualities;
+  void add(double quality) { qualities.push_back(quality); }
+  /// A power mean of the qualities, by its exponent.
+  [[nodiscard]] double mean(double exponent) const {
+    double sum = 0.0;
+    for (const double quality : qualities) sum += std::pow(quality, exponent);
+    return std::pow(sum / static_cast<double>(qualities.size()), 1.0 / exponent);
+  }
 };
+struct Kind {
+  MeanKind kind;
+  double exponent;
+};
+constexpr std::array kKinds{Kind{MeanKind::Arithmetic, 1.0}, Kind{MeanKind::Harmonic, -1.0}, Kind{MeanKind::InverseSquare, -2.0}};
 Worth worth_at(const VolumeStar<double>& star, Vec3 p) {
   Worth worth;
   VolumeStarView<double>(star).for_each<true>([&](const auto& element) {
     const auto shape = element.with(p);
     worth.least = std::min(worth.least, formulas::metric_around<Metric::MeanRatio>(shape, element.kMoving));
-    worth.sum += formulas::metric<Metric::MeanRatio>(shape);
-    worth.count += 1.0;
+    worth.add(formulas::metric<Metric::MeanRatio>(shape));
   });
   return worth;
 }
@@ -98,13 +111,13 @@ class CloseRatioBounds : public RatioBounds {};
 
 /// Calls f(star, bounds, centre, place, half) for places within grids around the vertex and around others where it is sound.
 template <class F>
-void for_places(const Case& parameter, F f) {
+void for_places(const Case& parameter, MeanKind kind, F f) {
   dmoscope::Random random(7);
   for (int trial = 0; trial < 30; ++trial) {
     const Sample sample(random, parameter.stretch, parameter.jolt);
     const std::vector<D> known = elsewhere(sample.star);
     Bounds bounds;
-    bounds.take(lists_of(sample.star), known.data());
+    bounds.take(lists_of(sample.star), kind, known.data());
     for (const double size : {0.5, 0.1, 0.02}) {
       const Vec3 half = size * sample.stretch, centre = random_point(random, 0.2 * sample.stretch);
       if (!(worth_at(sample.star, centre).least > 0.0)) continue;
@@ -115,40 +128,42 @@ void for_places(const Case& parameter, F f) {
 }
 
 TEST_P(RatioBounds, LeaveHopeForWhatAPlaceReaches) {
-  int sound = 0;
-  for_places(GetParam(), [&](const auto& star, Bounds& bounds, Vec3 centre, Vec3 place) {
-    const Worth worth = worth_at(star, place);
-    if (!(worth.least > 0.0)) return;
-    ++sound;
-    const double mean = worth.sum / worth.count;
-    bounds.set_needs(worth.least, mean);
-    EXPECT_TRUE(hopes(bounds, place - centre));
-    bounds.set_needs(worth.least, 0.0);
-    EXPECT_TRUE(hopes(bounds, place - centre));
-  });
-  EXPECT_GT(sound, 1000);
+  for (const auto& [kind, exponent] : kKinds) {
+    int sound = 0;
+    for_places(GetParam(), kind, [&](const auto& star, Bounds& bounds, Vec3 centre, Vec3 place) {
+      const Worth worth = worth_at(star, place);
+      if (!(worth.least > 0.0)) return;
+      ++sound;
+      bounds.set_needs(worth.least, worth.mean(exponent));
+      EXPECT_TRUE(hopes(bounds, place - centre)) << name(kind);
+      bounds.set_needs(worth.least, 0.0);
+      EXPECT_TRUE(hopes(bounds, place - centre)) << name(kind);
+    });
+    EXPECT_GT(sound, 1000);
+  }
 }
 
 TEST_P(CloseRatioBounds, LeaveNoneForMuchMore) {
-  int tried = 0, by_least = 0, by_mean = 0;
-  for_places(GetParam(), [&](const auto& star, Bounds& bounds, Vec3 centre, Vec3 place) {
-    const Worth worth = worth_at(star, place);
-    if (!(worth.least > 0.01)) return;
-    ++tried;
-    const double mean = worth.sum / worth.count;
-    bounds.set_needs(1.001 * worth.least, 0.0);
-    by_least += hopes(bounds, place - centre) ? 0 : 1;
-    bounds.set_needs(0.0, mean + 0.02);
-    by_mean += hopes(bounds, place - centre) ? 0 : 1;
-  });
-  EXPECT_GT(by_least, tried * 95 / 100);
-  EXPECT_GT(by_mean, tried / 2);
+  for (const auto& [kind, exponent] : kKinds) {
+    int tried = 0, by_least = 0, by_mean = 0;
+    for_places(GetParam(), kind, [&](const auto& star, Bounds& bounds, Vec3 centre, Vec3 place) {
+      const Worth worth = worth_at(star, place);
+      if (!(worth.least > 0.01)) return;
+      ++tried;
+      bounds.set_needs(1.001 * worth.least, 0.0);
+      by_least += hopes(bounds, place - centre) ? 0 : 1;
+      bounds.set_needs(0.0, worth.mean(exponent) + 0.02);
+      by_mean += hopes(bounds, place - centre) ? 0 : 1;
+    });
+    EXPECT_GT(by_least, tried * 95 / 100) << name(kind);
+    EXPECT_GT(by_mean, tried / 2) << name(kind);
+  }
 }
 
 /// Inverted elements are worth nothing.
 TEST_P(CloseRatioBounds, LeaveNoneForInvertedElements) {
   int inverted = 0;
-  for_places(GetParam(), [&](const auto& star, Bounds& bounds, Vec3 centre, Vec3 place) {
+  for_places(GetParam(), MeanKind::Harmonic, [&](const auto& star, Bounds& bounds, Vec3 centre, Vec3 place) {
     if (!(worth_at(star, place).least < -1e-3)) return;
     ++inverted;
     bounds.set_needs(0.0, 0.0);
@@ -177,10 +192,11 @@ Star<double> planar_star(dmoscope::Random& random, double stretch) {
 TEST(PlanarRatioBounds, LeaveHopeForWhatAPlaceReachesAndNoneForMore) {
   dmoscope::Random random(8);
   int sound = 0, by_least = 0, by_mean = 0;
-  for (int trial = 0; trial < 300; ++trial) {
+  for (int trial = 0; trial < 900; ++trial) {
+    const auto& [kind, exponent] = kKinds[static_cast<std::size_t>(trial / 300)];
     const Star<double> star = planar_star(random, trial % 2 == 0 ? 1.0 : 0.05);
     composite::RatioBounds<Plane, D, F> bounds;
-    bounds.take(lists_of(star), nullptr);
+    bounds.take(lists_of(star), kind, nullptr);
     const double half = trial % 3 == 0 ? 0.3 : 0.05;
     const Vec2<double> centre{random.between(-0.1, 0.1), random.between(-0.1, 0.1) * (trial % 2 == 0 ? 1.0 : 0.05)};
     const auto worth_of = [&star](Vec2<double> p) {
@@ -188,7 +204,7 @@ TEST(PlanarRatioBounds, LeaveHopeForWhatAPlaceReachesAndNoneForMore) {
       StarView<double>(star).for_each<true>([&](const auto& element) {
         const double quality = formulas::metric<Metric::MeanRatio>(element.with(p));
         worth.least = std::min(worth.least, quality);
-        worth.sum += quality, worth.count += 1.0;
+        worth.add(quality);
       });
       return worth;
     };
@@ -203,9 +219,9 @@ TEST(PlanarRatioBounds, LeaveHopeForWhatAPlaceReachesAndNoneForMore) {
         bounds.set_needs(least, mean);
         return xsimd::any(bounds.may_reach({F(static_cast<float>(way.x)), F(static_cast<float>(way.y))}));
       };
-      EXPECT_TRUE(hopes(worth.least, worth.sum / worth.count));
+      EXPECT_TRUE(hopes(worth.least, worth.mean(exponent))) << name(kind);
       by_least += hopes(1.001 * worth.least, 0.0) ? 0 : 1;
-      by_mean += hopes(0.0, worth.sum / worth.count + 1e-3) ? 0 : 1;
+      by_mean += hopes(0.0, worth.mean(exponent) + 1e-3) ? 0 : 1;
     }
   }
   EXPECT_GT(sound, 1000);

@@ -254,14 +254,17 @@ TEST_P(Generated, ComparisonsAreByTheLeastRankAndTheMeanOfTheElements) {
     for (const SimdLevel level : supported_simd_levels()) {
       const VolumeComparison task{star.elements, others.data(), here, there};
       const BeforeAndAfter ratio = volume_kernel(level, Metric::MeanRatio).least_ranks(task);
-      EXPECT_NEAR(ratio.before, least_rank<Metric::MeanRatio>(*input, vertex, here, MeanKind::Arithmetic), 1e-12);
-      EXPECT_NEAR(ratio.after, least_rank<Metric::MeanRatio>(*input, vertex, there, MeanKind::Arithmetic), 1e-12);
+      EXPECT_NEAR(ratio.before, least_rank<Metric::MeanRatio>(*input, vertex, here), 1e-12);
+      EXPECT_NEAR(ratio.after, least_rank<Metric::MeanRatio>(*input, vertex, there), 1e-12);
       const BeforeAndAfter mean = volume_kernel(level, Metric::MeanRatio).means(task, MeanKind::Arithmetic);
-      EXPECT_NEAR(mean.before, mean_at_place<Metric::MeanRatio>(input->view<Space>(), input->mesh.positions, vertex, here, MeanKind::Arithmetic), 1e-12);
-      EXPECT_NEAR(mean.after, mean_at_place<Metric::MeanRatio>(input->view<Space>(), input->mesh.positions, vertex, there, MeanKind::Arithmetic), 1e-12);
+      EXPECT_NEAR(mean.before,
+                  mean_at_place<Metric::MeanRatio>(input->view<Space>(), input->mesh.positions, vertex, here, MeanKind::Arithmetic), 1e-12);
+      EXPECT_NEAR(mean.after,
+                  mean_at_place<Metric::MeanRatio>(input->view<Space>(), input->mesh.positions, vertex, there, MeanKind::Arithmetic),
+                  1e-12);
       const BeforeAndAfter jacobian = volume_kernel(level, Metric::ScaledJacobian).least_ranks(task);
-      EXPECT_NEAR(jacobian.before, least_rank<Metric::ScaledJacobian>(*input, vertex, here, MeanKind::Arithmetic), 1e-12);
-      EXPECT_NEAR(jacobian.after, least_rank<Metric::ScaledJacobian>(*input, vertex, there, MeanKind::Arithmetic), 1e-12);
+      EXPECT_NEAR(jacobian.before, least_rank<Metric::ScaledJacobian>(*input, vertex, here), 1e-12);
+      EXPECT_NEAR(jacobian.after, least_rank<Metric::ScaledJacobian>(*input, vertex, there), 1e-12);
     }
   }
 }

@@ -36,7 +36,7 @@ class GmshReader {
     if (name == "$NOD" || name == "$ELM") words().fail("MSH version 1 is not read: save the mesh in version 2.2 or 4.1");
     if (name.size() < 2 || name.front() != '$') words().fail("expected a section such as $Nodes, got " + quote_token(name));
     const bool known = name == "$PhysicalNames" || name == "$Entities" || name == "$Nodes" || name == "$Elements" || name == "$NodeData" ||
-                       name == "$ElementData" || name == "$PartitionedEntities";
+                       name == "$ElementData" || name == "$PartitionedEntities" || name == "$Periodic";
     if (known && in_.version == 0) words().fail(name + " before $MeshFormat");
     if (name == kFormatSection) {
       format();
@@ -54,6 +54,8 @@ class GmshReader {
       words().fail(name + " before $Nodes");
     } else if (name == "$Elements") {
       cells_.elements(nodes_);
+    } else if (name == "$Periodic") {
+      periodic();
     } else {
       const bool of_nodes = name == "$NodeData";
       if (!of_nodes && !cells_.elements_read()) words().fail(name + " before $Elements");
@@ -105,6 +107,43 @@ class GmshReader {
       layout.at = {0, kRealBytes, 2 * kRealBytes};
     }
     source_.set_layout(layout);
+  }
+
+  /// Pairs of vertices, by curves and surfaces. In version 2 these are words in a binary file, too.
+  void periodic() {
+    source_.add_only_in_file("$Periodic");
+    if (in_.version == 2) {
+      const std::size_t links = words().count("the number of periodic entities", 8.0);
+      for (std::size_t i = 0; i < links; ++i) link_2();
+      return;
+    }
+    in_.begin_data();
+    const std::size_t links = in_.count("the number of periodic entities", 8.0, 20.0);
+    for (std::size_t i = 0; i < links; ++i) {
+      for (const char* what : {"a dimension", "an entity", "its master"}) (void)in_.whole(what);
+      const std::size_t numbers = in_.count("how many numbers transform", 2.0, 8.0);
+      for (std::size_t k = 0; k < numbers; ++k) (void)in_.real("a number of a transformation");
+      const std::size_t pairs = in_.count("the number of pairs of nodes", 4.0, 16.0);
+      for (std::size_t k = 0; k < pairs; ++k) {
+        const std::int64_t node = in_.size("the number of a node"), master = in_.size("the number of its master");
+        add_pair(node, master);
+      }
+    }
+  }
+  void link_2() {
+    for (const char* what : {"a dimension", "an entity", "its master"}) (void)words().integer(what);
+    if (words().peek_word() == "Affine") (void)words().rest_of_line();
+    const std::size_t pairs = words().count("the number of pairs of nodes", 4.0);
+    for (std::size_t k = 0; k < pairs; ++k) {
+      const std::int64_t node = words().integer("the number of a node"), master = words().integer("the number of its master");
+      add_pair(node, master);
+    }
+  }
+  void add_pair(std::int64_t node, std::int64_t master) {
+    const Index one = nodes_.find(node), other = nodes_.find(master);
+    if (one == kNoIndex || other == kNoIndex)
+      words().fail(fmt::format("$Periodic pairs node {} with {}, and $Nodes has not both", node, master));
+    if (one != other) mesh_.periodic.emplace_back(one, other);
   }
 
   // --- Nodes ---

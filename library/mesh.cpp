@@ -186,6 +186,16 @@ std::vector<std::string> Mesh::write(const std::string& path, const Progress& pr
   });
 }
 
+Mesh Mesh::with_materials(const std::vector<std::string>& names) const {
+  return translated([&] {
+    auto data = std::make_shared<Data>();
+    data->input = dmoscope::with_materials(*data_->input, names);
+    data->as_read = data_->as_read;
+    data->moved = data_->moved;
+    return Mesh(std::shared_ptr<const Data>(std::move(data)));
+  });
+}
+
 std::size_t Mesh::vertex_count() const { return data_->input->mesh.vertex_count(); }
 std::size_t Mesh::cell_count() const { return data_->input->mesh.elements.size(); }
 const double* Mesh::positions() const { return &data_->positions().data()->x; }

@@ -50,7 +50,7 @@ struct MeshParts {
 
 template <class Archive>
 void pass(Archive& archive, Field& f) {
-  archive(f.name, f.on, f.components, f.type, f.role, f.values);
+  archive(f.name, f.on, f.components, f.type, f.role, f.values, f.said_material);
 }
 template <class Archive>
 void pass(Archive& archive, Group& g) {

@@ -259,6 +259,7 @@ void define_mesh(py::module_& module) {
              const py::gil_scoped_release release;
              return mesh.with_positions(points.data());
            })
+      .def("with_materials", &dmo::Mesh::with_materials, py::arg("names"), py::call_guard<py::gil_scoped_release>())
       .def_property_readonly("points",
                              [](const py::object& self) {
                                const auto& mesh = self.cast<const dmo::Mesh&>();

@@ -14,9 +14,17 @@ void add_surface_option(CLI::App& subcommand, std::filesystem::path& surface) {
       ->type_name("FILE");
 }
 
+void add_materials_option(CLI::App& subcommand, std::vector<std::string>& materials) {
+  subcommand
+      .add_option("--materials", materials,
+                  "Cell data that name materials whatever they are called: vertices between their values are on interfaces (repeatable)")
+      ->type_name("FIELD")
+      ->allow_extra_args(false);
+}
+
 std::shared_ptr<const InputMesh> load_input_on(const std::filesystem::path& mesh, const std::filesystem::path& surface, Need need,
-                                               const IoContext& context) {
-  auto input = load_input(mesh, need, context);
+                                               const IoContext& context, std::span<const std::string> materials) {
+  auto input = load_input(mesh, need, context, materials);
   if (surface.empty()) return input;
   return slide_on(*input, load_input(surface, Need::QualityOnly, context));
 }

@@ -1,8 +1,12 @@
 #pragma once
-// The --surface option: another mesh, on whose surface vertices slide.
+// How an input is read beyond its file: --surface, another mesh, on whose surface vertices slide; --materials, cell data that name
+// materials.
 
 #include <filesystem>
 #include <memory>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "core/input/input_mesh.h"
 
@@ -15,8 +19,12 @@ namespace dmoscope::app {
 /// Declares --surface.
 void add_surface_option(CLI::App& subcommand, std::filesystem::path& surface);
 
+/// Declares --materials.
+void add_materials_option(CLI::App& subcommand, std::vector<std::string>& materials);
+
 /// load_input, to slide on another surface where a file is given: see slide_on().
 [[nodiscard]] std::shared_ptr<const InputMesh> load_input_on(const std::filesystem::path& mesh, const std::filesystem::path& surface,
-                                                             Need need, const IoContext& context);
+                                                             Need need, const IoContext& context,
+                                                             std::span<const std::string> materials = {});
 
 }  // namespace dmoscope::app

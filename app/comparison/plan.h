@@ -14,6 +14,7 @@ namespace dmoscope::app {
 
 struct CompareOptions {
   std::filesystem::path file, surface, stats, table, plot, report;
+  std::vector<std::string> materials;
   std::vector<std::string> runs;   // METHOD[:METRIC[:BACKEND]][,alone|,then mean]
   std::vector<std::string> every;  // "method", "metric"
   RunOptions run;                  // what a SPEC leaves open

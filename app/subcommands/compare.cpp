@@ -76,7 +76,8 @@ int compare(const CompareOptions& options, const std::string& command_line) {
   Watch watch;
   Progress& progress = watch.progress();
   const auto pool = std::make_shared<ThreadPool>(options.run.threads);
-  const auto input = load_input_on(options.file, options.surface, Need::Smoothing, {progress, pool.get(), options.memory.bytes()});
+  const auto input =
+      load_input_on(options.file, options.surface, Need::Smoothing, {progress, pool.get(), options.memory.bytes()}, options.materials);
   std::vector<std::string> warnings = tell_findings(*input);
   const Kinds kinds = kinds_of(*input, plan.contenders.front().parameters, options.run.kinds, warnings);
   fit_to_mesh(plan, input, vertices_to_fix(input->mesh, options.run.fix), kinds);
@@ -138,6 +139,7 @@ void add_compare(CLI::App& app, Action& action, const std::string& command_line)
   add_goal_options(*subcommand, *goal);
   add_run_options(*subcommand, options->run);
   add_surface_option(*subcommand, options->surface);
+  add_materials_option(*subcommand, options->materials);
   subcommand->remove_option(subcommand->get_option("--method"));  // a SPEC's business; --metric and --backend are what it leaves open
   subcommand->add_option("--stats", options->stats, "Write the statistics of every iteration of every run")->type_name("FILE.csv");
   subcommand->add_option("--table", options->table, "Write the table, with all columns")->type_name("FILE.csv");

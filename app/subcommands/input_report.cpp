@@ -17,10 +17,13 @@ std::vector<std::string> tell_findings(const InputMesh& input) {
 
 void tell_interfaces(const InputMesh& input, const RunParameters& parameters, std::vector<std::string>& warnings) {
   if (parameters.interfaces != InterfaceRule::Fixed) return;
-  std::string sentence = input.interfaces.sentence("--interfaces free");
-  if (sentence.empty()) return;
-  complain(fmt::format("{}: {}", input.mesh.name, sentence));
-  warnings.push_back(std::move(sentence));
+  std::vector<std::string> sentences = input.interfaces.offers("--materials");
+  if (std::string held = input.interfaces.sentence("--interfaces free"); !held.empty())
+    sentences.insert(sentences.begin(), std::move(held));
+  for (std::string& sentence : sentences) {
+    complain(fmt::format("{}: {}", input.mesh.name, sentence));
+    warnings.push_back(std::move(sentence));
+  }
 }
 
 std::vector<Index> vertices_to_fix(const Mesh& mesh, const std::vector<std::string>& words) {

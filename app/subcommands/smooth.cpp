@@ -40,6 +40,7 @@ namespace {
 
 struct SmoothOptions {
   std::filesystem::path input, surface, output, stats;
+  std::vector<std::string> materials;
   RunOptions run;
   GoalOptions goal;
   std::string write = "best";
@@ -118,7 +119,8 @@ int smooth(const SmoothOptions& options) {
     if (!checkpoints.end_soon()) progress.request_cancel();
   });
   const auto pool = session.pool();
-  const auto input = load_input_on(options.input, options.surface, Need::Smoothing, {progress, pool.get(), options.memory.bytes()});
+  const auto input =
+      load_input_on(options.input, options.surface, Need::Smoothing, {progress, pool.get(), options.memory.bytes()}, options.materials);
   std::vector<std::string> warnings = tell_findings(*input);
   parameters.fixed = vertices_to_fix(input->mesh, options.run.fix);
   parameters.kinds = kinds_of(*input, parameters, options.run.kinds, warnings);
@@ -199,6 +201,7 @@ void add_smooth(CLI::App& app, Action& action, const std::string& command_line) 
   subcommand->add_option("-o,--output", options->output, "Where to write it; the format is the extension's")->required()->type_name("OUT");
   add_run_options(*subcommand, options->run);
   add_surface_option(*subcommand, options->surface);
+  add_materials_option(*subcommand, options->materials);
   add_goal_options(*subcommand, options->goal);
   subcommand
       ->add_option("--write", options->write,

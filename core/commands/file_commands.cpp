@@ -52,6 +52,12 @@ void surface(CommandContext& context, Arguments arguments) {
   if (!note.empty()) tell(context, note, Message::Kind::Warning);
 }
 
+void materials(CommandContext& context, Arguments arguments) {
+  const std::string note = context.session.name_materials(arguments);
+  tell_report(context);
+  if (!note.empty()) tell(context, note, Message::Kind::Warning);
+}
+
 void generate(CommandContext& context, Arguments arguments) {
   std::string words = arguments[0];
   for (const std::string& word : arguments.subspan(1)) words += ' ' + word;
@@ -174,6 +180,11 @@ std::span<const CommandRow> file_commands() {
       {{"surface", "surface FILE|own",
         "Lets vertices slide on the surface of another mesh, or on their own mesh's again; its runs keep their parameters and start anew."},
        {1, 1, surface}},
+      {{"materials", "materials [FIELD...]",
+        "Lets cell data name materials, whatever they are called, or again only those of known names; its runs keep their parameters and "
+        "start "
+        "anew."},
+       {0, kAnyWords, materials}},
       {{"generate", "generate KIND [SIZE [SEED]]", "Makes a sample mesh and starts a run on it."}, {1, 3, generate}},
       {{"export", "export FILE", "Writes the active run's mesh; the extension chooses the format."}, {1, 1, export_mesh}},
       {{"export-over", "export-over FILE", "Writes it over the file that it was read from, and keeps a copy of that beside it."},

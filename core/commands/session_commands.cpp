@@ -73,6 +73,7 @@ void tell_interfaces(CommandContext& context) {
   if (run.parameters().interfaces != InterfaceRule::Fixed) return;
   std::string sentence = run.input().interfaces.sentence("'interfaces free'");
   if (!sentence.empty()) tell(context, std::move(sentence), Message::Kind::Warning);
+  for (std::string& offer : run.input().interfaces.offers("materials")) tell(context, std::move(offer), Message::Kind::Warning);
 }
 
 void change_run(CommandContext& context, const std::function<void(RunParameters&)>& edit) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -77,8 +78,12 @@ void require_computable(const Geometry& geometry, const std::string& file, Need 
 /// A sample for smoothing: `words` is "KIND [SIZE [SEED]]", see generate_mesh. Throws UsageError.
 [[nodiscard]] std::shared_ptr<const InputMesh> generate_input(const std::string& words, Progress& progress);
 
-/// read_mesh, then prepare_input.
-[[nodiscard]] std::shared_ptr<const InputMesh> load_input(const std::filesystem::path& path, Need need, const IoContext& context);
+/// read_mesh, name_materials with `materials`, then prepare_input.
+[[nodiscard]] std::shared_ptr<const InputMesh> load_input(const std::filesystem::path& path, Need need, const IoContext& context,
+                                                          std::span<const std::string> materials = {});
+
+/// The mesh after name_materials() with these names. Throws UsageError.
+[[nodiscard]] std::shared_ptr<const InputMesh> with_materials(const InputMesh& input, std::span<const std::string> materials);
 
 /// The elements' findings (inverted, duplicates, ...); called by prepare_input, exposed for tests.
 [[nodiscard]] MeshReport examine(const Mesh& mesh, const Geometry& geometry);

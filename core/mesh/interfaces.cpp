@@ -11,6 +11,7 @@
 #include "core/base/error.h"
 #include "core/base/number_text.h"
 #include "core/base/unknown_value.h"
+#include "core/base/words.h"
 #include "core/mesh/materials.h"
 #include "core/mesh/named_lists.h"
 #include "core/mesh/topology.h"
@@ -125,6 +126,7 @@ class Interfaces::Finder {
     for (const Group& group : mesh_.groups)
       if (is_string(group)) hold_all(HeldBy::Strings, group);
     named(HeldBy::Points, NamedKind::Points, [](const Group& g) { return g.dimension == 0 && !is_string(g); });
+    offer_others();
     finish();
   }
 
@@ -155,7 +157,10 @@ class Interfaces::Finder {
       for (const Field& field : mesh_.fields) {
         if (naming_of(field) != naming) continue;
         const NumberedValues numbered(field);
-        if (numbered.values.size() < 2) continue;
+        if (numbered.values.size() < 2) {
+          if (field.said_material) found_.offers_.push_back({field.name, 1});
+          continue;
+        }
         told_apart_ = true;
         const Index pairs = between(HeldBy::Values, numbered.of_element, [&](const Labels& labels) {
           std::vector<std::string> names;
@@ -168,6 +173,24 @@ class Interfaces::Finder {
         found_.value_names_ += (found_.value_names_.empty() ? "" : " and ") + field.name;
       }
     }
+  }
+
+  /// Cell data that would hold more, if their name said materials.
+  void offer_others() {
+    for (const Field& field : mesh_.fields) {
+      const std::size_t values = possible_materials(field);
+      if (values > 0 && parts_free_vertices(field)) found_.offers_.push_back({field.name, values});
+    }
+  }
+
+  [[nodiscard]] bool parts_free_vertices(const Field& field) const {
+    for (Index v = 0; v < mesh_.vertex_count(); ++v) {
+      if (!inside(v) || held(v)) continue;
+      const auto star = topology_.star(v);
+      const double first = field.values[star.front().element];
+      if (std::ranges::any_of(star, [&](const Incidence& at) { return field.values[at.element] != first; })) return true;
+    }
+    return false;
   }
 
   /// Elements of the same material have all labels in common.
@@ -273,7 +296,8 @@ class Interfaces::Finder {
 };
 
 Interfaces::Interfaces(const Mesh& mesh, const Topology& topology) {
-  const bool names_elements = std::ranges::any_of(mesh.fields, [](const Field& f) { return naming_of(f) != Naming::Nothing; });
+  const bool names_elements =
+      std::ranges::any_of(mesh.fields, [](const Field& f) { return naming_of(f) != Naming::Nothing || possible_materials(f) > 0; });
   if (!mesh.groups.empty() || names_elements) Finder(*this, mesh, topology).find();
 }
 
@@ -301,6 +325,17 @@ std::string Interfaces::sentence(std::string_view way_out) const {
   if (listed_ == 0) return text;
   return fmt::format("{}{} named only in lists of all lines, faces or points there are; such lists hold nothing",
                      text.empty() ? "" : text + "; ", counted(listed_, "vertex is", "vertices are"));
+}
+
+std::vector<std::string> Interfaces::offers(std::string_view way_in) const {
+  std::vector<std::string> sentences;
+  for (const Offer& offer : offers_) {
+    sentences.push_back(offer.values == 1
+                            ? fmt::format("cell data {} has the same value everywhere: it makes no interface", quoted(offer.field))
+                            : fmt::format("cell data {} has {} values: {} {} keeps their interfaces", quoted(offer.field), offer.values,
+                                          way_in, quote_word(offer.field)));
+  }
+  return sentences;
 }
 
 namespace {

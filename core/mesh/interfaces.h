@@ -55,6 +55,9 @@ class Interfaces {
   /// "1,024 vertices on 2 interfaces between groups and 12 on lines stay (--interfaces free moves them)"; empty where nothing is held or
   /// passed over. `way_out`: what the person here can say, "--interfaces free".
   [[nodiscard]] std::string sentence(std::string_view way_out) const;
+  /// Of each of the cell data that may mean materials and hold nothing by their name: "cell data "X" has 3 values: --materials X keeps
+  /// their interfaces"; and of those that a person named to no effect. `way_in`: what the person here says before the name.
+  [[nodiscard]] std::vector<std::string> offers(std::string_view way_in) const;
 
  private:
   class Finder;
@@ -66,8 +69,13 @@ class Interfaces {
   std::array<Index, kHeldByCount> counts_{};
   Index between_groups_ = 0, between_values_ = 0;  // how many pairs of materials meet
   std::string value_names_;                        // "mat_id", "mat_id and region"
-  Index listed_ = 0;                               // vertices named in lists alone, which are not held
-  bool all_ = false;                               // no vertex is left to move
+  struct Offer {
+    std::string field;
+    std::size_t values;  // 1: of a field that a person named
+  };
+  std::vector<Offer> offers_;
+  Index listed_ = 0;  // vertices named in lists alone, which are not held
+  bool all_ = false;  // no vertex is left to move
 };
 
 }  // namespace dmoscope

@@ -110,6 +110,7 @@ struct Field {
   std::string type = "double";  // the file's own word for its scalar ("float", "int", ...)
   std::string role;             // the file's own word for what it is ("SCALARS", "VECTORS", "depth", ...), may be empty
   std::vector<double> values;
+  bool said_material = false;  // a person said that it names materials, see name_materials()
   /// Where it stands in the text it was read from, for errors that are found late.
   struct Place {
     std::uint64_t begin = 0;      // the byte of its first word

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/mesh/materials.h"
 #include "core/reference/slide_on.h"
 #include "core/session/session.h"
 
@@ -27,7 +28,7 @@ bool has_all(const InputMesh& input, const Kinds& kinds) {
 std::string Session::reload(Progress& progress) {
   const std::shared_ptr<const InputMesh> stale = input();
   if (stale->path.empty()) throw UsageError("this mesh was made here: there is no file to read again");
-  auto fresh = load_input(stale->path, Need::Smoothing, reading(progress));
+  auto fresh = load_input(stale->path, Need::Smoothing, reading(progress), said_materials(stale->mesh));
   if (stale->surface) fresh = slide_on(*fresh, stale->surface);
   return exchange(stale, fresh);
 }
@@ -35,10 +36,20 @@ std::string Session::reload(Progress& progress) {
 std::string Session::slide_on_surface(const std::filesystem::path& path, Progress& progress) {
   const std::shared_ptr<const InputMesh> stale = input();
   const auto surface = path.empty() ? nullptr : load_input(path, Need::QualityOnly, reading(progress));
-  const auto fresh = slide_on(*stale, surface);
+  std::string note = replace_in_runs(stale, slide_on(*stale, surface));
+  if (surface) note_read(surface->path);
+  return note;
+}
+
+std::string Session::name_materials(std::span<const std::string> fields) {
+  const std::shared_ptr<const InputMesh> stale = input();
+  return replace_in_runs(stale, with_materials(*stale, fields));
+}
+
+/// exchange() with the same file's mesh, which is found where it was.
+std::string Session::replace_in_runs(const std::shared_ptr<const InputMesh>& stale, const std::shared_ptr<const InputMesh>& fresh) {
   const std::filesystem::path source = source_path(stale);
   std::string note = exchange(stale, fresh);
-  if (surface) note_read(surface->path);
   if (source != source_path(fresh)) originals_.emplace_back(fresh, source);
   return note;
 }

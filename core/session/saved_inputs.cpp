@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/base/fnv1a.h"
+#include "core/mesh/materials.h"
 #include "core/reference/slide_on.h"
 
 namespace dmoscope {
@@ -35,8 +36,17 @@ std::filesystem::path find_mesh(const std::filesystem::path& written, const std:
   return std::filesystem::exists(beside, ignored) ? beside : written;
 }
 
+/// The mesh with its cell data that a person let name materials. `given`: whether the mesh was.
+std::shared_ptr<const InputMesh> of_materials(const Json& json, std::shared_ptr<const InputMesh> input, bool given) {
+  const auto said = json.contains("materials") ? json.at("materials").get<std::vector<std::string>>() : std::vector<std::string>();
+  if (said == said_materials(input->mesh)) return input;
+  if (given) throw UsageError(fmt::format("other cell data of {} named materials when this was saved (--materials)", input->mesh.name));
+  return with_materials(*input, said);
+}
+
 std::shared_ptr<const InputMesh> to_input(const Json& json, const std::filesystem::path& state, const IoContext& context,
                                           std::shared_ptr<const InputMesh> input) {
+  const bool given = input != nullptr;
   Progress& progress = context.progress;
   std::string source;
   if (input) {
@@ -55,7 +65,7 @@ std::shared_ptr<const InputMesh> to_input(const Json& json, const std::filesyste
   if (to_whole(json.at("vertices")) != input->mesh.vertex_count() || to_whole(json.at("elements")) != input->mesh.elements.size() ||
       checksum(input->mesh) != json.at("checksum").get<std::string>())
     throw UsageError(fmt::format("{} has changed since the session was saved: its positions or elements are others", source));
-  return input;
+  return of_materials(json, std::move(input), given);
 }
 
 /// The same with the surface that it slides on. `given`: whether the mesh was.
@@ -110,6 +120,7 @@ StateJson input_json(const MeshStanding& mesh) {  // NOLINT(misc-no-recursion): 
   } else {
     throw UsageError("this mesh came from no file and no generator: export it and open it first");
   }
+  if (const auto said = said_materials(input.mesh); !said.empty()) source["materials"] = said;
   if (input.surface) source["surface"] = input_json({input.surface, std::filesystem::absolute(input.surface->path)});
   return source;
 }

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,8 @@ class Session {
   /// Lets the vertices of the active run's mesh slide on the surface of another mesh, see slide_on(); empty: on its own again. Its runs
   /// keep their parameters and start anew, as by reload(). Throws UsageError; on any error the session stays as it was.
   [[nodiscard]] std::string slide_on_surface(const std::filesystem::path& path, Progress& progress);
+  /// Lets these cell data of the active run's mesh name materials, see with_materials(). Likewise.
+  [[nodiscard]] std::string name_materials(std::span<const std::string> fields);
   /// Throws UsageError when `command` would write over a mesh that was opened in this session.
   void require_not_read(const std::filesystem::path& target, std::string_view command) const {
     read_files_->require_another(target, command);
@@ -123,6 +126,7 @@ class Session {
  private:
   [[nodiscard]] std::shared_ptr<Run> first_run(const std::shared_ptr<const InputMesh>& input) const;
   void replace_input(std::shared_ptr<const InputMesh> input);
+  [[nodiscard]] std::string replace_in_runs(const std::shared_ptr<const InputMesh>& stale, const std::shared_ptr<const InputMesh>& fresh);
   [[nodiscard]] std::string exchange(const std::shared_ptr<const InputMesh>& stale, const std::shared_ptr<const InputMesh>& fresh);
   void activate(std::size_t index);
   void share_history();

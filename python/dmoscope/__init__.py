@@ -175,6 +175,10 @@ class Mesh:
         """The same cells with the vertices elsewhere: n x 3, copied."""
         return Mesh._of(self._mesh.with_points(_points(points)))
 
+    def with_materials(self, names) -> "Mesh":
+        """The same mesh, in which the cell data of this name (or these names) name materials; (): those of known names alone."""
+        return Mesh._of(self._mesh.with_materials([names] if isinstance(names, str) else list(names)))
+
     def write(self, path) -> None:
         """Writes a file by its extension, whole or not at all. What the format cannot carry is a warning."""
         for sentence in self._mesh.write(os.fspath(path)):

@@ -1,5 +1,6 @@
 // Interfaces and --fix as the command line has them, and the lists of groups.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -38,6 +39,43 @@ TEST(InterfacesOnTheCommandLine, StayUnlessFreeAndAreSaid) {
   EXPECT_THAT(compared.err, HasSubstr("20 vertices on the interface"));
   EXPECT_EQ(json_of(run({"compare", in, "--run", "dmo", "--iterations", "1", "--json", "--interfaces", "free"}))["free"], moves["free"]);
   EXPECT_EQ(run({"smooth", in, "-o", folder / "d.msh", "--interfaces", "up"}).code, 2);
+}
+
+/// 4 x 4 squares, the middle vertex of the left ones off its place; the two halves have different numbers.
+std::string two_materials(const Folder& folder, const std::string& field) {
+  std::string text = "# vtk DataFile Version 3.0\ntwo\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 25 double\n";
+  for (int v = 0; v < 25; ++v) text += fmt::format("{} {} 0\n", v % 5 + (v == 12 ? 0.3 : 0.0), v / 5);
+  text += "CELLS 16 80\n";
+  for (int e = 0; e < 16; ++e) {
+    const int v = e % 4 + 5 * (e / 4);
+    text += fmt::format("4 {} {} {} {}\n", v, v + 1, v + 6, v + 5);
+  }
+  text += "CELL_TYPES 16\n";
+  for (int e = 0; e < 16; ++e) text += "9\n";
+  text += fmt::format("CELL_DATA 16\nSCALARS {} int 1\nLOOKUP_TABLE default\n", field);
+  for (int e = 0; e < 16; ++e) text += e % 4 < 2 ? "1\n" : "2\n";
+  return folder.file("two.vtk", text);
+}
+
+TEST(InterfacesOnTheCommandLine, AnyCellDataNameMaterials) {
+  const Folder folder;
+  const std::string known = two_materials(folder, "avsucd:material");
+  EXPECT_EQ(smooth(known, folder / "b.vtk", {"--iterations", "3"})["held_on_interfaces"], 3);
+
+  const std::string in = two_materials(folder, "zoning");
+  const Output said = run({"smooth", in, "-o", folder / "b.vtk", "--iterations", "3", "--json"});
+  EXPECT_THAT(said.err, HasSubstr("two.vtk: cell data \"zoning\" has 2 values: --materials zoning keeps their interfaces"));
+  EXPECT_EQ(json_of(said)["held_on_interfaces"], 0);
+  EXPECT_THAT(json_of(said)["warnings"], Contains(HasSubstr("--materials zoning")));
+  EXPECT_THAT(run({"smooth", in, "-o", folder / "b.vtk", "--interfaces", "free", "--iterations", "1"}).err, Not(HasSubstr("--materials")));
+  const auto named = smooth(in, folder / "c.vtk", {"--iterations", "3", "--materials", "zoning"});
+  EXPECT_EQ(named["held_on_interfaces"], 3);
+  EXPECT_THAT(named["warnings"], Not(Contains(HasSubstr("--materials"))));
+  const Output compared = run({"compare", in, "--run", "dmo", "--iterations", "1", "--json", "--materials", "zoning"});
+  EXPECT_EQ(json_of(compared)["free"], named["free"]);
+  const Output refused = run({"smooth", in, "-o", folder / "d.vtk", "--materials", "zones"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("unknown cell data 'zones'"), HasSubstr("known are zoning")));
 }
 
 TEST(InterfacesOnTheCommandLine, NothingIsSaidOfAMeshWithoutAny) {

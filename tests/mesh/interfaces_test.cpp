@@ -2,6 +2,7 @@
 
 #include "core/mesh/interfaces.h"
 
+#include <cmath>
 #include <functional>
 #include <set>
 
@@ -122,6 +123,72 @@ TEST(Interfaces, ResultsAndNumberingsNameNothing) {
   Field of_points = of_cells("mat_id", mesh, [](Index e) { return e % 2; });
   of_points.on = Field::On::Vertices;
   EXPECT_EQ(naming_of(of_points), Naming::Nothing);
+}
+
+TEST(Interfaces, NamesThatOtherProgramsWrite) {
+  const Mesh mesh = squares(4);
+  for (const char* name : {"avsucd:material", "tag", "Tags", "label", "Labels", "tissue", "ElementBlockIds", "PhysicalIds", "tetgen:ref",
+                           "flac3d:group", "ansys_material_type", "nastran:ref"})
+    EXPECT_EQ(naming_of(of_cells(name, mesh, [](Index e) { return e % 2; })), Naming::Materials) << name;
+  EXPECT_EQ(naming_of(of_cells("GeometryIds", mesh, [](Index e) { return e % 2; })), Naming::Geometry);
+}
+
+TEST(Interfaces, AnyCellDataCanBeNamed) {
+  Mesh mesh = squares(4);
+  mesh.fields.push_back(of_cells("zoning", mesh, [](Index e) { return e % 4 < 2 ? 0.25 : 0.5; }));
+  mesh.fields.push_back(of_cells("rows", mesh, [](Index e) { return e / 4; }));
+  EXPECT_FALSE(testing::input(mesh)->interfaces.any());
+  const auto by_zoning = with_materials(*testing::input(mesh), std::vector<std::string>{"zoning"});
+  EXPECT_THAT(held(*by_zoning), ElementsAre(7, 12, 17)) << "no whole numbers";
+  EXPECT_EQ(by_zoning->interfaces.why(7), "it lies on the interface between zoning 0.25 and 0.5, which stays");
+  EXPECT_TRUE(by_zoning->interfaces.between(1, 2));
+  const auto by_both = with_materials(*by_zoning, std::vector<std::string>{"rows", "zoning"});
+  EXPECT_THAT(held(*by_both), ElementsAre(6, 7, 8, 11, 12, 13, 16, 17, 18));
+  EXPECT_THAT(said_materials(by_both->mesh), ElementsAre("zoning", "rows"));
+  EXPECT_FALSE(with_materials(*by_both, {})->interfaces.any()) << "by the names alone again";
+}
+
+TEST(Interfaces, WhatCannotNameMaterialsIsRefused) {
+  Mesh mesh = squares(4);
+  mesh.fields.push_back(of_cells("zoning", mesh, [](Index e) { return e % 2; }));
+  mesh.fields.push_back(of_cells("no number", mesh, [](Index e) { return e == 3 ? std::nan("") : 1.0; }));
+  mesh.fields.push_back(
+      {.name = "depth", .on = Field::On::Vertices, .components = 1, .type = "int", .role = "", .values = std::vector<double>(25, 1.0)});
+  mesh.fields.push_back(
+      {.name = "flow", .on = Field::On::Elements, .components = 2, .type = "int", .role = "", .values = std::vector<double>(32, 1.0)});
+  const auto refused = [&](const std::string& name) -> std::string {
+    try {
+      name_materials(mesh, std::vector{name});
+    } catch (const UsageError& error) {
+      return error.what();
+    }
+    return "taken";
+  };
+  for (const char* name : {"zonin", "depth", "flow"})
+    EXPECT_THAT(refused(name), ::testing::AllOf(HasSubstr(name), HasSubstr("known are zoning, no number"))) << name;
+  EXPECT_THAT(refused("no number"), HasSubstr("no finite numbers"));
+  EXPECT_THAT(said_materials(mesh), IsEmpty());
+  EXPECT_EQ(refused("zoning"), "taken");
+  Mesh bare = squares(4);
+  EXPECT_THROW(name_materials(bare, std::vector<std::string>{"zoning"}), UsageError);
+}
+
+TEST(Interfaces, DataThatMayMeanMaterialsAreSaid) {
+  Mesh mesh = squares(4);
+  mesh.fields.push_back(of_cells("my zones", mesh, [](Index e) { return e % 4; }));
+  mesh.fields.push_back(of_cells("pressure", mesh, [](Index e) { return 0.5 * (e % 4); }));
+  mesh.fields.push_back(of_cells("partition", mesh, [](Index e) { return e % 4; }));
+  mesh.fields.push_back(of_cells("steady", mesh, [](Index) { return 3; }));
+  mesh.fields.push_back(of_cells("number", mesh, [](Index e) { return e; }));
+  const auto input = testing::input(mesh);
+  EXPECT_THAT(input->interfaces.offers("--materials"),
+              ElementsAre("cell data \"my zones\" has 4 values: --materials \"my zones\" keeps their interfaces"));
+  EXPECT_FALSE(input->interfaces.any());
+  // Where all that it would hold is held already, there is nothing to gain.
+  mesh.fields.push_back(of_cells("mat", mesh, [](Index e) { return e % 4; }));
+  EXPECT_THAT(testing::input(mesh)->interfaces.offers("x"), IsEmpty());
+  EXPECT_THAT(with_materials(*input, std::vector<std::string>{"my zones", "steady"})->interfaces.offers("x"),
+              ElementsAre("cell data \"steady\" has the same value everywhere: it makes no interface"));
 }
 
 TEST(Interfaces, PartsOfTheGeometryCountOnlyWhereNothingElseTellsElementsApart) {

@@ -374,6 +374,20 @@ def test_new_places_are_written_in_the_file_s_own_format(coast, tmp_path):
         assert after[:2] + after[2 + count:] == before[:2] + before[2 + count:]
 
 
+def test_any_cell_data_name_materials():
+    points, triangles, _ = sheet(8)
+    halves = (points[triangles].mean(axis=1)[:, 0] > np.median(points[:, 0])).astype(int)
+    mesh = dmoscope.Mesh(points, {"triangle": triangles}, {"zoning": halves})
+    between = [v for v in range(len(points)) if len(set(halves[(triangles == v).any(axis=1)])) > 1 and not mesh.boundary[v]]
+    named = mesh.with_materials("zoning")
+    assert len(between) > 3
+    for one in (named, pickle.loads(pickle.dumps(named))):
+        assert (dmoscope.smooth(one, 3).mesh.points[between] == mesh.points[between]).all()
+    assert (dmoscope.smooth(named.with_materials(()), 3).mesh.points[between] != mesh.points[between]).any()
+    with pytest.raises(ValueError, match="unknown cell data 'zones'; known are zoning"):
+        mesh.with_materials("zones")
+
+
 def test_numbers_that_are_not_whole_are_refused():
     points, triangles, _ = sheet(2)
     mesh = dmoscope.Mesh(points, {"triangle": triangles})

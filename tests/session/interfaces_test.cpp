@@ -41,6 +41,39 @@ class InterfacesInASession : public testing::SpokenSession {
   }
 };
 
+TEST_F(InterfacesInASession, CellDataThatAreNamedStayNamed) {
+  const test::TemporaryFolder folder;
+  Mesh mesh = testing::lattice(4, 0.3, 1, testing::Cells::Quadrilaterals);
+  mesh.fields.push_back({.name = "my zones", .on = Field::On::Elements, .components = 1, .type = "int", .role = "", .values = {}});
+  for (Index e = 0; e < mesh.elements.size(); ++e) mesh.fields.back().values.push_back(e % 4 < 2 ? 1.0 : 2.0);
+  Progress progress;
+  const std::string file = (folder.path() / "zones.vtk").string(), saved = (folder.path() / "zones.dmoscope").string();
+  (void)write_mesh(file, mesh, mesh.positions, progress);
+  say("open " + file);
+  const std::string offered = session_.input()->interfaces.offers("materials").at(0);
+  EXPECT_THAT(messages_, Contains(HasSubstr(offered)));
+  const std::string name = session_.input()->mesh.fields.at(0).name;
+  say("run 2");
+  const Vec3 moved = session_.active().positions()[12];
+  say("materials " + quote_word(name));
+  EXPECT_EQ(session_.input()->interfaces.count(), 3U);
+  say("run 2");
+  EXPECT_EQ(session_.active().positions()[12], session_.input()->mesh.positions[12]);
+  say("save-state " + saved);
+  say("reload");
+  EXPECT_EQ(session_.input()->interfaces.count(), 3U);
+  say("generate grid 16");
+  say("open-state " + saved);
+  EXPECT_EQ(session_.input()->interfaces.count(), 3U);
+  EXPECT_EQ(session_.active().positions()[12], session_.input()->mesh.positions[12]);
+  EXPECT_TRUE(fails("materials nothing"));
+  EXPECT_EQ(session_.input()->interfaces.count(), 3U);
+  say("materials");
+  EXPECT_EQ(session_.input()->interfaces.count(), 0U);
+  say("run 2");
+  EXPECT_EQ(session_.active().positions()[12], moved);
+}
+
 TEST_F(InterfacesInASession, TheInnerMaterialKeepsItsSizeUnlessInterfacesAreFree) {
   const std::vector<std::pair<std::string, double>> meshes{{"nested 400 2", 81.0}, {"nested-solids 343 2", 64.0}};
   for (const auto& [words, size] : meshes) {

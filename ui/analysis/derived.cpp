@@ -25,6 +25,8 @@ void refresh_input(Derived& derived, const Frame& frame) {
   derived.metrics = usable_metrics(frame.input->mesh);
   derived.mesh_facts = frame.input->report.sentences();
   derived.interfaces = frame.input->interfaces.sentence("interfaces: free");
+  for (const std::string& offer : frame.input->interfaces.offers("materials"))
+    derived.interfaces += (derived.interfaces.empty() ? "" : "; ") + offer;
   const Index held = frame.input->interfaces.count();
   derived.free_interfaces = held == 0 ? std::string()
                                       : fmt::format("{} on interfaces may move (interfaces: fixed keeps {})",

@@ -88,6 +88,9 @@ class DMO_API Mesh {
   [[nodiscard]] const std::uint8_t* boundary() const;
   /// The same mesh with its vertices elsewhere: vertex_count() x 3, copied. Throws InputError as the constructor does.
   [[nodiscard]] Mesh with_positions(const double* positions, const Progress& progress = {}) const;
+  /// The same mesh, in which the cell data of these names, one number a cell each, name materials whatever they are called; no names: those
+  /// of known names alone. Throws UsageError for a name that no cell data have.
+  [[nodiscard]] Mesh with_materials(const std::vector<std::string>& names) const;
 
   struct Data;
   explicit Mesh(std::shared_ptr<const Data> data);

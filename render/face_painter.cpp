@@ -65,6 +65,7 @@ void FacePainter::prepare(const Program& program, const Faces& faces, const Buff
   program.set("u_shading", look.style.shading ? 1.0F : 0.0F);
   set_four(program, "u_plane", look.plane.value_or(std::array{0.0F, 0.0F, 0.0F, 1.0F}));
   program.set("u_shrink", static_cast<float>(look.shrink));
+  program.set("u_sides", look.both_sides ? 2 : 1);
   program.set("u_hatch_period", kHatchPeriod * look.style.scale);
   program.set("u_hatch_phase", view.hatch_phase);
   program.set("u_wire_fade", look.style.wireframe ? 3.0F * look.style.scale : 0.0F);
@@ -106,7 +107,7 @@ void FacePainter::draw_coarse(const SpaceView& view, const Look& look, Index str
 
 void FacePainter::draw_cuts(const SpaceView& view, const Style& style) const {
   if (cuts_.count == 0) return;
-  prepare(program_, cuts_, cut_points_, view, {.style = style, .shrink = 1.0, .plane = {}});
+  prepare(program_, cuts_, cut_points_, view, {.style = style, .shrink = 1.0, .both_sides = false, .plane = {}});
   set_wire(program_, style);
   program_.set("u_cut", 1.0F);
   DMOSCOPE_GL(glDrawArrays(GL_TRIANGLES, 0, 6 * cuts_.count));
@@ -116,7 +117,7 @@ void FacePainter::draw_cuts(const SpaceView& view, const Style& style) const {
 void FacePainter::draw_ghost(const SpaceView& view, const Style& style) const {
   if (ghost_.count == 0) return;
   constexpr float kFace = 0.04F, kEdge = 0.16F;  // alpha
-  prepare(ghost_program_, ghost_, points_, view, {.style = style, .shrink = 1.0, .plane = {}});
+  prepare(ghost_program_, ghost_, points_, view, {.style = style, .shrink = 1.0, .both_sides = false, .plane = {}});
   const Rgb colour{style.boundary_colour.r, style.boundary_colour.g, style.boundary_colour.b};
   set_colour(ghost_program_, "u_ghost_colour", colour, kFace);
   set_colour(ghost_program_, "u_wire_colour", colour, kEdge);

@@ -40,6 +40,7 @@ class FacePainter {
   struct Look {
     const Style& style;
     double shrink = 1.0;
+    bool both_sides = false;                    // of a surface; else what is seen has a closed skin
     std::optional<std::array<float, 4>> plane;  // normal and offset: what is beyond is left out
   };
   [[nodiscard]] Index face_count() const noexcept { return static_cast<Index>(faces_.count); }

@@ -40,6 +40,7 @@ struct VolumeScene::Impl {
   std::shared_ptr<const Shading> shading;
   ClippedFaces nothing;
   std::vector<std::uint8_t> used;  // vertices that are corners of elements
+  bool is_surface = false;
   Bounds3 bounds;
   Vec3 origin;  // positions on the OpenGL side are relative to it: the middle of the bounds
   ThreadPool* pool = nullptr;
@@ -124,6 +125,7 @@ void VolumeScene::set_mesh(const ElementTable& elements, const FaceNeighbours& f
   const auto corners = elements.all_corners();
   s.used.assign(corners.empty() ? 0 : std::size_t{std::ranges::max(corners)} + 1, 0);
   for (const Index v : corners) s.used[v] = 1;
+  s.is_surface = elements.size() > 0 && info(elements.kind(0)).dimension == 2;
 }
 
 void VolumeScene::Impl::forget() {
@@ -340,7 +342,7 @@ VolumeScene::Impl::Stage::Stage(const Impl& scene, const OrbitCamera& seen_by, c
       style(in_style),
       projection(camera.projection(viewport, scene.bounds, part)),
       view(camera, projection),
-      look{.style = style, .shrink = scene.view.shrink, .plane = {}},
+      look{.style = style, .shrink = scene.view.shrink, .both_sides = scene.is_surface, .plane = {}},
       whole(viewport) {
   // The stripes stand still in the picture, so that its parts fit together.
   const double period = static_cast<double>(kHatchPeriod * style.scale), margin = kTriadMargin * static_cast<double>(style.scale);

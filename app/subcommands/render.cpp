@@ -1,5 +1,6 @@
 // dmoscope render: a picture of a mesh coloured by quality, without a window.
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -18,6 +19,7 @@
 #include "app/common/text.h"
 #include "app/subcommands/subcommands.h"
 #include "core/base/error.h"
+#include "core/base/vec.h"
 #include "core/clipping/clip_to_text.h"
 #include "core/quality/metric.h"
 
@@ -39,6 +41,8 @@ struct RenderOptions {
   std::string size = "1280x800";
   std::string colormap = "beacon";
   std::string range = "input";
+  double zoom = 1.0;
+  std::string at;
   bool shading = false, no_occlusion = false;
   bool transparent = false;
   std::string clip, clip_mode = "crinkle", isolate, from = "iso";
@@ -67,6 +71,23 @@ std::pair<int, int> parse_size(const std::string& text) {
     throw UsageError(fmt::format("--size {}: expected WIDTHxHEIGHT in pixels, each 1 to {}", text, kLargestSide));
   }
   return *size;
+}
+
+/// "X,Y" or "X,Y,Z"; none for an empty text.
+std::optional<Vec3> parse_point(std::string_view text) {
+  if (text.empty()) return std::nullopt;
+  std::array<double, 3> numbers{};
+  std::size_t count = 0;
+  const char *at = text.data(), *const end = at + text.size();
+  for (;;) {
+    const auto [next, error] = std::from_chars(at, end, numbers[count]);
+    if (error != std::errc{} || !std::isfinite(numbers[count])) break;
+    ++count;
+    if (next == end && count >= 2) return Vec3{numbers[0], numbers[1], numbers[2]};
+    if (next == end || *next != ',' || count == numbers.size()) break;
+    at = next + 1;
+  }
+  throw UsageError(fmt::format("--at {}: expected X,Y or X,Y,Z, a place in the mesh's coordinates", text));
 }
 
 /// The words of the window's command `range`; of a single mesh some of them mean the same.
@@ -128,6 +149,10 @@ int render(const RenderOptions& options) {
   const auto [width, height] = parse_size(options.size);
   const auto range = parse_range(options.range);
   const ClippingView view = inside_view(options);
+  const std::optional<Vec3> at = parse_point(options.at);
+  constexpr double kMostZoom = 1e6;
+  if (!(options.zoom > 0.0 && options.zoom <= kMostZoom))
+    throw UsageError(fmt::format("--zoom: expected a factor above 0, up to {:g}", kMostZoom));
   if (options.output.extension() != ".png") throw UsageError(fmt::format("{}: pictures are written as .png", options.output.string()));
   require_another_file(options.output, "-o", options.input);
   require_writable(options.output);
@@ -144,6 +169,8 @@ int render(const RenderOptions& options) {
   look.shading = options.shading;
   look.occlusion = !options.no_occlusion;
   look.transparent = options.transparent;
+  look.zoom = options.zoom;
+  look.at = at;
   const InsideLook inside{options.clip, view, options.from, options.perspective};
   require_sense(inside);
   Watch watch;
@@ -151,7 +178,8 @@ int render(const RenderOptions& options) {
   if (code == 0) print("wrote {} ({} x {} pixels)\n", options.output.string(), width, height);
   return code;
 #else
-  static_cast<void>(view), static_cast<void>(metric), static_cast<void>(width), static_cast<void>(height), static_cast<void>(range.given);
+  static_cast<void>(view), static_cast<void>(at), static_cast<void>(metric), static_cast<void>(width), static_cast<void>(height),
+      static_cast<void>(range.given);
   throw UsageError("this program was built without OpenGL, so it makes no pictures");
 #endif
 }
@@ -194,6 +222,11 @@ void add_render(CLI::App& app, Action& action) {
                    "percentile[:LO:HI] (2:98 unless given), LO:HI")
       ->type_name("RANGE")
       ->capture_default_str();
+  subcommand->add_option("--zoom", options->zoom, "So many times as large as all of the mesh would be shown")
+      ->type_name("F")
+      ->capture_default_str();
+  subcommand->add_option("--at", options->at, "What is in the middle of the picture, in the mesh's coordinates (the mesh's own middle)")
+      ->type_name("X,Y[,Z]");
   subcommand->add_flag("--transparent", options->transparent, "Leave the background transparent");
   add_memory_option(*subcommand, options->memory);
   add_inside(*subcommand, *options);

@@ -92,7 +92,9 @@ render::Image picture_of(const InputMesh& input, std::span<const Vec3> positions
   scene.set_mesh(input.mesh, input.geometry.plane);
   scene.update(positions, judged.quality, judged.inverted);
   const render::Shot shot = shot_of(input, judged, look);
-  const render::Camera2D camera = render::Camera2D::fit(scene.bounds(), render::mesh_viewport(shot));
+  render::Camera2D camera = render::Camera2D::fit(scene.bounds(), render::mesh_viewport(shot));
+  if (look.at) camera.centre = input.geometry.plane.place(*look.at);
+  camera.units_per_pixel /= look.zoom;
   return render::render_image(scene, camera, style_of(look, judged), {}, shot).image;
 }
 

@@ -31,8 +31,10 @@ struct PictureLook {
   Spans spans = Spans::All;
   std::pair<double, double> percent{2.0, 98.0};
   std::optional<std::pair<double, double>> range;
-  bool shading = false;   // volumes lit by a lamp, too
-  bool occlusion = true;  // volumes darker in corners and along edges
+  bool shading = false;    // volumes lit by a lamp, too
+  bool occlusion = true;   // volumes darker in corners and along edges
+  double zoom = 1.0;       // times as large as the whole mesh would be shown
+  std::optional<Vec3> at;  // what is in the middle; none: the middle of the mesh
   bool transparent = false;
   bool wireframe = true;
   bool colour_bar = true;

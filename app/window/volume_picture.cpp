@@ -48,6 +48,8 @@ render::Image volume_picture(const InputMesh& input, std::span<const Vec3> posit
   const Vec2<double> viewport = render::mesh_viewport(shot);
   constexpr double kMargin = 24.0;  // pixels
   scene.fit(camera, viewport, {{kMargin, kMargin}, {viewport.x - kMargin, viewport.y - kMargin}});
+  if (look.at) camera.orbit_about(*look.at);
+  camera.height /= look.zoom;
   return render::render_image(scene, camera, style_of(look, judged), render::SpaceMarks{}, shot).image;
 }
 

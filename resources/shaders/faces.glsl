@@ -12,6 +12,7 @@ uniform vec4 u_light;   // the direction towards it
 uniform float u_shading; // 1: faces are lit; 0: their colours tell their values alone
 uniform vec4 u_plane;   // clip plane: normal, offset; what is beyond is not drawn
 uniform float u_shrink; // about the means; 1: not at all
+uniform int u_sides;    // 1: the skin of what is seen is closed; 2: both sides of a surface are seen
 
 bool is_triangle(Face face) { return face.corners[3] >= 0xfffffff0u; }
 
@@ -27,11 +28,16 @@ float kept_by_plane(vec3 point) { return u_plane.w - dot(u_plane.xyz, point); }
 
 vec3 towards_eye(vec3 point) { return u_eye.w > 0.0 ? normalize(u_eye.xyz - point) : u_eye.xyz; }
 
-// The skin of what is seen is closed: faces that look away are hidden by others. Not those of inverted elements, whose outside is inside.
+// Where the skin of what is seen is closed, faces that look away are hidden by others. Not those of inverted elements, whose outside is inside.
 bool looks_away(vec3 a, vec3 b, vec3 c, vec3 d) {
   vec3 to_eye = u_eye.w > 0.0 ? u_eye.xyz - a : u_eye.xyz;
   return dot(cross(b - a, c - a), to_eye) < 0.0 && dot(cross(c - a, d - a), to_eye) <= 0.0;
 }
+
+bool hidden_by_others(bool away, bool is_inverted) { return u_sides == 1 && away && !is_inverted; }
+
+// A surface is a little darker where its elements look away.
+float side_brightness(bool away, bool is_inverted) { return u_sides == 2 && away && !is_inverted ? 0.8 : 1.0; }
 
 // A light beside the eye: faces that are turned away are darker, none is dark.
 float brightness(vec3 normal, vec3 middle) {

@@ -37,15 +37,18 @@ void main() {
   vec3 p[4];
   for (uint i = 0u; i < 3u; ++i) p[i] = corner_of(face, i);
   p[3] = triangle ? p[0] : corner_of(face, 3u);
+  bool away = looks_away(p[0], p[1], p[2], p[3]), is_inverted = inverted(face.element);
 #ifndef GHOST
-  if (!inverted(face.element) && looks_away(p[0], p[1], p[2], p[3])) return;
+  if (hidden_by_others(away, is_inverted)) return;
 #endif
   vec3 a = at < 3u ? p[0] : p[2], b = at < 3u ? p[1] : p[3], c = at < 3u ? p[2] : p[0];
   vec3 here = local == 0u ? a : local == 1u ? b : c;
   gl_Position = u_to_clip_space * vec4(here, 1.0);
   gl_ClipDistance[0] = kept_by_plane(here);
-  // Where elements overlap the inverted lie above the others, and of cuts in one plane always the same.
-  gl_Position.z -= gl_Position.w * ((inverted(face.element) ? 4e-5 : 0.0) + u_cut * 2e-6 * float(face.element & 7u));
+  // Where elements overlap the inverted lie above the others, and of cuts in one plane always the same. At the outline of a closed surface
+  // its back lies beneath its front.
+  float above = is_inverted ? 4e-5 : u_sides == 2 && away ? -4e-5 : 0.0;
+  gl_Position.z -= gl_Position.w * (above + u_cut * 2e-6 * float(face.element & 7u));
 
   vec4 clip[4];
   vec2 pixels[4];
@@ -66,6 +69,6 @@ void main() {
   }
   float strength = u_wire_fade > 0.0 && in_front ? smoothstep(u_wire_fade, 4.0 * u_wire_fade, size) : 0.0;
   v_fill = counting ? fill_of(face.element) : vec4(u_faded_colour.rgb, 4.0);
-  v_fill.rgb *= brightness(triangle ? cross(p[1] - p[0], p[2] - p[0]) : cross(p[2] - p[0], p[3] - p[1]), here);
+  v_fill.rgb *= brightness(triangle ? cross(p[1] - p[0], p[2] - p[0]) : cross(p[2] - p[0], p[3] - p[1]), here) * side_brightness(away, is_inverted);
   v_wire_and_size = vec2(counting ? strength : u_faded_colour.a * strength, size);
 }

@@ -22,8 +22,9 @@ void main() {
   vec3 normal = triangle ? cross(p[1] - p[0], p[2] - p[0]) : cross(p[2] - p[0], p[3] - p[1]);
   bool counting = counts(face.element);
   vec3 fill = counting ? fill_of(face.element).rgb : u_faded_colour.rgb;
-  v_fill = fill * brightness(normal, middle);
-  if (!counting && u_others == 1 || !inverted(face.element) && looks_away(p[0], p[1], p[2], p[3])) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+  bool away = looks_away(p[0], p[1], p[2], p[3]), is_inverted = inverted(face.element);
+  v_fill = fill * brightness(normal, middle) * side_brightness(away, is_inverted);
+  if (!counting && u_others == 1 || hidden_by_others(away, is_inverted)) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
   // Unforeshortened: squares face the eye, and what lies behind them must not show between them.
   float area = 0.5 * length(normal);
   float pixels_a_unit = 0.5 * u_viewport.y * length(vec3(u_to_clip_space[0][1], u_to_clip_space[1][1], u_to_clip_space[2][1])) / gl_Position.w;

@@ -97,6 +97,11 @@ TEST(Usage, IsRefusedWithTwo) {
       {"generate", "grid", "-o", out, "--size", "99999999999999"},
       {"render", in, "-o", folder / "out.png", "--size", "big"},
       {"render", in, "-o", folder / "out.png", "--range", "1:0"},
+      {"render", in, "-o", folder / "out.png", "--zoom", "0"},
+      {"render", in, "-o", folder / "out.png", "--zoom", "nan"},
+      {"render", in, "-o", folder / "out.png", "--at", "1"},
+      {"render", in, "-o", folder / "out.png", "--at", "1,2,3,4"},
+      {"render", in, "-o", folder / "out.png", "--at", "1,b"},
       {"render", in, "-o", folder / "out.png", "--range", "some"},
       {"render", in, "-o", folder / "out.png", "--range", "percentile:2"},
       {"render", in, "-o", folder / "out.png", "--range", "percentile:2:101"},
@@ -145,6 +150,33 @@ TEST(Render, LooksInsideAVolume) {
     pictures.insert(read_file(picture));
   }
   EXPECT_EQ(pictures.size(), looks.size()) << "each look differs";
+}
+
+TEST(Render, ShowsAPartLargerInThePlaneAndInSpace) {
+  const Folder folder;
+  const std::string flat = folder / "flat.off", solid = folder / "solid.vtk";
+  ASSERT_EQ(run({"generate", "grid", "--size", "100", "-o", flat}).code, 0);
+  ASSERT_EQ(run({"generate", "screw", "--size", "300", "-o", solid}).code, 0);
+  for (const std::string& mesh : {flat, solid}) {
+    SCOPED_TRACE(mesh);
+    std::set<std::string> pictures;
+    std::string plain, once;
+    for (const std::vector<std::string>& look : std::vector<std::vector<std::string>>{
+             {}, {"--zoom", "1"}, {"--zoom", "2"}, {"--zoom", "0.5"}, {"--at", "0.1,0.2"}, {"--zoom", "3", "--at", "0.1,0.2,0.3"}}) {
+      const std::string picture = folder / "out.png";
+      std::vector<std::string> arguments{"render", mesh, "-o", picture, "--size", "160x120"};
+      arguments.insert(arguments.end(), look.begin(), look.end());
+      const Output output = run(arguments);
+      if (output.code == 3 && output.err.find("EGL") != std::string::npos) GTEST_SKIP() << output.err;
+      if (output.err.find("without OpenGL") != std::string::npos) GTEST_SKIP() << output.err;
+      ASSERT_EQ(output.code, 0) << output.err;
+      pictures.insert(read_file(picture));
+      if (look.empty()) plain = read_file(picture);
+      if (look == std::vector<std::string>{"--zoom", "1"}) once = read_file(picture);
+    }
+    EXPECT_EQ(plain, once);
+    EXPECT_EQ(pictures.size(), 5U) << "each of the others differs";
+  }
 }
 
 TEST(Render, TakesEveryWordOfTheWindowsRanges) {

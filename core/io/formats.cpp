@@ -17,6 +17,7 @@
 #include "core/io/reading/tokenizer.h"
 #include "core/io/source_again.h"
 #include "core/io/writing/patch_writer.h"
+#include "core/mesh/collapsed.h"
 
 namespace dmoscope {
 namespace {
@@ -162,6 +163,9 @@ Mesh read_whole_mesh(const std::filesystem::path& path, const IoContext& context
     source->set_companion(std::make_shared<SourceFile>(second, read_whole_file(second, progress)));
   }
   Mesh mesh = read_by(handler, *source, context);
+  const CollapsedKinds collapsed = take_simpler_kinds(mesh);
+  for (std::string& sentence : collapsed.sentences()) source->add_note(std::move(sentence));
+  for (const std::string& corners : collapsed.repeated()) source->add_only_in_file(corners);
   if (mesh.positions.empty()) throw InputError(path.string(), 0, "the file holds no vertices");
   if (mesh.elements.size() == 0) throw InputError(path.string(), 0, "the file holds no elements");
   mesh.name = path.filename().string();

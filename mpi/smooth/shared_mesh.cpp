@@ -79,6 +79,30 @@ SharedFindings find(const World& world, const RankShare& share, const InputMesh&
   return findings;
 }
 
+/// Elements that have a corner several times as the simpler kinds that they are, as one process takes them; how many all ranks have.
+CollapsedKinds take_simpler_kinds(const World& world, MeshBlock& block) {
+  CollapsedKinds here;
+  if (any_collapsed<WholeIndex>(block.kinds, block.corners)) {
+    std::vector<ElementKind> kinds;
+    std::vector<WholeIndex> corners;
+    here = for_simpler_elements<WholeIndex>(block.kinds, block.corners, [&](ElementKind kind, std::span<const WholeIndex> own) {
+      kinds.push_back(kind);
+      corners.insert(corners.end(), own.begin(), own.end());
+    });
+    block.kinds = std::move(kinds);
+    block.corners = std::move(corners);
+  }
+  CollapsedKinds everywhere;
+  if (!world.any(here.any())) return everywhere;
+  for (std::size_t from = 0; from < kElementKindCount; ++from) {
+    for (std::size_t to = 0; to < kElementKindCount; ++to) {
+      const auto a = static_cast<ElementKind>(from), b = static_cast<ElementKind>(to);
+      everywhere.add(a, b, world.sum(here.count(a, b)));
+    }
+  }
+  return everywhere;
+}
+
 void add(std::vector<std::string>& sentences, const SharedFindings::Some& some, const char* one, const char* many) {
   if (some.count == 1) sentences.push_back(fmt::format("1 {} ({})", one, some.first));
   if (some.count > 1) sentences.push_back(fmt::format("{} {} (first: {})", some.count, many, some.first));
@@ -87,7 +111,7 @@ void add(std::vector<std::string>& sentences, const SharedFindings::Some& some, 
 }  // namespace
 
 std::vector<std::string> SharedFindings::sentences() const {
-  std::vector<std::string> all;
+  std::vector<std::string> all = collapsed.sentences();
   add(all, inverted, "element is inverted", "elements are inverted");
   if (volume)
     add(all, degenerate, "element has no volume", "elements have no volume");
@@ -113,6 +137,7 @@ SharedMesh share_block(const World& world, MeshBlock block, const std::filesyste
   });
   SharedMesh shared;
   shared.vertices = block.vertices;  // as the file has them
+  const CollapsedKinds collapsed = take_simpler_kinds(world, block);
   spread_evenly(world, block);
   const BlockMarks marks = named.find(world, block);
   const std::vector<std::size_t> materials = material_fields(world, block);
@@ -128,6 +153,7 @@ SharedMesh share_block(const World& world, MeshBlock block, const std::filesyste
   Progress unwatched;
   shared.input = prepare_share(std::move(mesh), geometry, shared.share, path, unwatched);
   shared.findings = find(world, *shared.share, *shared.input);
+  shared.findings.collapsed = collapsed;
   return shared;
 }
 

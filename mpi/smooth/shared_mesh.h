@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/input/input_mesh.h"
+#include "core/mesh/collapsed.h"
 #include "mpi/files/shared_mesh_file.h"
 #include "mpi/mesh/partition.h"
 #include "mpi/mesh/vertex_marks.h"
@@ -22,6 +23,7 @@ struct SharedFindings {
   Some inverted, degenerate;
   std::uint64_t flipped = 0, held = 0;  // elements turned over; vertices on interfaces
   bool volume = false;
+  CollapsedKinds collapsed{};
   /// One sentence a finding, as MeshReport has them.
   [[nodiscard]] std::vector<std::string> sentences() const;
 };

@@ -142,6 +142,18 @@ class SameBytes(Case):
         for kind in ("quads", "mixed", "tangled"):
             self.same_as_alone(self.make(kind + ".obj", kind, 300), ("--iterations", 5), ranks=(2, 4))
 
+    def test_quadrilaterals_with_a_corner_twice(self):
+        mesh = self.make("a.14", "coast", 400)
+        lines = mesh.read_text().splitlines()
+        cells, points = map(int, lines[1].split()[:2])
+        for i in range(2 + points, 2 + points + cells, 2):
+            number, _, a, b, c = lines[i].split()[:5]
+            lines[i] = f"{number} 4 {a} {b} {c} {c}"
+        mesh.write_text("\n".join(lines) + "\n")
+        self.same_as_alone(mesh, ("--iterations", 5), ranks=(1, 3))
+        told = mpirun(3, "smooth", mesh, "-o", self.folder / "told.14", "--iterations", 1)
+        self.assertIn(f"{(cells + 1) // 2} quadrilaterals that have corners twice are taken as the triangles that they are", told.stderr.replace(",", ""))
+
     def test_partitions_threads_and_many_ranks(self):
         mesh = self.make("a.14", "coast", 900)
         parts = self.folder / "parts"

@@ -4,7 +4,6 @@
 #include <string_view>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "app/common/console.h"
 #include "app/common/objective_report.h"
@@ -80,16 +79,6 @@ Json json_of(const ReportCard& card) {
                        {"verdict", name(figure.verdict)},
                        {"kept_by", figure.kept_by.empty() ? Json(nullptr) : Json(figure.kept_by)}});
   return {{"verdict", name(card.verdict)}, {"sentence", card.sentence(true)}, {"figures", std::move(figures)}};
-}
-
-/// The figures by metric, a line each: "mean ratio: least 0.301 -> 0.428, 1 % 0.402 -> 0.520, ...".
-void print_card(const ReportCard& card) {
-  for (std::size_t i = 0; i < card.figures.size();) {
-    const std::string& of = card.figures[i].of;
-    std::vector<std::string> parts;
-    for (; i < card.figures.size() && card.figures[i].of == of; ++i) parts.push_back(card.figures[i].short_phrase());
-    print("  {:<16} {}\n", of.empty() ? "mesh" : of, fmt::join(parts, ", "));
-  }
 }
 
 bool on_cpu(const Run& run) { return run.backend() == Backend::Cpu; }
@@ -179,7 +168,8 @@ void print_summary(const SmoothReport& r) {
   print_composite(r.run);
   print("  {}\n", r.outcome.sentence());
   if (r.held) print("  {}\n", r.held->sentence(true));
-  if (r.card) print_card(*r.card);
+  if (r.card)
+    for (const std::string& line : r.card->lines()) print("  {}\n", line);
   print("  {} in {:.3f} s, {}vertices/s on {}\n", counted(r.outcome.iterations, "iteration", "iterations"), r.seconds,
         with_prefix(r.visits_per_second()), where_computed(r));
   print("  wrote {}\n", r.output.string());

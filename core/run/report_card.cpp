@@ -87,8 +87,8 @@ void for_neighbours(const InputMesh& input, const Visit& visit) {
 
 class Card {
  public:
-  Card(const InputMesh& input, std::span<const Vec3> before, std::span<const Vec3> after, ThreadPool* pool)
-      : input_(input), before_(before), after_(after), pool_(pool) {}
+  Card(const InputMesh& input, std::span<const Vec3> before, std::span<const Vec3> after, Metric raised, bool raises_mean, ThreadPool* pool)
+      : input_(input), before_(before), after_(after), raised_(raised), raises_mean_(raises_mean), pool_(pool) {}
 
   void add_metric(Metric metric, bool tells) {
     const Qualities was(input_, before_, metric, pool_), is(input_, after_, metric, pool_);
@@ -98,8 +98,9 @@ class Card {
       card_.figures.push_back({of, std::move(name), from, to, tells ? verdict : Verdict::Same, std::string(kept_by)});
     };
     const double of_least = std::max(kLeastFall, kOfLeast * std::abs(was.least));
-    add("least", was.least, is.least, compare(was.least, is.least, of_least), "");
-    constexpr std::string_view kMean = "then mean";
+    const std::string guard = tells && metric != raised_ ? fmt::format("guard {}:input", info(metric).name) : std::string();
+    add("least", was.least, is.least, compare(was.least, is.least, of_least), guard);
+    const std::string_view kMean = raises_mean_ ? "" : "then mean";
     add("1 %", was.percentiles.p1, is.percentiles.p1, compare(was.percentiles.p1, is.percentiles.p1, kOfOthers), kMean);
     add("5 %", was.percentiles.p5, is.percentiles.p5, compare(was.percentiles.p5, is.percentiles.p5, kOfOthers), kMean);
     add("mean", was.mean, is.mean, compare(was.mean, is.mean, kOfOthers), kMean);
@@ -157,6 +158,8 @@ class Card {
 
   const InputMesh& input_;
   std::span<const Vec3> before_, after_;
+  Metric raised_;
+  bool raises_mean_;
   ThreadPool* pool_;
   ReportCard card_;
 };
@@ -177,7 +180,9 @@ std::string CardFigure::short_phrase() const {
 
 std::string CardFigure::phrase() const {
   if (of.empty()) return short_phrase();
-  return name.starts_with("below") ? fmt::format("{} {}", of, short_phrase()) : fmt::format("{} of {}", short_phrase(), of);
+  const bool follows = name.starts_with("below");
+  if (name == "least" || name == "mean") return fmt::format("{} {}{}", name, of, std::string_view(short_phrase()).substr(name.size()));
+  return follows ? fmt::format("{} {}", of, short_phrase()) : fmt::format("{} at {}", of, short_phrase());
 }
 
 std::vector<const CardFigure*> ReportCard::worse() const {
@@ -187,31 +192,47 @@ std::vector<const CardFigure*> ReportCard::worse() const {
   return found;
 }
 
+std::vector<std::string> ReportCard::lines() const {
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < figures.size();) {
+    const std::string& of = figures[i].of;
+    std::vector<std::string> parts;
+    for (; i < figures.size() && figures[i].of == of; ++i) parts.push_back(figures[i].short_phrase());
+    lines.push_back(fmt::format("{}: {}", of.empty() ? "mesh" : of, fmt::join(parts, ", ")));
+  }
+  return lines;
+}
+
 std::string ReportCard::sentence(bool as_options) const {
   if (verdict == Verdict::Same) return "The same as the input, within small tolerances";
   if (verdict == Verdict::Better) return "Better than the input, and worse in nothing";
-  // By what keeps them, the figures that nothing keeps first.
-  std::vector<std::string> parts;
+  // By what keeps them, the figures that nothing keeps first; of each the first few.
+  constexpr std::size_t kNamed = 3;
   const auto all = worse();
-  std::vector<std::string> keepers;
+  std::vector<std::string> keepers, parts;
   for (const CardFigure* figure : all)
     if (std::ranges::find(keepers, figure->kept_by) == keepers.end()) keepers.push_back(figure->kept_by);
   std::ranges::stable_sort(keepers, {}, [](const std::string& keeper) { return !keeper.empty(); });
   for (const std::string& keeper : keepers) {
     std::vector<std::string> phrases;
-    for (const CardFigure* figure : all)
-      if (figure->kept_by == keeper) phrases.push_back(figure->phrase());
-    parts.push_back(fmt::format("{}{}", fmt::join(phrases, ", "),
-                                keeper.empty() ? ""
-                                : as_options   ? fmt::format(" (--{} keeps it)", keeper)
-                                               : fmt::format(" ('{}' keeps it)", keeper)));
+    std::size_t others = 0;
+    for (const CardFigure* figure : all) {
+      if (figure->kept_by != keeper) continue;
+      if (phrases.size() < kNamed)
+        phrases.push_back(figure->phrase());
+      else
+        ++others;
+    }
+    if (others > 0) phrases.push_back(fmt::format("{} more", others));
+    const std::string option = as_options ? "--" + keeper : fmt::format("'{}'", keeper);
+    parts.push_back(fmt::format("{}{}", fmt::join(phrases, ", "), keeper.empty() ? "" : fmt::format(" ({} keeps it)", option)));
   }
   return fmt::format("Worse than the input: {}", fmt::join(parts, "; "));
 }
 
 ReportCard report_card(const InputMesh& input, std::span<const Vec3> before, std::span<const Vec3> after, std::span<const Metric> raised,
-                       ThreadPool* pool) {
-  Card card(input, before, after, pool);
+                       bool raises_mean, ThreadPool* pool) {
+  Card card(input, before, after, raised.front(), raises_mean, pool);
   const bool aimed = std::ranges::any_of(raised, [](Metric metric) { return !target_of(metric).is_ideal(); });
   for (const Metric metric : raised) card.add_metric(metric, true);
   for (const Metric metric : {Metric::MeanRatio, Metric::ScaledJacobian})
@@ -225,7 +246,7 @@ ReportCard report_card(const Run& run, ThreadPool* pool) {
   std::vector<Metric> raised{p.metric};
   const auto* second = p.combination ? std::get_if<Metric>(&p.combination->second) : nullptr;
   if (second != nullptr) raised.push_back(*second);
-  return report_card(run.input(), run.input().mesh.positions, run.positions(), raised, pool);
+  return report_card(run.input(), run.input().mesh.positions, run.positions(), raised, p.then_mean.has_value(), pool);
 }
 
 }  // namespace dmoscope

@@ -40,6 +40,8 @@ struct ReportCard {
   Verdict verdict = Verdict::Same;  // worse where a figure is; better where one is and none is worse
 
   [[nodiscard]] std::vector<const CardFigure*> worse() const;
+  /// A line a metric and one of the mesh: "mean ratio: least 0.301 -> 0.428, 1 % 0.402 -> 0.520, ...".
+  [[nodiscard]] std::vector<std::string> lines() const;
   /// "Better than the input, and worse in nothing", "Worse than the input: mean of mean ratio 0.957 -> 0.844 (--then mean keeps it)".
   /// `as_options`: as the command line has them, else as commands.
   [[nodiscard]] std::string sentence(bool as_options) const;
@@ -48,8 +50,9 @@ struct ReportCard {
 /// Where the run stands, against its input. Brings the positions; costs a few looks at each element.
 [[nodiscard]] ReportCard report_card(const Run& run, ThreadPool* pool);
 
-/// The same of any two states of a mesh. `raised`: the metrics that were, the first one first.
+/// The same of any two states of a mesh. `raised`: the metrics that were, at least one, the first one first; `raises_mean`: whether a phase
+/// did that raises a mean.
 [[nodiscard]] ReportCard report_card(const InputMesh& input, std::span<const Vec3> before, std::span<const Vec3> after,
-                                     std::span<const Metric> raised, ThreadPool* pool);
+                                     std::span<const Metric> raised, bool raises_mean, ThreadPool* pool);
 
 }  // namespace dmoscope

@@ -4,27 +4,21 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/reference/domain.h"
 
 namespace dmoscope {
 
 namespace {
 
-/// Whether there may be something to say of it.
-bool is_ending(const Run& run) {
-  if (!run.last_outcome()) return false;
-  return run.last_outcome()->inverted > 0 || (run.domain() && run.domain()->faces().any());
-}
-
-std::shared_ptr<const RunEnding> ending_of(const Run& run) {
-  RunEnding ending{.left = run.last_outcome()->inverted > 0 ? find_left_inverted(run) : std::nullopt, .crossing = find_crossing_faces(run)};
-  return ending.left || ending.crossing ? std::make_shared<const RunEnding>(std::move(ending)) : nullptr;
+std::shared_ptr<const RunEnding> ending_of(const Run& run, ThreadPool* pool) {
+  return std::make_shared<const RunEnding>(RunEnding{.left = run.last_outcome()->inverted > 0 ? find_left_inverted(run) : std::nullopt,
+                                                     .crossing = find_crossing_faces(run),
+                                                     .card = report_card(run, pool)});
 }
 
 }  // namespace
 
 const Endings::Known* Endings::find_known(Session& session, std::size_t index) const {
-  if (!is_ending(session.run(index))) return nullptr;
+  if (!session.run(index).last_outcome()) return nullptr;
   const auto at = std::ranges::find(known_, session.standing(index), &Known::at);
   return at == known_.end() ? nullptr : &*at;
 }
@@ -39,11 +33,11 @@ bool Endings::find(Session& session, const std::function<bool()>& go_on) {
   bool found = false;
   for (std::size_t i = 0; i < session.run_count(); ++i) {
     const Run& run = session.run(i);
-    if (!is_ending(run)) continue;
+    if (!run.last_outcome()) continue;
     if (const Known* known = find_known(session, i)) {
       all.push_back(*known);
     } else if (go_on()) {
-      all.push_back({session.standing(i), ending_of(run), false});
+      all.push_back({session.standing(i), ending_of(run, session.pool().get()), false});
       found = found || all.back().ending;
     }
   }
@@ -62,7 +56,9 @@ bool Endings::find_hint(Session& session, const std::function<bool()>& go_on) {
   UntanglingLook look = untangling_hint(session.run(active), session.pool(), unwatched, go_on);
   known.tried = look.to_the_end;
   if (!look.to_the_end || !look.hint) return false;
-  known.ending = std::make_shared<const RunEnding>(RunEnding{known.ending->left, std::move(look.hint), known.ending->crossing});
+  RunEnding with_hint = *known.ending;
+  with_hint.hint = std::move(look.hint);
+  known.ending = std::make_shared<const RunEnding>(std::move(with_hint));
   return true;
 }
 

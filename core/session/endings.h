@@ -1,6 +1,6 @@
 #pragma once
-// What a person should know of runs that came to their end with elements inverted, or with faces that cross each other, worked out once for
-// each end.
+// What a person should know of runs that came to their end: how the mesh fares as a whole, elements that are inverted, and faces that cross
+// each other. Worked out once for each end.
 
 #include <functional>
 #include <memory>
@@ -10,6 +10,7 @@
 #include "core/run/crossing_faces.h"
 #include "core/run/ending.h"
 #include "core/run/hints.h"
+#include "core/run/report_card.h"
 #include "core/session/session.h"
 
 namespace dmoscope {
@@ -18,12 +19,13 @@ struct RunEnding {
   std::optional<LeftInverted> left{};
   std::optional<UntanglingHint> hint{};
   std::optional<CrossingFaces> crossing{};
+  ReportCard card{};
 };
 
 /// The endings of a session's runs.
 class Endings {
  public:
-  /// The ending of a run; null while the run has not ended, while this is not worked out yet, and where there is nothing to say.
+  /// The ending of a run; null while the run has not ended, and while this is not worked out yet.
   [[nodiscard]] std::shared_ptr<const RunEnding> of(Session& session, std::size_t run) const;
   /// Works out where to look, of those that are missing, asking `go_on` before each. Returns whether there are new ones. Throws
   /// DeviceError.

@@ -51,12 +51,15 @@ TEST(BestState, OfAnOptimisingMethodIsByTheMinimumThenByTheMean) {
 TEST(BestState, WhatJointMovesRaiseCountsThoughAnotherElementStaysWorse) {
   RunParameters dmo;
   dmo.then_joint.emplace();
-  auto records = course({{0.1, 0.8}, {0.1, 0.7}, {0.1, 0.6}, {0.1, 0.65}, {0.1, 0.6}});
-  EXPECT_EQ(best_iteration(dmo, records), 0U);
+  auto records = course({{0.1, 0.5}, {0.1, 0.7}, {0.1, 0.6}, {0.1, 0.65}, {0.1, 0.6}});
+  EXPECT_EQ(best_iteration(dmo, records), 1U);
   for (const std::size_t joint : {1U, 2U}) records[joint].joint = JointFigures{};
   EXPECT_EQ(best_iteration(dmo, records), 3U) << "the last cluster, and then the greater mean";
   records[2].moved = 0;
   EXPECT_EQ(best_iteration(dmo, records), 1U) << "it moved nothing";
+  records[0].statistics.mean = 0.8;
+  EXPECT_EQ(best_iteration(dmo, records), 0U) << "with the same minimum nothing of the input's mean is given up";
+  records[0].statistics.mean = 0.5;
   records[1].statistics.minimum = 0.09;
   EXPECT_EQ(best_iteration(dmo, records), 0U) << "no minimum is given up";
 }
@@ -75,6 +78,17 @@ TEST(BestState, NothingOfTheMinimumIsGivenUpWhereAPhaseFollows) {
     EXPECT_EQ(best_iteration(dmo, course({{0.4, 0.7}, {0.4 + 4e-7, 0.6}, {0.4 + 4e-7, 0.5}})), 1U);
     EXPECT_EQ(best_iteration(dmo, course({{0.4, 0.7}, {0.4 + 4e-7, 0.5}, {0.4 + 4e-7, 0.6}, {0.4 + 4e-7, 0.55}, {0.4, 0.7}})), 2U);
   }
+}
+
+/// Its mean never falls, and the statistics' mean may.
+TEST(BestState, OfThePhaseThatRaisesAMeanTheLastIsTheBest) {
+  RunParameters mean;
+  mean.then_mean.emplace();
+  auto records = course({{0.2, 0.5}, {0.4, 0.6}, {0.4, 0.8}, {0.4, 0.79}, {0.39, 0.9}});
+  for (std::size_t i = 2; i < records.size(); ++i) records[i].raises_mean = true;
+  EXPECT_EQ(best_iteration(mean, records), 3U);
+  mean.mean = MeanKind::Arithmetic;
+  EXPECT_EQ(best_iteration(mean, records), 2U);
 }
 
 TEST(BestState, OfOtherMethodsEveryValueCountsInTurn) {

@@ -1,5 +1,7 @@
 #include "ui/commands/notice.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "core/run/ending.h"
@@ -9,7 +11,24 @@
 namespace dmoscope::ui {
 namespace {
 
+/// Says what is worse than in the input, with a button for each option that would have kept it.
+void tell_card(Notice& notice, const ReportCard& card) {
+  if (card.verdict != Verdict::Worse) return;
+  notice.sentences.push_back(card.sentence(false) + ".");
+  notice.figures = card.lines();
+  std::vector<std::string> offered;
+  for (const CardFigure* figure : card.worse()) {
+    const std::string& command = figure->kept_by;
+    const bool has_button = command.empty() || command == "then mean" || std::ranges::find(offered, command) != offered.end();
+    if (has_button) continue;  // the mean has its own offer
+    offered.push_back(command);
+    notice.offers.push_back({fmt::format("notice:keep-{}", offered.size()), "Keep: " + command, command,
+                             "a new run beside this one, which keeps it; Run starts it"});
+  }
+}
+
 void tell_ending(Notice& notice, const RunEnding& ending) {
+  tell_card(notice, ending.card);
   if (ending.crossing) notice.sentences.push_back(ending.crossing->sentence());
   if (!ending.left) return;
   const LeftInverted& left = *ending.left;

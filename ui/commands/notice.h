@@ -19,11 +19,13 @@ struct Offer {
 struct Notice {
   std::string key;  // the end that it is about; the same as more becomes known of it
   std::vector<std::string> sentences;
+  std::vector<std::string> figures;  // of the report card, a line each: where something is worse
   std::vector<Offer> offers;
   [[nodiscard]] bool empty() const noexcept { return sentences.empty(); }
 };
 
-/// Of the active run: elements that stay inverted, that it has passed through a better iteration, and what the mean lost. Empty where
+/// Of the active run: what is worse than in the input, elements that stay inverted, that it has passed through a better iteration, and what
+/// the mean lost. Empty where
 /// nothing of this is so.
 [[nodiscard]] Notice notice_of(const SessionView& session);
 

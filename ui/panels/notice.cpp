@@ -51,7 +51,8 @@ void draw_notice(PanelContext& context, const Rect& rect) {
   const float width = room + around;
   const ButtonRows rows = in_rows(labels, room, gap);
   float text = 0;
-  for (const std::string& sentence : notice.sentences) text += ImGui::CalcTextSize(sentence.c_str(), nullptr, false, room).y + gap;
+  for (const auto* lines : {&notice.sentences, &notice.figures})
+    for (const std::string& line : *lines) text += ImGui::CalcTextSize(line.c_str(), nullptr, false, room).y + gap;
   const float height = text + rows.height + 2 * pad;
   // Beside the title of the one viewport where there is room, else below the titles.
   const bool beside = context.state.panes.one() && rect.w - width > 16 * em;
@@ -69,13 +70,17 @@ void draw_notice(PanelContext& context, const Rect& rect) {
   list.AddRectFilled(corner, {corner.x + bar, corner.y + height}, colour(context.palette.warning), context.px(2));
   const float left = corner.x + bar + pad;
   float y = corner.y + pad;
-  for (const std::string& sentence : notice.sentences) {
+  const auto write = [&](const std::string& line) {
     ImGui::SetCursorScreenPos({left, y});
     ImGui::PushTextWrapPos(bar + pad + room);
-    ImGui::TextUnformatted(sentence.c_str());
+    ImGui::TextUnformatted(line.c_str());
     ImGui::PopTextWrapPos();
-    y += ImGui::CalcTextSize(sentence.c_str(), nullptr, false, room).y + gap;
-  }
+    y += ImGui::CalcTextSize(line.c_str(), nullptr, false, room).y + gap;
+  };
+  for (const std::string& sentence : notice.sentences) write(sentence);
+  ImGui::PushStyleColor(ImGuiCol_Text, colour_vector(context.palette.dim));
+  for (const std::string& line : notice.figures) write(line);
+  ImGui::PopStyleColor();
   ImGui::BeginDisabled(context.activity.busy);
   for (std::size_t k = 0; k < notice.offers.size(); ++k) {
     const Offer& offer = notice.offers[k];

@@ -1,0 +1,75 @@
+// Power means against their definition, and that packs get the bits of scalars.
+
+#include "core/quality/power_mean.h"
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/base/error.h"
+#include "core/numeric/pack.h"
+#include "tests/support/meshes.h"
+
+namespace dmoscope {
+namespace {
+
+std::vector<double> some_qualities() {
+  testing::Random random(5);
+  std::vector<double> all;
+  for (int i = 0; i < 23; ++i) all.push_back(random(1e-4, 1.0));
+  return all;
+}
+
+double mean_of(MeanKind kind, const std::vector<double>& qualities) {
+  PowerMean<double> mean(kind);
+  for (const double quality : qualities) mean.add(quality);
+  return mean.value(static_cast<double>(qualities.size()));
+}
+
+double by_definition(double exponent, const std::vector<double>& qualities) {
+  double sum = 0.0;
+  for (const double quality : qualities) sum += std::pow(quality, exponent);
+  return std::pow(sum / static_cast<double>(qualities.size()), 1.0 / exponent);
+}
+
+TEST(PowerMean, IsWhatItsExponentSays) {
+  const auto all = some_qualities();
+  EXPECT_NEAR(mean_of(MeanKind::Arithmetic, all), by_definition(1.0, all), 1e-14);
+  EXPECT_NEAR(mean_of(MeanKind::Harmonic, all), by_definition(-1.0, all), 1e-14);
+  EXPECT_NEAR(mean_of(MeanKind::InverseSquare, all), by_definition(-2.0, all), 1e-14);
+  double logs = 0.0;
+  for (const double quality : all) logs += std::log(quality);
+  EXPECT_NEAR(16.0 * std::log(mean_of(MeanKind::Geometric, all)), logs, 1e-10);
+}
+
+TEST(PowerMean, OfManyBadElementsIsStillAbove0) {
+  const std::vector<double> bad(300, 1e-6);
+  for (const MeanKind kind : kMeanKinds) EXPECT_GT(mean_of(kind, bad), 0.0) << name(kind);
+}
+
+TEST(PowerMean, SlotsOfAPackGetTheBitsOfScalars) {
+  using D = Pack<double>;
+  const auto all = some_qualities();
+  for (const MeanKind kind : kMeanKinds) {
+    PowerMean<D> packed(kind);
+    std::array<PowerMean<double>, D::size> alone = [&]<std::size_t... I>(std::index_sequence<I...>) {
+      return std::array{((void)I, PowerMean<double>(kind))...};
+    }
+    (std::make_index_sequence<D::size>{});
+    for (std::size_t i = 0; i + D::size <= all.size(); ++i) {
+      packed.add(D::load_unaligned(all.data() + i));
+      for (std::size_t k = 0; k < D::size; ++k) alone[k].add(all[i + k]);
+    }
+    for (std::size_t k = 0; k < D::size; ++k) EXPECT_EQ(packed.value(7.0).get(k), alone[k].value(7.0)) << name(kind);
+  }
+}
+
+TEST(PowerMean, IsNamed) {
+  for (const MeanKind kind : kMeanKinds) EXPECT_EQ(parse_mean_kind(name(kind)), kind);
+  EXPECT_THROW((void)parse_mean_kind("median"), UsageError);
+}
+
+}  // namespace
+}  // namespace dmoscope

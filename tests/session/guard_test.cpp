@@ -1,0 +1,111 @@
+// The guard: whatever metric is raised, by whatever method, the least of another one falls no further.
+
+#include "core/run/guard.h"
+
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/run/run.h"
+#include "core/smooth/execution/method_table.h"
+#include "tests/support/meshes.h"
+#include "tests/support/volume_grids.h"
+
+namespace dmoscope {
+namespace {
+
+using testing::Cells;
+using testing::input;
+using testing::lattice;
+using testing::volume_grid;
+
+dmoscope::Run make_run(const std::shared_ptr<const InputMesh>& mesh, RunParameters parameters) {
+  return {mesh, std::move(parameters), std::make_shared<ThreadPool>(2), 0};
+}
+
+double least(const dmoscope::Run& run, Metric metric) {
+  return compute_statistics(run.input().quality_context(), run.positions(), metric, run.immovable(), nullptr).movable_minimum;
+}
+
+/// A lattice stretched so that the scaled Jacobian, which is blind to how long an element is, lets elements collapse.
+Mesh stretched(Cells cells, std::uint64_t seed) {
+  Mesh mesh = lattice(10, 0.35, seed, cells);
+  for (Vec3& p : mesh.positions) p.y *= 0.3;
+  return mesh;
+}
+
+TEST(Guard, KeepsTheMeanRatioByEveryMethod) {
+  Progress progress;
+  int fell = 0, rose = 0;
+  for (const MethodInfo& method : method_table()) {
+    if (!method.optimises) continue;
+    for (const Cells cells : {Cells::Quadrilaterals, Cells::Mixed})
+      for (const std::uint64_t seed : {3U, 4U, 5U}) {
+        const auto mesh = input(stretched(cells, seed));
+        RunParameters parameters{.method = std::string(method.name), .metric = Metric::ScaledJacobian, .guard = std::nullopt};
+        dmoscope::Run off = make_run(mesh, parameters);
+        parameters.guard = GuardRule{};
+        dmoscope::Run on = make_run(mesh, parameters);
+        const double before = least(on, Metric::MeanRatio), metric_before = least(on, Metric::ScaledJacobian);
+        off.iterate(30, progress);
+        on.iterate(30, progress);
+        ASSERT_TRUE(on.guard());
+        EXPECT_GE(least(on, Metric::MeanRatio), before) << method.name;
+        EXPECT_GE(least(on, Metric::ScaledJacobian), metric_before) << method.name;
+        fell += least(off, Metric::MeanRatio) < before ? 1 : 0;
+        rose += least(on, Metric::ScaledJacobian) > metric_before ? 1 : 0;
+      }
+  }
+  EXPECT_GT(fell, 5) << "else there is nothing to guard";
+  EXPECT_GT(rose, 20) << "a guard is no reason to stay";
+}
+
+TEST(Guard, KeepsItInVolumesAndWhereVerticesSlide) {
+  Progress progress;
+  int fell = 0;
+  for (const BoundaryRule boundary : {BoundaryRule::Fixed, BoundaryRule::Slide})
+    for (const unsigned seed : {1U, 2U, 3U}) {
+      Mesh grid = volume_grid(4, testing::Fill::Hexahedra, 0.3, seed);
+      for (Vec3& p : grid.positions) p.z *= 0.25;
+      const auto mesh = input(std::move(grid));
+      RunParameters parameters{.metric = Metric::ScaledJacobian, .guard = std::nullopt, .boundary = boundary};
+      dmoscope::Run off = make_run(mesh, parameters);
+      parameters.guard = GuardRule{};
+      dmoscope::Run on = make_run(mesh, parameters);
+      if (!on.guard()) continue;  // an element is inverted
+      const double before = least(on, Metric::MeanRatio);
+      off.iterate(15, progress);
+      on.iterate(15, progress);
+      EXPECT_GE(least(on, Metric::MeanRatio), before);
+      fell += least(off, Metric::MeanRatio) < before ? 1 : 0;
+    }
+  EXPECT_GT(fell, 0);
+}
+
+TEST(Guard, ByAValueIsReachedByNoneThatWasAboveIt) {
+  Progress progress;
+  const auto mesh = input(stretched(Cells::Quadrilaterals, 3));
+  const double before = least(make_run(mesh, {}), Metric::MeanRatio), floor = 0.7 * before;
+  dmoscope::Run run = make_run(mesh, {.metric = Metric::ScaledJacobian, .guard = GuardRule{Metric::MeanRatio, floor}});
+  run.iterate(30, progress);
+  EXPECT_GE(least(run, Metric::MeanRatio), floor);
+}
+
+TEST(Guard, SaysNothingOfTheMetricThatIsRaisedNorOfTargets) {
+  const auto mesh = input(lattice(5, 0.2, 1));
+  EXPECT_FALSE(make_run(mesh, {}).guard());
+  EXPECT_TRUE(make_run(mesh, {.metric = Metric::MinAngle}).guard());
+  EXPECT_FALSE(make_run(mesh, {.metric = parse_metric("mean-ratio@aspect:3:0")}).guard());
+}
+
+TEST(Guard, IsWrittenAsItIsRead) {
+  for (const char* text : {"off", "mean-ratio:input", "scaled-jacobian:0.25"}) EXPECT_EQ(to_text(parse_guard(text)), text);
+  for (const char* text : {"", "mean-ratio", "mean-ratio:much", "nothing:input", "mean-ratio:inf"})
+    EXPECT_THROW((void)parse_guard(text), UsageError) << text;
+}
+
+}  // namespace
+}  // namespace dmoscope

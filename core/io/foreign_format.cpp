@@ -106,6 +106,39 @@ bool is_gid(const Head& h) {
   });
 }
 
+/// DHI MIKE 21, 3: the kind and unit of the depths, which older files leave out, the number of nodes, and a projection.
+bool is_mike(const Head& h) {
+  if (!h.is(".mesh")) return false;
+  const auto head = words(h.line(0)), node = words(h.line(1));
+  const bool counts = (head.size() >= 4 && all_whole(std::span(head).first(3)) && !whole(head[3])) ||
+                      (head.size() >= 2 && all_whole(std::span(head).first(1)) && !whole(head[1]));
+  return counts && node.size() == 5 && whole(node.front()) && whole(node.back());
+}
+
+/// Nemoh, a code for waves: "2" and whether the mesh is half of one; then nodes by number.
+bool is_nemoh(const Head& h) {
+  const auto head = words(h.line(0)), first = words(h.line(1)), second = words(h.line(2));
+  return h.is(".dat") && head.size() == 2 && head[0] == "2" && (head[1] == "0" || head[1] == "1") && first.size() == 4 &&
+         whole(first[0]) == 1 && second.size() == 4 && whole(second[0]) == 2;
+}
+
+bool is_fvcom(const Head& h) { return begins(h.line(0), "Node Number") && h.line(0).find('=') != std::string_view::npos; }
+
+/// SELAFIN: Fortran's records, of which the first is a title of 80 characters.
+bool is_selafin(const Head& h) {
+  using namespace std::string_view_literals;
+  constexpr std::string_view kEighty = "\0\0\0\x50"sv;
+  return h.bytes.starts_with(kEighty) && h.bytes.substr(std::min<std::size_t>(h.bytes.size(), 84)).starts_with(kEighty);
+}
+
+/// A part of a mesh of Elmer: mesh.header, mesh.nodes, mesh.elements, mesh.boundary.
+bool is_elmer(const Head& h) {
+  const auto first = words(h.line(0));
+  if (h.is(".header")) return first.size() == 3 && all_whole(first);
+  const bool numbered = first.size() >= 4 && whole(first[0]).has_value() && whole(first[1]).has_value();
+  return numbered && (h.is(".nodes") || h.is(".elements") || h.is(".boundary"));
+}
+
 bool is_nastran(const Head& h) {
   return h.has_line("BEGIN BULK") || h.has_line("GRID,") || h.has_line("GRID*") ||
          (h.has_line("GRID ") && (h.has_line("C") || h.has_line("$")));
@@ -119,7 +152,9 @@ bool is_fluent(const Head& h) {
 bool begins_hdf5(const Head& h) { return is_hdf5(h.bytes); }
 bool begins_netcdf(const Head& h) { return is_netcdf_classic(h.bytes); }
 
-constexpr std::string_view kMeshio = "convert it with meshio to .vtu";
+constexpr std::string_view kMeshio = "convert it with meshio to .vtu",
+                           kOpenFoam = "convert the case with foamToVTK, and open the internal mesh that this writes",
+                           kElmer = "'ElmerGrid 2 5' on its folder makes a .vtu of it";
 
 struct Foreign {
   std::string_view name;  // "an MFEM mesh"
@@ -140,14 +175,26 @@ constexpr std::array kForeign{
     Foreign{"a MED file (Salome)", kMeshio, [](const Head& h) { return begins_hdf5(h) && h.is(".med"); }},
     Foreign{"an HDF5 file (MED, Fluent and others are such; of XDMF, open the .xdmf file)", "convert it with ParaView or meshio to .vtu",
             begins_hdf5},
-    Foreign{"a NetCDF file (UGRID and others are such)", "convert it with ParaView or meshio to .vtu", begins_netcdf},
+    Foreign{"a NetCDF file (UGRID and others are such)", "open it in ParaView and save it as .vtu", begins_netcdf},
+    Foreign{"a MIKE mesh (DHI)", "export it from MIKE's Mesh Generator or from SMS as .2dm", is_mike, ".mike"},
+    Foreign{"a Nemoh mesh", "convert it with meshmagick to .vtp or .stl", is_nemoh},
+    Foreign{"an FVCOM grid", "export it from SMS as .2dm", is_fvcom},
+    Foreign{"a SELAFIN file (TELEMAC)", "convert it with TELEMAC's converter.py (srf2vtk) or in BlueKenue", is_selafin, ".slf"},
+    Foreign{"an FEBio model", "open it in FEBio Studio and export it as .vtk", [](const Head& h) { return h.has_line("<febio_spec"); }},
+    Foreign{"a GMV file", "open it in ParaView and save it as .vtu", [](const Head& h) { return begins(h.line(0), "gmvinput"); }},
+    Foreign{"a UGRID mesh (AFLR)", kMeshio, [](const Head& h) { return h.is(".ugrid"); }},
+    Foreign{"a part of an Elmer mesh", kElmer, is_elmer},
+    Foreign{"a GAMBIT neutral file", "read it with VTK's vtkGAMBITReader and write it as .vtu",
+            [](const Head& h) { return h.line(0).find("CONTROL INFO") != std::string_view::npos; }},
+    Foreign{"a 3MF model", "save it from the program that made it, or from MeshLab, as .stl or .ply",
+            [](const Head& h) { return h.is(".3mf") && h.bytes.starts_with("PK\x03\x04"); }},
     Foreign{"a Tecplot file", "convert it with ParaView or meshio to .vtu", is_tecplot},
     Foreign{"an I-deas universal file (UNV)", "open it in Gmsh or Salome and save it as .msh or .med", is_unv},
     Foreign{"an LS-DYNA keyword file", "convert it with LS-PrePost to Nastran, and that with meshio to .vtu",
             [](const Head& h) { return h.has_line("*KEYWORD"); }},
     Foreign{"an Abaqus input file", kMeshio,
             [](const Head& h) { return h.has_line("*HEADING") || h.has_line("*NODE") || h.has_line("*PART"); }, ".inp"},
-    Foreign{"an AVS UCD file", kMeshio, is_ucd},
+    Foreign{"an AVS UCD file", "name it .avs, and convert it with meshio to .vtu", is_ucd},
     Foreign{"a Nastran bulk data file", kMeshio, is_nastran, ".bdf"},
     Foreign{"an SMS 2dm mesh", "export it from SMS as fort.14 (ADCIRC)", [](const Head& h) { return begins(h.line(0), "MESH2D"); }, ".2dm"},
     Foreign{"a Netgen mesh", "export it from Netgen as Gmsh2",
@@ -156,8 +203,8 @@ constexpr std::array kForeign{
             [](const Head& h) { return begins(h.line(0), "# Created by COMSOL"); }},
     Foreign{"an XDMF file", kMeshio, [](const Head& h) { return h.bytes.find("<Xdmf") != std::string_view::npos; }, ".xdmf"},
     Foreign{"a DOLFIN XML mesh", kMeshio, [](const Head& h) { return h.bytes.find("<dolfin") != std::string_view::npos; }},
-    Foreign{"an OpenFOAM file", "convert the case with foamToVTK",
-            [](const Head& h) { return std::ranges::find(h.lines, std::string_view("FoamFile")) != h.lines.end(); }},
+    Foreign{"an OpenFOAM file", kOpenFoam,
+            [](const Head& h) { return h.is(".foam") || std::ranges::find(h.lines, std::string_view("FoamFile")) != h.lines.end(); }},
     Foreign{"a Gmsh geometry, not a mesh", "run gmsh -2 or gmsh -3 on it",
             [](const Head& h) { return h.is(".geo") || h.is(".geo_unrolled"); }},
     Foreign{"an outline, not a mesh", "run triangle or tetgen on it", [](const Head& h) { return h.is(".poly") || h.is(".smesh"); }},
@@ -174,6 +221,18 @@ constexpr std::array kForeign{
 };
 
 }  // namespace
+
+std::string foreign_folder(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_directory(path, error)) return {};
+  const auto has = [&](const char* name) { return std::filesystem::exists(path / name, error); };
+  const auto sentence = [](std::string_view name, std::string_view advice) {
+    return fmt::format("this folder is {}, which is not read here: {}", name, advice);
+  };
+  if (has("constant/polyMesh") || has("polyMesh") || (has("points") && has("faces") && has("owner")))
+    return sentence("a mesh of OpenFOAM", kOpenFoam);
+  return has("mesh.header") && has("mesh.nodes") ? sentence("a mesh of Elmer", kElmer) : std::string();
+}
 
 std::string foreign_format(std::string_view bytes, std::string_view extension) {
   const Head head(bytes, extension);

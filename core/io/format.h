@@ -57,6 +57,7 @@ struct FormatHandler {
 [[nodiscard]] const FormatHandler& stl_format();
 [[nodiscard]] const FormatHandler& vtk_format();
 [[nodiscard]] const FormatHandler& vtu_format();   // needs zlib and pugixml: not in every build
+[[nodiscard]] const FormatHandler& vtp_format();   // likewise
 [[nodiscard]] const FormatHandler& pvtu_format();  // likewise
 [[nodiscard]] const FormatHandler& fort14_format();
 [[nodiscard]] const FormatHandler& su2_format();

@@ -145,6 +145,7 @@ namespace {
 Mesh read_whole_mesh(const std::filesystem::path& path, const IoContext& context) {
   Progress& progress = context.progress;
   progress.begin("reading " + path.filename().string());
+  if (const std::string folder = foreign_folder(path); !folder.empty()) throw InputError(path.string(), 0, folder);
   const FormatHandler* named = by_extension(mesh_extension(path));
   const std::filesystem::path main = main_path(path, named);
   if (main != path) require_both(path, named);
@@ -152,7 +153,10 @@ Mesh read_whole_mesh(const std::filesystem::path& path, const IoContext& context
   FileBytes unpacked = read_unpacked(main, context, size);
   auto source = std::make_shared<SourceFile>(main, std::move(unpacked));
   source->set_size_on_disk(size);
-  if (source->bytes().empty()) throw InputError(main.string(), 0, "the file is empty");
+  if (source->bytes().empty()) {
+    const std::string foreign = foreign_format({}, mesh_extension(main));
+    throw InputError(main.string(), 0, foreign.empty() ? "the file is empty" : foreign);
+  }
   const FormatHandler& handler = format_of(main, source->bytes());
   source->set_format(handler.info.name);
   if (handler.companion != nullptr) {

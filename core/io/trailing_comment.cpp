@@ -10,12 +10,13 @@ struct Comment {
   std::string_view format, begin, end;
 };
 /// PLY and VTK have theirs in the head alone, STL none; in a fort.14 what follows the boundaries may be more of ADCIRC's.
-constexpr std::array<Comment, 6> kComments{{{"off", "# ", "\n"},
+constexpr std::array<Comment, 7> kComments{{{"off", "# ", "\n"},
                                             {"obj", "# ", "\n"},
                                             {"su2", "% ", "\n"},
                                             {"tetgen", "# ", "\n"},
                                             {"gmsh", "$Comments\n", "\n$EndComments\n"},
-                                            {"vtu", "<!-- ", " -->\n"}}};
+                                            {"vtu", "<!-- ", " -->\n"},
+                                            {"vtp", "<!-- ", " -->\n"}}};
 
 }  // namespace
 
@@ -25,7 +26,7 @@ std::string trailing_comment(std::string_view format, std::string_view comment) 
   std::string text(comment);
   for (char& c : text)
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F || c == '$') c = ' ';
-  if (format == "vtu")
+  if (format == "vtu" || format == "vtp")
     for (std::size_t at = text.find("--"); at != std::string::npos; at = text.find("--", at + 1)) text[at + 1] = ' ';
   return std::string(found->begin) + text + std::string(found->end);
 }

@@ -9,6 +9,7 @@
 #include "core/io/mesh_io.h"
 #include "core/io/reading/binary.h"
 #include "tests/fuzz/array_samples.h"
+#include "tests/fuzz/vtp_samples.h"
 #include "tests/fuzz/vtu_samples.h"
 
 namespace dmoscope::testing {
@@ -459,6 +460,7 @@ inline std::vector<Sample> samples() {
     all.push_back({"mixed", "xdmf", xdmf_mixed()});
     all.push_back({"planar", "xdmf", xdmf_planar()});
     for (const auto& [name, bytes] : vtu_samples()) all.push_back({std::string(name), "vtu", std::string(bytes)});
+    for (const auto& [name, bytes] : vtp_samples()) all.push_back({std::string(name), "vtp", std::string(bytes)});
   }
   return all;
 }

@@ -93,27 +93,34 @@ def literal(line):
     return f'    "{text}"'
 
 
-print('''#pragma once
-// One small mesh in every encoding of VTU. Made by vtu_samples.py with Python's struct, base64 and zlib; not by hand.
+def print_header(function, said, doc, samples):
+    """`samples`: name, bytes, and whether few of these are letters."""
+    print(f'''#pragma once
+// {said} with Python's struct, base64 and zlib; not by hand.
 // clang-format off
 
 #include <string_view>
 #include <utility>
 #include <vector>
 
-namespace dmoscope::testing {
+namespace dmoscope::testing {{
 
-/// Name and bytes. Those named "pieces..." hold three triangles in two pieces and an empty one, the others volume elements.
-inline std::vector<std::pair<std::string_view, std::string_view>> vtu_samples() {
+/// {doc}
+inline std::vector<std::pair<std::string_view, std::string_view>> {function}() {{
   using namespace std::string_view_literals;
-  return {''')
-for name, writer, pieces in SAMPLES:
-    data = writer.file(pieces)
-    width = 60 if writer.where == "appended" and not writer.base else 130
-    lines = [data[i:i + width] for i in range(0, len(data), width)]
-    print(f'  {{"{name}"sv,')
-    print("\n".join(literal(line) for line in lines) + "sv},")
-print('''  };
+  return {{''')
+    for name, data, binary in samples:
+        width = 60 if binary else 130
+        lines = [data[i:i + width] for i in range(0, len(data), width)]
+        print(f'  {{"{name}"sv,')
+        print("\n".join(literal(line) for line in lines) + "sv},")
+    print('''  };
 }
 
 }  // namespace dmoscope::testing''')
+
+
+if __name__ == "__main__":
+    print_header("vtu_samples", "One small mesh in every encoding of VTU. Made by vtu_samples.py",
+                 'Name and bytes. Those named "pieces..." hold three triangles in two pieces and an empty one, the others volume elements.',
+                 [(name, writer.file(pieces), writer.where == "appended" and not writer.base) for name, writer, pieces in SAMPLES])

@@ -2,12 +2,14 @@
 
 #include "core/io/foreign_format.h"
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/base/error.h"
 #include "core/io/mesh_io.h"
 #include "tests/fuzz/samples.h"
 #include "tests/io/files.h"
@@ -36,12 +38,25 @@ TEST(ForeignFormat, IsNamedWithWhatToDo) {
       {"a.cdb", "/COM,ANSYS RELEASE 17.0\n/PREP7\n", "an ANSYS archive", "Fluent"},
       {"a.med", "\x89HDF\r\n\x1a\n" + zero, "a MED file", "meshio"},
       {"a.h5", "\x89HDF\r\n\x1a\n" + zero, "an HDF5 file", "ParaView"},
-      {"a.nc", "CDF\x01" + zero, "a NetCDF file", "meshio"},
+      {"a.nc", "CDF\x01" + zero, "a NetCDF file", "ParaView"},
+      {"a.mesh", "100079 1000 4 LONG/LAT\n1 0 0 -5 1\n2 1 0 -5 1\n", "a MIKE mesh", ".2dm"},
+      {"a.mesh", "4 UTM-33\n1 0 0 -5 1\n2 1 0 -5 1\n", "a MIKE mesh", ".2dm"},
+      {"a.dat", "2 0\n1 0. 0. 0.\n2 1. 0. 0.\n", "a Nemoh mesh", "meshmagick"},
+      {"a.dat", "Node Number = 4\nCell Number = 2\n1 1 2 3 1\n", "an FVCOM grid", ".2dm"},
+      {"a.slf", zero + zero + zero + "P" + std::string(80, ' ') + zero + zero + zero + "P", "a SELAFIN file", "srf2vtk"},
+      {"a.feb", "<?xml version=\"1.0\"?>\n<febio_spec version=\"4.0\">\n", "an FEBio model", "FEBio Studio"},
+      {"a.gmv", "gmvinput ascii\nnodev 3\n", "a GMV file", "ParaView"},
+      {"a.ugrid", "4 2 0 0 0 0 0\n0 0 0\n", "a UGRID mesh", "meshio"},
+      {"mesh.header", "4 2 4\n2\n", "a part of an Elmer mesh", "ElmerGrid"},
+      {"mesh.nodes", "1 -1 0 0 0\n", "a part of an Elmer mesh", "ElmerGrid"},
+      {"a.neu", "        CONTROL INFO 2.4.6\n** GAMBIT NEUTRAL FILE\n", "a GAMBIT neutral file", "vtkGAMBITReader"},
+      {"a.3mf", "PK\x03\x04" + zero, "a 3MF model", ".stl"},
+      {"case.foam", "", "an OpenFOAM file", "foamToVTK"},
       {"a.dat", "TITLE = \"x\"\nVARIABLES = \"X\" \"Y\"\nZONE T=\"a\"\n", "a Tecplot file", "ParaView"},
       {"a.plt", "#!TDV112" + zero, "a Tecplot file", "ParaView"},
       {"a.unv", "    -1\n   164\n         1SI: Meters\n", "an I-deas universal file", "Gmsh"},
       {"a.k", "*KEYWORD\n*NODE\n", "an LS-DYNA keyword file", "LS-PrePost"},
-      {"a.inp", "# made by LaGriT\n4 2 0 0 0\n1 0 0 0\n", "an AVS UCD file", "meshio"},
+      {"a.inp", "# made by LaGriT\n4 2 0 0 0\n1 0 0 0\n", "an AVS UCD file", ".avs"},
       {"a.vol", "mesh3d\ndimension\n3\n", "a Netgen mesh", "Gmsh2"},
       {"a.mphtxt", "# Created by COMSOL Multiphysics\n", "a COMSOL mesh", "Nastran"},
       {"a.xml", "<?xml version=\"1.0\"?>\n<dolfin>\n<mesh celltype=\"triangle\" dim=\"2\">\n", "a DOLFIN XML mesh", "meshio"},
@@ -62,6 +77,29 @@ TEST(ForeignFormat, IsNamedWithWhatToDo) {
     expect_refused(known.file, known.bytes, 0, known.advice);
     expect_refused(known.file, known.bytes, 0, "not read here");
   }
+}
+
+TEST(ForeignFormat, FoldersOfACaseAreNamed) {
+  const TemporaryFolder folder;
+  const auto refused = [&](const std::filesystem::path& path) -> std::string {
+    Progress progress;
+    try {
+      (void)read_mesh(path, progress);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "read";
+  };
+  const std::filesystem::path foam = folder.path() / "case", elmer = folder.path() / "elmer", other = folder.path() / "other";
+  std::filesystem::create_directories(foam / "constant" / "polyMesh");
+  for (const char* name : {"points", "faces", "owner"}) put(foam / "constant" / "polyMesh" / name, "FoamFile\n");
+  for (const auto& path : {foam, foam / "constant", foam / "constant" / "polyMesh"})
+    EXPECT_THAT(refused(path), ::testing::AllOf(HasSubstr("a mesh of OpenFOAM"), HasSubstr("foamToVTK"))) << path;
+  std::filesystem::create_directories(elmer);
+  for (const char* name : {"mesh.header", "mesh.nodes"}) put(elmer / name, "1 1 1\n");
+  EXPECT_THAT(refused(elmer), ::testing::AllOf(HasSubstr("a mesh of Elmer"), HasSubstr("ElmerGrid")));
+  std::filesystem::create_directories(other);
+  EXPECT_THAT(refused(other), HasSubstr("directory"));
 }
 
 /// Formats for which there may be a reader, which then tells by itself what is wrong.

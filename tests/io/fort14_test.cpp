@@ -51,6 +51,32 @@ TEST(Fort14, GridDepthAndBoundaries) {
   EXPECT_THAT(mesh.groups[3].members, ElementsAre(0, 3));
 }
 
+/// SCHISM's: the grammar of fort.14, in longitude and latitude, and land boundaries that are islands (1) or not (0).
+TEST(Fort14, GridsOfSchism) {
+  const std::string grid =
+      "hgrid of a lagoon\n2 5\n1 -70.25 43.5 10.5\n2 -70.0 43.5 -3\n3 -70.0 43.75 0\n4 -70.25 43.75 7\n5 -69.9 43.6 1\n"
+      "1 4 1 2 3 4\n2 3 2 5 3\n1 = Number of open boundaries\n2 = Total number of open boundary nodes\n2 = Number of nodes for open "
+      "boundary 1\n1\n4\n1 = number of land boundaries\n2 = Total number of land boundary nodes\n2 0 = Number of nodes for land boundary "
+      "1\n2\n5\n";
+  for (const char* name : {"hgrid.gr3", "hgrid.ll", "HGRID.GR3"}) {
+    SCOPED_TRACE(name);
+    const Mesh mesh = read_bytes(name, grid);
+    ASSERT_EQ(mesh.elements.size(), 2U);
+    EXPECT_EQ(mesh.elements.kind(0), ElementKind::Quadrilateral);
+    EXPECT_EQ(mesh.positions[4], (Vec3{-69.9, 43.6, 0}));
+    EXPECT_THAT(mesh.fields.at(0).values, ElementsAre(10.5, -3, 0, 7, 1));
+    ASSERT_EQ(mesh.groups.size(), 2U);
+    EXPECT_THAT(mesh.groups[1].members, ElementsAre(1, 4));
+    EXPECT_EQ(written(name, mesh), grid);
+    std::vector<Vec3> moved = mesh.positions;
+    moved[4].y = 43.625;
+    std::string wanted = grid;
+    wanted.replace(wanted.find("43.6 1"), 4, "43.625");
+    EXPECT_EQ(written(name, mesh, moved), wanted);
+  }
+  expect_refused("hgrid.gr3", "x\n1 3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n1 3 1 2 4\n", 6, "vertex index 4");
+}
+
 TEST(Fort14, EndsWhereItMay) {
   EXPECT_EQ(read_bytes("a.14", kGrid).groups.size(), 0U);
   EXPECT_EQ(read_bytes("a.14", kGrid + "0\n").groups.size(), 0U);

@@ -300,7 +300,7 @@ TEST(Gmsh, Malformed) {
       {head + "$Nodes\n1\n1 0 0 0\n2 0 0 0\n$EndNodes\n", 7, "expected $EndNodes"},
       {head + nodes + "$Elements\n1\n1 2 2 0 1 1 2 4\n$EndElements\n", 12, "names node 4, which the file does not have"},
       {head + nodes + "$Elements\n1\n7 9 2 0 1 1 2 3 1 2 3\n$EndElements\n", 12, "a triangle of higher order (element type 9)"},
-      {head + nodes + "$Elements\n1\n7 11 2 0 1 1 2 3 1 2 3\n$EndElements\n", 12, "Mesh.ElementOrder = 1"},
+      {head + nodes + "$Elements\n1\n7 11 2 0 1 1 2 3 1 2 3\n$EndElements\n", 12, "gmsh.model.mesh.setOrder(1)"},
       {head + nodes + "$Elements\n1\n7 34 2 0 1 1 2 3 1 2 3\n$EndElements\n", 12, "elements of type 34 are not read"},
       {head + nodes + "$Elements\n1\n7 2 -2 0 1 1 2 3\n$EndElements\n", 12, "-2 tags"},
       {head + nodes + "$Elements\n1\n7 2 99999999999 0 1 1 2 3\n$EndElements\n", 13, "expected a tag of an element"},

@@ -134,8 +134,10 @@ CellShape GmshCells::shape(std::int64_t type) const {
   if (found != kGmshTypes.end()) return static_cast<CellShape>(found - kGmshTypes.begin());
   for (const HigherOrder& one : kHigherOrder) {
     if (type < one.first || type > one.last) continue;
-    in_.words.fail(fmt::format(
-        "a {} of higher order (element type {}): only linear elements are read; save the mesh with Mesh.ElementOrder = 1", one.name, type));
+    in_.words.fail(
+        fmt::format("a {} of higher order (element type {}): only linear elements are read; make it linear in Gmsh by "
+                    "gmsh.model.mesh.setOrder(1), and save it again",
+                    one.name, type));
   }
   in_.words.fail(fmt::format("elements of type {} are not read", type));
 }

@@ -1,4 +1,5 @@
-// ADCIRC's grid file, fort.14 or .grd: nodes with depth, elements, open and land boundaries.
+// ADCIRC's grid file, fort.14 or .grd, and SCHISM's .gr3 and .ll, whose coordinates may be longitude and latitude: nodes with depth,
+// elements, open and land boundaries.
 // https://adcirc.org/home/documentation/users-manual-v53/input-file-descriptions/adcirc-grid-and-boundary-information-file-fort-14/
 
 #include <algorithm>
@@ -211,7 +212,7 @@ Notes write_fort14(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> pos
 
 const FormatHandler& fort14_format() {
   static const FormatHandler handler{
-      {"fort14", "ADCIRC fort.14", ".14 .grd", "x, y and depth, triangles and quadrilaterals, open and land boundaries"},
+      {"fort14", "ADCIRC fort.14", ".14 .grd .gr3 .ll", "x, y and depth, triangles and quadrilaterals, open and land boundaries"},
       nullptr,
       read_fort14,
       write_fort14};

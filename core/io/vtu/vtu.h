@@ -1,6 +1,6 @@
 #pragma once
-// VTU files: VTK's XML UnstructuredGrid; and its structured grids (.vts, .vtr, .vti), which are read alone. ASCII, base64 (inline or
-// appended) and raw appended data, uncompressed or zlib, either byte order, sizes of 32 or 64 bits.
+// VTU and VTP files: VTK's XML UnstructuredGrid and PolyData; and its structured grids (.vts, .vtr, .vti), which are read alone. ASCII,
+// base64 (inline or appended) and raw appended data, uncompressed or zlib, either byte order, sizes of 32 or 64 bits.
 
 #include <span>
 #include <string>
@@ -14,12 +14,15 @@
 
 namespace dmoscope {
 
-/// Reads a VTU file; see FormatHandler::read. Several pieces become one mesh, without joining points on their seams. Cells of fewer
+/// Reads a VTU or VTP file; see FormatHandler::read. Several pieces become one mesh, without joining points on their seams. Cells of fewer
 /// dimensions than the elements are passed over as in VTK legacy files.
 [[nodiscard]] Mesh read_vtu(SourceFile& source, const IoContext& context);
 
 /// Makes a VTU file anew: appended raw data of double precision, zlib, 64-bit sizes; see FormatHandler::write.
 std::vector<std::string> write_vtu(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context);
+
+/// The same of a VTP file. Throws OutputError for volume elements.
+std::vector<std::string> write_vtp(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context);
 
 /// The type that write_vtu() gives a field: its own where that holds all its values exactly, else double; and VTU's word for it.
 [[nodiscard]] std::string_view vtu_type_word(const Field& field);

@@ -112,10 +112,14 @@ void VtuDocument::attributes(pugi::xml_node file) {
   if (type == "PUnstructuredGrid") {
     fail(file, "this is a PVTU file, which names the pieces of a mesh: call it .pvtu");
   }
+  if (type == "PPolyData")
+    fail(file, "this is a PVTP file, which names the pieces of a surface: open these, or save it from ParaView as one");
+  poly_ = type == "PolyData";
   structured_ = type == "StructuredGrid" || type == "RectilinearGrid" || type == "ImageData";
-  if (type != "UnstructuredGrid" && !structured_) {
-    fail(file, fmt::format("a dataset of type {} is not read: UnstructuredGrid, StructuredGrid, RectilinearGrid and ImageData are",
-                           quote_token(type)));
+  if (type != "UnstructuredGrid" && !structured_ && !poly_) {
+    fail(file,
+         fmt::format("a dataset of type {} is not read: UnstructuredGrid, PolyData, StructuredGrid, RectilinearGrid and ImageData are",
+                     quote_token(type)));
   }
   const std::string_view order = file.attribute("byte_order").value();
   if (!order.empty() && order != "LittleEndian" && order != "BigEndian")

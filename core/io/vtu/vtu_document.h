@@ -1,5 +1,5 @@
 #pragma once
-// The XML of a VTU file (VTK's UnstructuredGrid), and what its arrays say of themselves.
+// The XML of a VTU or VTP file (VTK's UnstructuredGrid and PolyData), and what its arrays say of themselves.
 // Format: https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html
 
 #include <cstddef>
@@ -39,6 +39,8 @@ class VtuDocument {
   [[nodiscard]] pugi::xml_node grid() const noexcept { return grid_; }
   /// Is it one of the grids whose cells are not listed (.vts, .vtr, .vti)?
   [[nodiscard]] bool structured() const noexcept { return structured_; }
+  /// Is it PolyData (.vtp), whose cells are in lists of a kind each?
+  [[nodiscard]] bool is_poly() const noexcept { return poly_; }
   [[nodiscard]] bool big_endian() const noexcept { return big_endian_; }
   [[nodiscard]] ScalarType header() const noexcept { return header_; }
   [[nodiscard]] bool compressed() const noexcept { return !compressor_.empty(); }
@@ -81,7 +83,7 @@ class VtuDocument {
   std::string xml_;  // parsed in place
   pugi::xml_document document_;
   pugi::xml_node grid_;
-  bool structured_ = false;
+  bool structured_ = false, poly_ = false;
   bool big_endian_ = false;
   ScalarType header_ = ScalarType::UInt32;
   std::string compressor_;

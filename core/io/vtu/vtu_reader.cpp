@@ -169,16 +169,47 @@ class VtuReader {
 
   void piece(pugi::xml_node node) {
     if (document_.structured()) return structured_piece(node);
+    if (document_.is_poly()) return poly_piece(node);
     const std::size_t point_count = document_.count(node, "NumberOfPoints", kNoIndex - 1 - mesh_.positions.size());
     const std::size_t cell_count = document_.count(node, "NumberOfCells", kNoIndex - 1 - kinds_.size());
     if (point_count == 0 && cell_count == 0) return;  // a process that had nothing
     points(node, point_count);
-    cells(node, point_count, cell_count);
+    cells(node, node.child("Cells"), point_count, cell_count, {});
     attributes(node.child("PointData"), Field::On::Vertices, point_count);
     attributes(node.child("CellData"), Field::On::Elements, cell_count);
+    end_piece(node, std::array<std::string_view, 1>{"Cells"});
+  }
+
+  /// Of PolyData: lists of points, lines and polygons, whose data come in this order.
+  void poly_piece(pugi::xml_node node) {
+    struct List {
+      const char *name, *count;
+      std::int64_t type;  // VTK's, of all its cells
+    };
+    constexpr static std::array kLists{List{"Verts", "NumberOfVerts", 2}, List{"Lines", "NumberOfLines", 4},
+                                       List{"Polys", "NumberOfPolys", 7}};
+    const std::size_t point_count = document_.count(node, "NumberOfPoints", kNoIndex - 1 - mesh_.positions.size());
+    const auto count_of = [&](const char* attribute) {
+      return node.attribute(attribute) ? document_.count(node, attribute, kNoIndex - 1 - kinds_.size()) : 0;
+    };
+    if (count_of("NumberOfStrips") > 0)
+      document_.fail(node, "triangle strips are not read: make triangles of them (ParaView's filter Triangulate)");
+    const std::size_t cells_before = kinds_.size();
+    if (point_count > 0) points(node, point_count);
+    for (const List& list : kLists)
+      if (const std::size_t count = count_of(list.count); count > 0) cells(node, node.child(list.name), point_count, count, list.type);
+    const std::size_t cell_count = kinds_.size() - cells_before;
+    if (point_count == 0 && cell_count == 0) return;
+    attributes(node.child("PointData"), Field::On::Vertices, point_count);
+    attributes(node.child("CellData"), Field::On::Elements, cell_count);
+    end_piece(node, std::array<std::string_view, 4>{"Verts", "Lines", "Strips", "Polys"});
+  }
+
+  /// `cells`: the names of its elements that hold cells.
+  void end_piece(pugi::xml_node node, std::span<const std::string_view> cells) {
     for (const pugi::xml_node child : node) {
       const std::string_view name = child.name();
-      const bool known = name == "Points" || name == "Cells" || name == "PointData" || name == "CellData";
+      const bool known = name == "Points" || name == "PointData" || name == "CellData" || std::ranges::find(cells, name) != cells.end();
       if (!known && child.type() == pugi::node_element) source_.add_only_in_file(fmt::format("the element {}", name));
     }
     pieces_read_ = true;
@@ -225,8 +256,8 @@ class VtuReader {
     points_.push_back({array, count, end});
   }
 
-  void cells(pugi::xml_node piece, std::size_t points, std::size_t count) {
-    const pugi::xml_node cells = piece.child("Cells");
+  /// `type`: VTK's, of all of them; none: the file lists theirs.
+  void cells(pugi::xml_node piece, pugi::xml_node cells, std::size_t points, std::size_t count, std::optional<std::int64_t> type) {
     std::optional<VtuArray> connectivity, offsets, types;
     for (const pugi::xml_node node : cells.children("DataArray")) {
       const std::string_view name = node.attribute("Name").value();
@@ -240,7 +271,8 @@ class VtuReader {
         source_.add_only_in_file(fmt::format("cell array \"{}\"", name));
       }
     }
-    if (!cells || !connectivity || !offsets || !types) document_.fail(cells ? cells : piece, "Cells need connectivity, offsets and types");
+    if (!cells || !connectivity || !offsets || !(types || type))
+      document_.fail(cells ? cells : piece, type ? "cells need connectivity and offsets" : "Cells need connectivity, offsets and types");
     const std::vector<std::int64_t> ends = wholes(*offsets, count);
     for (std::size_t c = 0; c < count; ++c) {
       if (ends[c] < (c == 0 ? 0 : ends[c - 1]))
@@ -248,7 +280,8 @@ class VtuReader {
     }
     const std::size_t corners = count == 0 ? 0 : static_cast<std::size_t>(ends.back());
     if (corners >= kNoIndex - cells_.corners.size()) document_.fail(offsets->node, "more corners than this program can hold");
-    add_cells(ends, wholes(*connectivity, corners), wholes(*types, count), points, *connectivity, *types);
+    add_cells(ends, wholes(*connectivity, corners), type ? std::vector(count, *type) : wholes(*types, count), points, *connectivity,
+              types ? *types : *connectivity);
   }
 
   void add_cells(const std::vector<std::int64_t>& ends, const std::vector<std::int64_t>& corners, const std::vector<std::int64_t>& types,
@@ -420,13 +453,22 @@ class VtuReader {
   bool pieces_read_ = false;
 };
 
-/// An element VTKFile at the begin, behind a declaration and comments.
-bool recognises_vtu(std::string_view bytes) {
+/// An element VTKFile at the begin, behind a declaration and comments: its attributes; empty where there is none.
+std::string_view vtk_file_tag(std::string_view bytes) {
   constexpr std::size_t kLook = 4096;
   const std::string_view begin = bytes.substr(0, kLook);
-  const std::size_t first = begin.find_first_not_of(" \t\r\n\xef\xbb\xbf");
-  return first != std::string_view::npos && begin[first] == '<' && begin.find("<VTKFile") != std::string_view::npos;
+  const std::size_t first = begin.find_first_not_of(" \t\r\n\xef\xbb\xbf"), tag = begin.find("<VTKFile");
+  if (first == std::string_view::npos || begin[first] != '<' || tag == std::string_view::npos) return {};
+  return begin.substr(tag, begin.find('>', tag) - tag);
 }
+bool is_of_poly_data(std::string_view tag) {
+  return tag.find("\"PolyData\"") != std::string_view::npos || tag.find("'PolyData'") != std::string_view::npos;
+}
+bool recognises_vtu(std::string_view bytes) {
+  const std::string_view tag = vtk_file_tag(bytes);
+  return !tag.empty() && !is_of_poly_data(tag);
+}
+bool recognises_vtp(std::string_view bytes) { return is_of_poly_data(vtk_file_tag(bytes)); }
 
 }  // namespace
 
@@ -438,6 +480,16 @@ const FormatHandler& vtu_format() {
       .recognises = recognises_vtu,
       .read = read_vtu,
       .write = write_vtu,
+      .patch = patch_vtu};
+  return handler;
+}
+
+const FormatHandler& vtp_format() {
+  static const FormatHandler handler{
+      .info = {"vtp", "VTP", ".vtp", "triangles and quadrilaterals, point and cell data; VTK's XML PolyData, encoded as VTU is"},
+      .recognises = recognises_vtp,
+      .read = read_vtu,
+      .write = write_vtp,
       .patch = patch_vtu};
   return handler;
 }

@@ -40,30 +40,34 @@ ScalarType type_of(const Field& field) {
 
 class VtuWriter {
  public:
-  VtuWriter(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context)
-      : file_(file),
+  /// `poly`: as PolyData.
+  VtuWriter(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context, bool poly)
+      : poly_(poly),
+        file_(file),
         mesh_(mesh),
         positions_(positions),
         context_(context),
         encoding_{kBigEndian, ScalarType::UInt64, true, false, kBlockBytes} {}
 
   Notes write() {
+    const std::string_view dataset = poly_ ? "PolyData" : "UnstructuredGrid";
     xml_ = fmt::format(
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"{}\" header_type=\"UInt64\" "
-        "compressor=\"vtkZLibDataCompressor\">\n  <UnstructuredGrid>\n    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
-        kBigEndian ? "BigEndian" : "LittleEndian", positions_.size(), mesh_.elements.size());
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"{0}\" version=\"1.0\" byte_order=\"{1}\" header_type=\"UInt64\" "
+        "compressor=\"vtkZLibDataCompressor\">\n  <{0}>\n    <Piece NumberOfPoints=\"{2}\" {3}=\"{4}\">\n",
+        dataset, kBigEndian ? "BigEndian" : "LittleEndian", positions_.size(),
+        poly_ ? "NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys" : "NumberOfCells", mesh_.elements.size());
     data(Field::On::Vertices, "PointData", positions_.size());
     data(Field::On::Elements, "CellData", mesh_.elements.size());
     points();
     cells();
-    xml_ += "    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n   _";
+    xml_ += fmt::format("    </Piece>\n  </{}>\n  <AppendedData encoding=\"raw\">\n   _", dataset);
     TextWriter out(file_, context_);
     out << xml_;
     for (const std::string& one : appended_) out.bytes(one);
     out << "\n  </AppendedData>\n</VTKFile>\n";
     out.finish();
     Notes notes;
-    note_dropped(mesh_, kept_, {}, "VTU", notes);
+    note_dropped(mesh_, kept_, {}, poly_ ? "VTP" : "VTU", notes);
     return notes;
   }
 
@@ -107,15 +111,15 @@ class VtuWriter {
       corners.insert(corners.end(), own.begin(), own.end());
     }
     const auto offsets = mesh_.elements.offsets();
-    xml_ += "      <Cells>\n";
+    const std::string_view list = poly_ ? "Polys" : "Cells";
+    xml_ += fmt::format("      <{}>\n", list);
     array("connectivity", ScalarType::Int64, 1,
           bytes_of(ScalarType::Int64, corners.size(), [&](std::size_t i) { return static_cast<double>(corners[i]); }));
     array("offsets", ScalarType::Int64, 1,
           bytes_of(ScalarType::Int64, n, [&](std::size_t e) { return static_cast<double>(offsets[e + 1]); }));
-    array("types", ScalarType::UInt8, 1, bytes_of(ScalarType::UInt8, n, [&](std::size_t e) {
-            return static_cast<double>(vtk_cell_type(mesh_.elements.kind(static_cast<Index>(e))));
-          }));
-    xml_ += "      </Cells>\n";
+    const auto type = [&](std::size_t e) { return static_cast<double>(vtk_cell_type(mesh_.elements.kind(static_cast<Index>(e)))); };
+    if (!poly_) array("types", ScalarType::UInt8, 1, bytes_of(ScalarType::UInt8, n, type));
+    xml_ += fmt::format("      </{}>\n", list);
   }
 
   void data(Field::On on, std::string_view element, std::size_t count) {
@@ -150,6 +154,7 @@ class VtuWriter {
     xml_ += fmt::format("      </{}>\n", element);
   }
 
+  bool poly_;
   AtomicFile& file_;
   const Mesh& mesh_;
   std::span<const Vec3> positions_;
@@ -166,7 +171,12 @@ class VtuWriter {
 std::string_view vtu_type_word(const Field& field) { return vtu_word(type_of(field)); }
 
 Notes write_vtu(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {
-  return VtuWriter(file, mesh, positions, context).write();
+  return VtuWriter(file, mesh, positions, context, false).write();
+}
+
+Notes write_vtp(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {
+  require_surface_elements(file, mesh, "VTP");
+  return VtuWriter(file, mesh, positions, context, true).write();
 }
 
 }  // namespace dmoscope

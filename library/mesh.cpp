@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/same_bits.h"
 #include "core/io/mesh_io.h"
 #include "core/io/reading/binary_scalar.h"
 #include "core/io/source_again.h"
@@ -122,7 +123,7 @@ std::size_t corner_count(CellKind kind) { return info(static_cast<ElementKind>(k
 
 std::shared_ptr<const InputMesh> Mesh::Data::prepared(dmoscope::Progress& progress) const {
   if (!moved) return input;
-  dmoscope::Mesh mesh = input->mesh;
+  dmoscope::Mesh mesh = with_fields(input->mesh, fields);
   mesh.positions = *moved;
   // As the elements came in: what is reversed is noted anew.
   for (std::size_t e = 0; e < mesh.flipped.size(); ++e)
@@ -149,11 +150,22 @@ const Mesh::Data::Arrays& Mesh::Data::arrays() const {
   return arrays_;
 }
 
-Mesh moved_mesh(const Mesh& mesh, std::vector<Vec3> positions) {
+std::vector<dmoscope::FieldValues> Mesh::Data::fields_since(const dmoscope::Mesh& before) const {
+  const dmoscope::Mesh now = with_fields(input->mesh, fields);
+  std::vector<dmoscope::FieldValues> changed;
+  for (std::size_t f = 0; f < std::min(before.fields.size(), now.fields.size()); ++f) {
+    const std::vector<double>&then = before.fields[f].values, &values = now.fields[f].values;
+    if (!std::ranges::equal(then, values, [](double a, double b) { return dmoscope::same_bits(a, b); })) changed.push_back({f, values});
+  }
+  return changed;
+}
+
+Mesh moved_mesh(const Mesh& mesh, std::vector<Vec3> positions, std::vector<dmoscope::FieldValues> fields) {
   auto data = std::make_shared<Mesh::Data>();
   data->input = mesh.data()->input;
   data->as_read = mesh.data()->as_read;
   data->moved = std::make_shared<const std::vector<Vec3>>(std::move(positions));
+  data->fields = std::move(fields);
   return Mesh(std::shared_ptr<const Mesh::Data>(std::move(data)));
 }
 
@@ -182,7 +194,9 @@ Mesh Mesh::read(const std::string& path, const Progress& progress) {
 std::vector<std::string> Mesh::write(const std::string& path, const Progress& progress) const {
   return translated([&] {
     const bool again = data_->as_read && writes_source_again(path, *data_->as_read);
-    return write_mesh(path, again ? *data_->as_read : data_->input->mesh, data_->positions(), {progress.state().progress, nullptr});
+    const dmoscope::Mesh& mesh = again ? *data_->as_read : data_->input->mesh;
+    const auto changed = again ? data_->fields_since(mesh) : data_->fields;
+    return write_mesh(path, mesh, {data_->positions(), changed}, {progress.state().progress, nullptr});
   });
 }
 
@@ -204,7 +218,10 @@ Cells Mesh::cells() const {
   return {arrays.kinds.size(), arrays.kinds.data(), arrays.offsets.data(), arrays.connectivity.data()};
 }
 std::vector<CellData> Mesh::cell_data() const { return numbers_of(data_->input->mesh, Field::On::Elements); }
-std::vector<PointData> Mesh::point_data() const { return numbers_of(data_->input->mesh, Field::On::Vertices); }
+std::vector<PointData> Mesh::point_data() const {
+  if (data_->fields.empty()) return numbers_of(data_->input->mesh, Field::On::Vertices);
+  return numbers_of(with_fields(data_->input->mesh, data_->fields), Field::On::Vertices);
+}
 std::vector<CellGroup> Mesh::cell_groups() const {
   std::vector<CellGroup> all;
   for (const dmoscope::Group& group : data_->input->mesh.groups)
@@ -217,7 +234,7 @@ const std::uint8_t* Mesh::boundary() const { return data_->input->topology.bound
 
 Mesh Mesh::with_positions(const double* positions, const Progress& progress) const {
   return translated([&] {
-    const Mesh moved = moved_mesh(*this, vectors(positions, vertex_count()));
+    const Mesh moved = moved_mesh(*this, vectors(positions, vertex_count()), data_->fields);
     auto data = std::make_shared<Data>();
     data->input = moved.data()->prepared(progress.state().progress);
     data->as_read = data_->as_read;

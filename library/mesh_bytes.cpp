@@ -42,7 +42,8 @@ struct MeshParts {
   std::vector<Vec3> positions, moved, as_read;  // the last two may be empty, see Mesh::Data
   std::vector<CellKind> kinds;
   std::vector<Index> offsets, connectivity;  // as they came in
-  std::vector<Field> fields;
+  std::vector<Field> fields, fields_as_read;
+  std::vector<dmoscope::FieldValues> moved_fields;
   std::vector<Group> groups;
   bool single_precision = false;
   std::vector<SourceParts> source;  // one, or none
@@ -50,7 +51,16 @@ struct MeshParts {
 
 template <class Archive>
 void pass(Archive& archive, Field& f) {
+<<<<<<< HEAD
   archive(f.name, f.on, f.components, f.type, f.role, f.values, f.said_material);
+=======
+  archive(f.name, f.on, f.components, f.type, f.role, f.values, f.place.begin, f.place.words, f.place.with_positions, f.place.at,
+          f.place.bytes, f.place.array, f.place.rows);
+}
+template <class Archive>
+void pass(Archive& archive, dmoscope::FieldValues& v) {
+  archive(v.field, v.values);
+>>>>>>> 3f90fe56 (fields: depth and temperature stay with places)
 }
 template <class Archive>
 void pass(Archive& archive, Group& g) {
@@ -65,8 +75,8 @@ void pass(Archive& archive, SourceParts& s) {
 }
 template <class Archive>
 void pass(Archive& archive, MeshParts& m) {
-  archive(m.name, m.title, m.path, m.positions, m.moved, m.as_read, m.kinds, m.offsets, m.connectivity, m.fields, m.groups,
-          m.single_precision, m.source);
+  archive(m.name, m.title, m.path, m.positions, m.moved, m.as_read, m.kinds, m.offsets, m.connectivity, m.fields, m.fields_as_read,
+          m.moved_fields, m.groups, m.single_precision, m.source);
 }
 
 template <class T>
@@ -242,6 +252,8 @@ std::string Mesh::to_bytes() const {
                   .offsets = arrays.offsets,
                   .connectivity = arrays.connectivity,
                   .fields = mesh.fields,
+                  .fields_as_read = data_->as_read ? data_->as_read->fields : std::vector<Field>(),
+                  .moved_fields = data_->fields,
                   .groups = mesh.groups,
                   .single_precision = mesh.single_precision,
                   .source = {}};
@@ -274,9 +286,13 @@ Mesh Mesh::from_bytes(std::string_view bytes, const Progress& progress) {
     if (!parts.as_read.empty()) {
       auto as_read = std::make_shared<dmoscope::Mesh>(mesh);
       as_read->positions = std::move(parts.as_read);
+      as_read->fields = std::move(parts.fields_as_read);
       data->as_read = std::move(as_read);
     }
     if (!parts.moved.empty()) data->moved = std::make_shared<const std::vector<Vec3>>(std::move(parts.moved));
+    for (const dmoscope::FieldValues& one : parts.moved_fields)
+      if (one.field >= parts.fields.size() || one.values.size() != parts.fields[one.field].values.size()) refuse();
+    data->fields = std::move(parts.moved_fields);
     mesh.positions = std::move(parts.positions);
     mesh.fields = std::move(parts.fields);
     mesh.groups = std::move(parts.groups);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/input/input_mesh.h"
+#include "core/mesh/moved_mesh.h"
 #include "library/include/dmoscope/mesh.h"
 
 namespace dmo {
@@ -19,9 +20,12 @@ struct Progress::State {
 struct Mesh::Data {
   std::shared_ptr<const dmoscope::InputMesh> input;
   std::shared_ptr<const std::vector<dmoscope::Vec3>> moved;  // null: where `input` has them
+  std::vector<dmoscope::FieldValues> fields;                 // nodal fields that have other numbers there than `input` has
   std::shared_ptr<const dmoscope::Mesh> as_read;  // with the positions of the file that it was read from; null: as `input` has it
 
   [[nodiscard]] std::span<const dmoscope::Vec3> positions() const { return moved ? *moved : input->mesh.positions; }
+  /// What `input` has become since it was read as `before`.
+  [[nodiscard]] std::vector<dmoscope::FieldValues> fields_since(const dmoscope::Mesh& before) const;
   /// The mesh as it is prepared at its own positions, which is `input` where nothing has moved.
   [[nodiscard]] std::shared_ptr<const dmoscope::InputMesh> prepared(dmoscope::Progress& progress) const;
 
@@ -40,7 +44,7 @@ struct Mesh::Data {
 /// Throws dmoscope::InputError for cells that cannot be.
 void add_cells(dmoscope::ElementTable& elements, const Cells& cells, std::size_t vertices);
 
-/// The same mesh with its vertices elsewhere.
-[[nodiscard]] Mesh moved_mesh(const Mesh& mesh, std::vector<dmoscope::Vec3> positions);
+/// The same mesh with its vertices elsewhere, and with these numbers in its fields.
+[[nodiscard]] Mesh moved_mesh(const Mesh& mesh, std::vector<dmoscope::Vec3> positions, std::vector<dmoscope::FieldValues> fields);
 
 }  // namespace dmo

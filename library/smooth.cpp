@@ -8,6 +8,7 @@
 #include "core/run/crossing_faces.h"
 #include "core/run/ending.h"
 #include "core/run/run.h"
+#include "core/transfer/moved_fields.h"
 #include "library/mesh_data.h"
 #include "library/run_options.h"
 #include "library/statistics.h"
@@ -51,12 +52,13 @@ Smoothed smooth(const Mesh& mesh, const SmoothOptions& options) {
     try {
       input = mesh.data()->prepared(progress);
     } catch (const dmoscope::Cancelled&) {
-      return Smoothed{mesh, {}, 0, false, true, "cancelled", {}};
+      return Smoothed{mesh, {}, 0, false, true, "cancelled", {}, {}};
     }
     RunRequest request = request_of(*input, options);
     auto pool = std::make_shared<dmoscope::ThreadPool>(options.threads);
     dmoscope::Run run(input, request.parameters, pool, 0);  // no past positions: nobody asks for them
-    Smoothed result{mesh, {}, 0, false, false, {}, std::move(request.warnings)};
+    require_fields(request.parameters.fields, input->mesh);
+    Smoothed result{mesh, {}, 0, false, false, {}, std::move(request.warnings), {}};
     if (std::string warning = run.take_warning(); !warning.empty()) result.warnings.push_back(std::move(warning));
     if (run.size_field() && !run.size_field()->note().empty()) result.warnings.push_back(run.size_field()->note());
     advance(run, request, options, result);
@@ -65,7 +67,10 @@ Smoothed smooth(const Mesh& mesh, const SmoothOptions& options) {
     if (const auto left = find_left_inverted(run)) result.warnings.push_back(left->sentence());
     if (const auto crossing = find_crossing_faces(run)) result.warnings.push_back(crossing->sentence());
     const auto positions = run.positions();
-    result.mesh = moved_mesh(mesh, {positions.begin(), positions.end()});
+    dmoscope::Progress unwatched;  // what was done until a cancel is kept whole
+    dmoscope::MovedFields fields = move_fields(*mesh.data()->input, request.parameters.fields, positions, pool.get(), unwatched);
+    result.fields = fields.sentence();
+    result.mesh = moved_mesh(mesh, {positions.begin(), positions.end()}, std::move(fields.values));
     return result;
   });
 }

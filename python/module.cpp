@@ -214,7 +214,7 @@ py::tuple smooth(const dmo::Mesh& mesh, dmo::SmoothOptions options, const py::ob
   dmo::Smoothed smoothed = future.get();
   const bool interrupted = raised.has_value();
   return py::make_tuple(smoothed.mesh, history_of(smoothed.history), smoothed.iteration, smoothed.converged, smoothed.cancelled,
-                        interrupted, smoothed.sentence, smoothed.warnings);
+                        interrupted, smoothed.sentence, smoothed.warnings, smoothed.fields);
 }
 
 py::dict trace(const dmo::Mesh& mesh, dmo::Index vertex, const dmo::SmoothOptions& options) {

@@ -143,6 +143,9 @@ Json json_of(const SmoothReport& r) {
   if (r.crossing) object["crossing_faces"] = {{"before", r.crossing->before}, {"after", r.crossing->after}};
   object["report_card"] = r.card ? json_of(*r.card) : Json(nullptr);
   object["held_by"] = r.held ? json_of(*r.held) : Json(nullptr);
+  std::vector<std::string> carried = r.fields.whole;
+  carried.insert(carried.end(), r.fields.carried.begin(), r.fields.carried.end());
+  object["fields"] = {{"placed", r.fields.placed}, {"carried", carried}, {"sentence", r.fields.sentence()}};
   object["before"] = json_of(r.before().statistics, r.inside_alone_before);
   object["after"] = json_of(r.after().statistics, r.left ? r.left->all.inside_alone : 0);
   add_composite(object, r.run);
@@ -172,6 +175,7 @@ void print_summary(const SmoothReport& r) {
     for (const std::string& line : r.card->lines()) print("  {}\n", line);
   print("  {} in {:.3f} s, {}vertices/s on {}\n", counted(r.outcome.iterations, "iteration", "iterations"), r.seconds,
         with_prefix(r.visits_per_second()), where_computed(r));
+  if (const std::string fields = r.fields.sentence(); !fields.empty()) print("  fields: {}\n", fields);
   print("  wrote {}\n", r.output.string());
 }
 

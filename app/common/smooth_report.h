@@ -14,6 +14,7 @@
 #include "core/run/ending.h"
 #include "core/run/report_card.h"
 #include "core/run/run.h"
+#include "core/transfer/moved_fields.h"
 
 namespace dmoscope::app {
 
@@ -33,6 +34,7 @@ struct SmoothReport {
   std::optional<CrossingFaces> crossing{};  // likewise
   std::optional<ReportCard> card{};         // likewise; none where many processes have the mesh
   std::optional<HeldMinimum> held{};        // likewise
+  MovedFields fields{};                     // nodal fields as they were written
   std::vector<std::string> warnings{};
   std::optional<Provenance> provenance{};
 

@@ -133,6 +133,10 @@ int smooth(const World& world, const SharedSmoothOptions& options) {
   if (mesh.findings.held > 0 && parameters.interfaces == InterfaceRule::Fixed)
     warn(fmt::format("{}: {} vertices on interfaces and lines stay (--interfaces free moves them)", mesh.input->mesh.name,
                      mesh.findings.held));
+  const std::vector<std::string> nodal = file->nodal_fields();
+  if (!nodal.empty() && (parameters.fields.all == FieldRule::Place || !parameters.fields.named.empty()))
+    warn(fmt::format("{}: {} carried with the vertices: several ranks take no fields anew at new places, dmoscope alone does",
+                     mesh.input->mesh.name, fmt::format("{} {}", fmt::join(nodal, ", "), nodal.size() == 1 ? "is" : "are")));
   parameters.fixed = mesh.named;
   world.together([&] {
     require_executable(Backend::Cpu, {},
@@ -180,6 +184,7 @@ int smooth(const World& world, const SharedSmoothOptions& options) {
                             .seconds = seconds,
                             .inside_alone_before = inside_before,
                             .left = std::move(left),
+                            .fields = {.values = {}, .placed = {}, .whole = {}, .carried = nodal},
                             .warnings = std::move(warnings)};
   if (world.is_first()) print_report(report, options.json);
   return all_well(report, false) ? 0 : 1;

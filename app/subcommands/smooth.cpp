@@ -34,6 +34,7 @@
 #include "core/run/recipe.h"
 #include "core/run/retry_on_cpu.h"
 #include "core/session/session.h"
+#include "core/transfer/moved_fields.h"
 
 namespace dmoscope::app {
 namespace {
@@ -67,12 +68,13 @@ void refuse_early(const SmoothOptions& options) {
 }
 
 /// The mesh and the statistics: none takes its place before both are on the disk. Returns what the mesh's format could not carry.
-std::vector<std::string> write_results(const SmoothOptions& options, const Run& run, const std::optional<Provenance>& provenance,
-                                       const IoContext& context) {
+std::vector<std::string> write_results(const SmoothOptions& options, const Run& run, const MovedFields& fields,
+                                       const std::optional<Provenance>& provenance, const IoContext& context) {
   AtomicFiles others;
   if (!options.stats.empty()) others.add(options.stats, stats_of(run));
   const std::string comment = options.provenance ? comment_of(*provenance) : std::string();
-  std::vector<std::string> sentences = write_commented_mesh(options.output, run.input().mesh, run.positions(), context, comment);
+  std::vector<std::string> sentences =
+      write_commented_mesh(options.output, run.input().mesh, {run.positions(), fields.values}, context, comment);
   others.commit();
   return sentences;
 }
@@ -123,6 +125,7 @@ int smooth(const SmoothOptions& options) {
       load_input_on(options.input, options.surface, Need::Smoothing, {progress, pool.get(), options.memory.bytes()}, options.materials);
   std::vector<std::string> warnings = tell_findings(*input);
   parameters.fixed = vertices_to_fix(input->mesh, options.run.fix);
+  require_fields(parameters.fields, input->mesh);
   parameters.kinds = kinds_of(*input, parameters, options.run.kinds, warnings);
   tell_interfaces(*input, parameters, warnings);
   const auto warn = [&warnings](std::string sentence) {
@@ -158,7 +161,9 @@ int smooth(const SmoothOptions& options) {
   std::optional<LeftInverted> left = find_left_inverted(run);
   std::optional<Provenance> provenance;
   if (options.json || options.provenance) provenance = provenance_of(input->mesh, options.command_line);
-  for (std::string& sentence : write_results(options, run, provenance, {progress, pool.get()})) {
+  progress.begin("taking fields anew");
+  MovedFields fields = move_fields(*input, run.parameters().fields, run.positions(), pool.get(), progress);
+  for (std::string& sentence : write_results(options, run, fields, provenance, {progress, pool.get()})) {
     complain(fmt::format("{}: {}", options.output.string(), sentence));
     warnings.push_back(std::move(sentence));
   }
@@ -185,6 +190,7 @@ int smooth(const SmoothOptions& options) {
                             .crossing = crossing,
                             .card = report_card(run, pool.get()),
                             .held = std::move(held),
+                            .fields = std::move(fields),
                             .warnings = std::move(warnings),
                             .provenance = std::move(provenance)};
   print_report(result, options.json);

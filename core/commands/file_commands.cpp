@@ -12,6 +12,7 @@
 #include "core/session/csv.h"
 #include "core/session/original_copy.h"
 #include "core/session/state_file.h"
+#include "core/transfer/moved_fields.h"
 
 namespace dmoscope {
 
@@ -68,9 +69,12 @@ void generate(CommandContext& context, Arguments arguments) {
 /// The active run's mesh; says so, and what else a person should know.
 void write_active(CommandContext& context, const std::string& file, const std::string& said) {
   const Run& run = context.session.active();
-  std::vector<std::string> notes = write_mesh(file, run.input().mesh, run.positions(), context.progress);
+  const MovedFields fields =
+      move_fields(run.input(), run.parameters().fields, run.positions(), context.session.pool().get(), context.progress);
+  std::vector<std::string> notes = write_mesh(file, run.input().mesh, {run.positions(), fields.values}, context.progress);
   context.session.note_exported(file);
   tell(context, said);
+  if (const std::string sentence = fields.sentence(); !sentence.empty()) tell(context, fmt::format("fields: {}", sentence));
   for (std::string& note : notes) tell(context, std::move(note), Message::Kind::Warning);  // last, where the status bar shows it
 }
 

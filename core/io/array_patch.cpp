@@ -71,6 +71,22 @@ bool CoordinateArrays::describe(CoordinateLayout& layout) const {
   return true;
 }
 
+std::vector<ArrayValues> changed_arrays(ArrayFile& file, const Mesh& mesh, std::span<const FieldValues> fields, Notes& notes) {
+  std::vector<ArrayValues> changed;
+  for (const FieldValues& one : fields) {
+    const Field& field = mesh.fields[one.field];
+    if (field.place.array.empty()) {
+      notes.push_back(fmt::format("Field \"{}\" was carried: where it stands in the file is not known.", field.name));
+      continue;
+    }
+    auto array = std::ranges::find(changed, field.place.array, &ArrayValues::name);
+    if (array == changed.end()) array = changed.insert(changed.end(), {field.place.array, file.numbers(field.place.array)});
+    if (field.place.begin + one.values.size() <= array->values.size())
+      std::ranges::copy(one.values, array->values.begin() + static_cast<std::ptrdiff_t>(field.place.begin));
+  }
+  return changed;
+}
+
 void CoordinateArrays::renumber(std::span<const Index> vertex_of) {
   for (CoordinateArray& array : arrays_) {
     if (array.vertices.empty()) {
@@ -82,13 +98,12 @@ void CoordinateArrays::renumber(std::span<const Index> vertex_of) {
 }
 
 std::string CoordinateArrays::replaced(ArrayFile& file, std::span<const Vec3> before, std::span<const Vec3> moved,
-                                       const std::string& target, Notes& notes) const {
+                                       const std::string& target, Notes& notes, std::vector<ArrayValues> changed) const {
   CoordinateLayout layout;
   (void)describe(layout);
   for (std::size_t v = 0; v < moved.size() && layout.components == 2; ++v) {
     if (moved[v].z != 0.0) throw OutputError(target, fmt::format("vertex {} has z = {}, but the file holds only x and y", v, moved[v].z));
   }
-  std::vector<ArrayValues> changed;
   std::size_t rounded = 0;
   for (const CoordinateArray& array : arrays_) {
     ArrayValues values{array.name, file.numbers(array.name)};

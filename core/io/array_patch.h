@@ -33,16 +33,20 @@ class CoordinateArrays {
   /// What SourceFile::layout() should say. A whole-number type cannot be written again: false.
   [[nodiscard]] bool describe(CoordinateLayout& layout) const;
 
-  /// The file's bytes with the coordinates in which `moved` differs from `before`; `notes` say what was rounded. `target` is what errors
-  /// call the file that is written. Throws OutputError (z of a file that has none; too large for a float).
+  /// The file's bytes with the coordinates in which `moved` differs from `before`, and with the arrays that `changed` besides; `notes` say
+  /// what was rounded. `target` is what errors call the file that is written. Throws OutputError (z of a file that has none; too large for
+  /// a float).
   [[nodiscard]] std::string replaced(ArrayFile& file, std::span<const Vec3> before, std::span<const Vec3> moved, const std::string& target,
-                                     Notes& notes) const;
+                                     Notes& notes, std::vector<ArrayValues> changed = {}) const;
   /// The vertices have other numbers: vertex_of[the number so far].
   void renumber(std::span<const Index> vertex_of);
 
  private:
   std::vector<CoordinateArray> arrays_;
 };
+
+/// The arrays that Field::Place names, with the numbers that changed; a field without a place is told in the notes.
+[[nodiscard]] std::vector<ArrayValues> changed_arrays(ArrayFile& file, const Mesh& mesh, std::span<const FieldValues> fields, Notes& notes);
 
 [[nodiscard]] bool same_positions(std::span<const Vec3> a, std::span<const Vec3> b) noexcept;
 

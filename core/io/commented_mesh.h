@@ -1,7 +1,6 @@
 #pragma once
 // Writes a mesh with a comment that says where it comes from.
 
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,7 +13,7 @@ namespace dmoscope {
 [[nodiscard]] std::string trailing_comment(std::string_view format, std::string_view comment);
 
 /// write_mesh() with a comment at the file's end (empty: none). A format without comments gets a sentence among those that are returned.
-std::vector<std::string> write_commented_mesh(const std::filesystem::path& path, const Mesh& mesh, std::span<const Vec3> positions,
+std::vector<std::string> write_commented_mesh(const std::filesystem::path& path, const Mesh& mesh, const MovedMesh& moved,
                                               const IoContext& context, std::string_view comment);
 
 }  // namespace dmoscope

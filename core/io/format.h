@@ -41,8 +41,8 @@ struct FormatHandler {
   /// Makes a file anew from `mesh` at `positions`. Does not name what SourceFile::only_in_file() holds (write_mesh does).
   /// Throws OutputError if the format cannot hold the mesh at all (its kinds of element, its z), Cancelled.
   Notes (*write)(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context);
-  /// Writes mesh.source again with moved coordinates. Null: write_patched() of patch_writer.h.
-  Notes (*patch)(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) = nullptr;
+  /// Writes mesh.source again with the numbers that changed. Null: write_patched() of patch_writer.h.
+  Notes (*patch)(AtomicFile& file, const Mesh& mesh, const MovedMesh& moved, const IoContext& context) = nullptr;
   /// Null: the format is one file. Otherwise read() finds it as SourceFile::companion(), and patching writes its bytes as they were.
   const CompanionFile* companion = nullptr;
   /// Further files that a mesh of this format is read from, besides a companion. Null: none. Throws InputError.

@@ -200,12 +200,11 @@ bool writes_source_again(const std::filesystem::path& path, const Mesh& mesh) {
   return handler != nullptr && can_patch(mesh, *handler);
 }
 
-std::vector<std::string> write_mesh(const std::filesystem::path& path, const Mesh& mesh, std::span<const Vec3> positions,
-                                    const IoContext& context) {
-  return write_commented_mesh(path, mesh, positions, context, {});
+std::vector<std::string> write_mesh(const std::filesystem::path& path, const Mesh& mesh, const MovedMesh& moved, const IoContext& context) {
+  return write_commented_mesh(path, mesh, moved, context, {});
 }
 
-std::vector<std::string> write_commented_mesh(const std::filesystem::path& path, const Mesh& mesh, std::span<const Vec3> positions,
+std::vector<std::string> write_commented_mesh(const std::filesystem::path& path, const Mesh& mesh, const MovedMesh& moved,
                                               const IoContext& context, std::string_view comment) {
   Progress& progress = context.progress;
   progress.begin("writing " + path.filename().string());
@@ -216,6 +215,7 @@ std::vector<std::string> write_commented_mesh(const std::filesystem::path& path,
   }
   const bool packed = path.extension().string() != extension;
   if (packed && handler->companion != nullptr) throw OutputError(path.string(), "files in pairs are written unpacked alone");
+  const std::span<const Vec3> positions = moved.positions;
   if (positions.size() != mesh.positions.size()) {
     throw UsageError(fmt::format("{}: {} positions for {} vertices", path.string(), positions.size(), mesh.positions.size()));
   }
@@ -233,12 +233,16 @@ std::vector<std::string> write_commented_mesh(const std::filesystem::path& path,
   }
   Notes notes;
   if (can_patch(mesh, *handler)) {
-    notes = (handler->patch != nullptr ? handler->patch : write_patched)(file, mesh, positions, context);
+    notes = (handler->patch != nullptr ? handler->patch : write_patched)(file, mesh, moved, context);
     if (const std::string& beside = mesh.source->beside(); !beside.empty())
-      notes.push_back(fmt::format("The fields of {} were not written: copy it, under the new name, beside the new mesh.", beside));
+      notes.push_back(
+          std::ranges::any_of(moved.fields, [&](const FieldValues& one) { return one.field >= mesh.source->first_beside(); })
+              ? fmt::format("The fields of {}, taken anew at the new places, were not written: a .vtu or .vtk holds them.", beside)
+              : fmt::format("The fields of {} were not written: copy it, under the new name, beside the new mesh.", beside));
     if (second) second->write(mesh.source->companion()->bytes());
   } else {
-    notes = write_anew(file, *handler, mesh, positions, context);
+    notes = moved.fields.empty() ? write_anew(file, *handler, mesh, positions, context)
+                                 : write_anew(file, *handler, with_fields(mesh, moved.fields), positions, context);
     if (second) handler->companion->write(*second, mesh, context);
   }
   if (handler != by_extension(extension))

@@ -9,6 +9,7 @@
 
 #include "core/io/reading/io_context.h"
 #include "core/mesh/mesh.h"
+#include "core/mesh/moved_mesh.h"
 
 namespace dmoscope {
 
@@ -47,15 +48,13 @@ struct FormatInfo {
 /// Throws InputError where read_mesh() would not know what format the file is, with the same words; Cancelled.
 void require_known_format(const std::filesystem::path& path, const IoContext& context);
 
-/// Writes `mesh` with `positions` in place of its own (mesh.positions.size() of them) to `path`, in the written_format(),
-/// packed by gzip where its name ends with .gz.
-/// When mesh.source is of that format, its bytes are written again and only the coordinates whose bits changed are replaced;
+/// Writes `mesh` with what it becomes in place of its own to `path`, in the written_format(), packed by gzip where its name ends with .gz.
+/// When mesh.source is of that format, its bytes are written again and only the numbers whose bits changed are replaced;
 /// otherwise the file is made anew: elements of the plane in the winding that they came in (mesh.flipped undone), volume elements as the
 /// format wants them. Written beside the target and renamed: on any failure the old file stands. A format of two files (.node, .ele) is
 /// read and written as both, whichever is named. No file that the mesh was read from is replaced, but those of itself when it is written to
 /// its own path; nor is one beside the target that did not belong to it. Returns one sentence for each thing the format could not carry.
 /// Throws OutputError, UsageError (unknown extension), Cancelled.
-std::vector<std::string> write_mesh(const std::filesystem::path& path, const Mesh& mesh, std::span<const Vec3> positions,
-                                    const IoContext& context);
+std::vector<std::string> write_mesh(const std::filesystem::path& path, const Mesh& mesh, const MovedMesh& moved, const IoContext& context);
 
 }  // namespace dmoscope

@@ -110,12 +110,20 @@ struct Field {
   std::string type = "double";  // the file's own word for its scalar ("float", "int", ...)
   std::string role;             // the file's own word for what it is ("SCALARS", "VECTORS", "depth", ...), may be empty
   std::vector<double> values;
+<<<<<<< HEAD
   bool said_material = false;  // a person said that it names materials, see name_materials()
   /// Where it stands in the text it was read from, for errors that are found late.
+=======
+  /// Where it stands in the file that it was read from: for errors that are found late, and to write it again.
+>>>>>>> 3f90fe56 (fields: depth and temperature stay with places)
   struct Place {
-    std::uint64_t begin = 0;      // the byte of its first word
-    std::uint32_t words = 0;      // from row to row; 0: not known
-    bool with_positions = false;  // each row on the line of its vertex
+    std::uint64_t begin = 0;      // the byte of its first row; of an array that has a name, the number of its first number
+    std::uint32_t words = 0;      // text: from row to row; 0: not known
+    bool with_positions = false;  // each row at the place of its vertex
+    std::uint32_t at = 0;         // from where a row begins to its first number: words; bytes in a binary file
+    std::uint32_t bytes = 0;      // binary: from row to row; 0: it is text, or not known
+    std::string array{};          // of a file of named arrays
+    std::vector<Index> rows{};    // the vertex or element of each row; empty: they come in their order, and all of them
   } place{};
 };
 

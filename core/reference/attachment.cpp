@@ -18,7 +18,7 @@ constexpr double kReach = 0.25;
 
 std::array<Index, 2> edge_of(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
 
-double distance_to_segment(Vec3 p, Vec3 a, Vec3 b) { return std::sqrt(nearest_point({a, b, b}, p).square); }
+double distance_to_segment(Vec3 p, Vec3 a, Vec3 b) { return std::sqrt(nearest_point(std::array{a, b, b}, p).square); }
 
 /// A tree of one patch.
 FacetTree tree_of(std::vector<std::array<Vec3, 3>> triangles) {

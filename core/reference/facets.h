@@ -8,7 +8,7 @@
 
 #include "core/mesh/mesh.h"
 #include "core/mesh/plane.h"
-#include "core/reference/facet_tree.h"
+#include "core/reference/simplex_tree.h"
 
 namespace dmoscope {
 

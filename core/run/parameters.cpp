@@ -213,6 +213,15 @@ const std::array kTable{
                   .from_text = [](P& p, Word word) { p.joint_gap = to_positive(word, 0.5, "gap of joint moves"); },
                   .in_title = [](const P& p) { return fmt::format("joint gap {:g}", p.joint_gap); },
                   .before = "0.0002"},
+    ParameterInfo{.name = "fields",
+                  .title = "fields",
+                  .type = "place|carry|NAME=place,...",
+                  .doc = "Whether nodal fields (depth, temperature) are written as the input has them at the vertices' new places or "
+                         "go along with the vertices: place, carry, or either for some by name (depth=carry). Whole numbers and sets go "
+                         "along in any case",
+                  .to_text = [](const P& p) { return to_text(p.fields); },
+                  .from_text = [](P& p, Word word) { p.fields = parse_field_rules(word); },
+                  .before = "place"},
     ParameterInfo{.name = "backend",
                   .title = "backend",
                   .type = "auto|cpu|cuda",

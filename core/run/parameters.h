@@ -18,6 +18,7 @@
 #include "core/search/parameters.h"
 #include "core/smooth/execution/accelerator.h"
 #include "core/smooth/execution/method_table.h"
+#include "core/transfer/field_rules.h"
 
 namespace dmoscope {
 
@@ -51,6 +52,7 @@ struct RunParameters {
   Kinds kinds{};                                        // of vertices and edges, what the user says against angles
   double joint_gap = JointOptions{}.gap;                // of joint moves, see JointOptions
   double max_deviation = 1e-3;                          // of the boundary, as a share of the diagonal of the mesh's box
+  FieldRules fields{};                                  // of nodal fields, when the mesh is written
   Backend backend = Backend::Auto;
   friend bool operator==(const RunParameters&, const RunParameters&) = default;
   [[nodiscard]] StandingRule standing() const { return {interfaces, boundary, corner_angle, feature_angle, kinds}; }

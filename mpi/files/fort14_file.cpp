@@ -41,6 +41,7 @@ class Fort14File final : public TextMeshFile {
     resolve(mine, parsed, strings, block);
     return block;
   }
+  std::vector<std::string> nodal_fields() const override { return {"depth"}; }
 
  private:
   struct Parsed {

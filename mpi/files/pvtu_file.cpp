@@ -13,6 +13,7 @@
 #include "core/io/mesh_io.h"
 #include "core/io/pvtu/pvtu.h"
 #include "core/io/vtu/vtu.h"
+#include "core/transfer/field_rules.h"
 #include "mpi/files/pvtu_numbering.h"
 #include "mpi/files/shared_mesh_file.h"
 #include "mpi/reading/byte_range.h"
@@ -109,6 +110,7 @@ class PvtuFile final : public SharedMeshFile {
     });
     return notes;
   }
+  std::vector<std::string> nodal_fields() const override { return nodal_fields_; }
 
  private:
   /// The program's own words for a piece; ghosts are left out.
@@ -137,11 +139,14 @@ class PvtuFile final : public SharedMeshFile {
   }
 
   /// Fields that not all of a rank's pieces have are left out, as those are that not all ranks have.
-  static void add_fields(const Mesh& piece, const PieceIds& ids, const FieldFilter& filter, Pieces& mine) {
+  void add_fields(const Mesh& piece, const PieceIds& ids, const FieldFilter& filter, Pieces& mine) {
     const bool is_first = mine.positions.size() == piece.positions.size();
     std::set<std::pair<std::string, Field::On>> met;  // of a name that comes twice the first
     for (const Field& field : piece.fields) {
       if (!met.emplace(field.name, field.on).second) continue;
+      if (field.on == Field::On::Vertices && !holds_whole_numbers(field) &&
+          std::ranges::find(nodal_fields_, field.name) == nodal_fields_.end())
+        nodal_fields_.push_back(field.name);
       if (field.components != 1 || !filter.wants(field.name, field.on)) continue;
       const auto known = std::find_if(mine.fields.begin(), mine.fields.end(),
                                       [&](const BlockField& one) { return one.name == field.name && one.on == field.on; });
@@ -270,6 +275,7 @@ class PvtuFile final : public SharedMeshFile {
   Ranges pieces_, block_vertices_;
   std::vector<Facts> facts_;         // of the rank's pieces
   std::vector<WholeIndex> numbers_;  // of the vertices of the rank's pieces, one after the other
+  std::vector<std::string> nodal_fields_;
 };
 
 }  // namespace

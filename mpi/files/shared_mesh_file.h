@@ -24,6 +24,8 @@ class SharedMeshFile {
   /// OutputError, and InputError where the file read has changed since (as SharedError on all). Returns what of this rank's part could not
   /// be kept, in sentences.
   [[nodiscard]] virtual std::vector<std::string> write(const std::filesystem::path& target, std::span<const Vec3> positions) = 0;
+  /// Names of the data at vertices, which go along with these; after read(), on the first rank.
+  [[nodiscard]] virtual std::vector<std::string> nodal_fields() const { return {}; }
 };
 
 /// By the extension: .vtu, .pvtu, .obj, .off, .14 or .grd. Throws UsageError for others. `world` must outlive it.

@@ -83,6 +83,7 @@ class VtuFile final : public SharedMeshFile {
     file_.reset();
     return output.commit();
   }
+  std::vector<std::string> nodal_fields() const override { return nodal_fields_; }
 
  private:
   struct Wanted {
@@ -161,6 +162,7 @@ class VtuFile final : public SharedMeshFile {
   void fields(const VtuDocument& document, pugi::xml_node data, Field::On on, std::uint64_t count, const FieldFilter& filter) {
     for (const pugi::xml_node node : data.children("DataArray")) {
       const std::string name = node.attribute("Name").value();
+      if (const auto any = document.array(node); any && on == Field::On::Vertices && !is_whole(any->type)) nodal_fields_.push_back(name);
       if (!filter.wants(name, on)) continue;
       const auto array = document.array(node);
       if (!array || array->components != 1) continue;
@@ -251,6 +253,7 @@ class VtuFile final : public SharedMeshFile {
   std::uint64_t points_count_ = 0, cells_count_ = 0;
   RawArray points_, corners_, ends_, types_;
   std::vector<Wanted> wanted_;
+  std::vector<std::string> nodal_fields_;
 };
 
 }  // namespace

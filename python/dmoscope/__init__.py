@@ -324,11 +324,17 @@ def _mesh_of(mesh) -> Mesh:
 
 
 def _given_back(original, mesh: Mesh):
-    """The mesh as the kind that the original is, with the original's data."""
+    """The mesh as the kind that the original is, with the original's data, but for point data that belong to places."""
     if isinstance(original, Mesh):
         return mesh
     given = original.copy() if hasattr(original, "copy") else copy.deepcopy(original)
     given.points = np.array(mesh.points[:, : np.shape(original.points)[1]])
+    for name, values in mesh.point_data.items():
+        if name not in given.point_data:
+            continue
+        before = np.asarray(given.point_data[name])
+        if not np.array_equal(_columns(before), values, equal_nan=before.dtype.kind == "f"):
+            given.point_data[name] = values.reshape(before.shape).astype(before.dtype)
     return given
 
 
@@ -365,6 +371,7 @@ class Smoothed:
     cancelled: bool  # by the callback or Ctrl+C; `mesh` is what there was then
     sentence: str  # why it ended
     warnings: List[str] = field(repr=False)
+    fields: str = field(default="", repr=False)  # what became of the point data
 
 
 def _options(iterations, until_converged, threads, fixed, points, words):
@@ -399,12 +406,12 @@ def smooth(mesh, iterations: Optional[int] = None, *, until_converged: bool = Fa
         raise UsageError("iterations and until_converged: only one of them")
     prepared = _mesh_of(mesh)
     asked = _options(iterations, until_converged, threads, fixed, len(prepared.points), {"metric": metric, **options})
-    inner, history, iteration, converged, cancelled, interrupted, sentence, told = _dmoscope.smooth(prepared._mesh, asked, callback)
+    inner, history, iteration, converged, cancelled, interrupted, sentence, told, fields = _dmoscope.smooth(prepared._mesh, asked, callback)
     if interrupted and raise_on_interrupt:
         raise KeyboardInterrupt
     if interrupted:
         warnings.warn(f"interrupted after iteration {iteration}; the mesh is what there was then", RuntimeWarning, stacklevel=2)
-    return Smoothed(_given_back(mesh, Mesh._of(inner)), history, iteration, converged, cancelled, sentence, told)
+    return Smoothed(_given_back(mesh, Mesh._of(inner)), history, iteration, converged, cancelled, sentence, told, fields)
 
 
 @dataclass

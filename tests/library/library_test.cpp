@@ -336,6 +336,56 @@ TEST(Library, AResultCanBeSmoothedOn) {
   EXPECT_GE(dmo::statistics(on.mesh).minimum, on.history.front().statistics.minimum);
 }
 
+/// A depth of 10 x is one wherever vertices go; flags go along with them.
+TEST(Library, PointDataBelongToPlaces) {
+  const Arrays arrays = sheet(8);
+  dmo::PointData depth, flag;
+  depth.name = "depth";
+  flag.name = "flag";
+  for (std::size_t v = 0; v < arrays.positions.size() / 3; ++v) {
+    depth.values.push_back(10.0 * arrays.positions[3 * v] + 0.25);
+    flag.values.push_back(static_cast<double>(v % 3));
+  }
+  const dmo::Mesh mesh(arrays.positions.data(), arrays.positions.size() / 3, arrays.cells(), {}, {depth, flag});
+  const auto expect_depth = [&](const dmo::Mesh& moved) {
+    const auto data = moved.point_data();
+    ASSERT_EQ(data.size(), 2U);
+    for (std::size_t v = 0; v < moved.vertex_count(); ++v) EXPECT_NEAR(data[0].values[v], 10.0 * moved.positions()[3 * v] + 0.25, 1e-12);
+    EXPECT_EQ(data[1].values, flag.values);
+  };
+  const dmo::Smoothed once = dmo::smooth(mesh);
+  EXPECT_NE(once.mesh.point_data()[0].values, depth.values);
+  EXPECT_EQ(once.fields, "depth was taken anew at the new places (linear in the input's elements); flag was carried (whole numbers)");
+  expect_depth(once.mesh);
+  expect_depth(dmo::smooth(once.mesh).mesh);
+  expect_depth(dmo::Mesh::from_bytes(once.mesh.to_bytes()));
+  dmo::SmoothOptions carry;
+  carry.options["fields"] = "carry";
+  EXPECT_EQ(dmo::smooth(mesh, carry).mesh.point_data()[0].values, depth.values);
+  // Elsewhere by hand they are carried, from where they were last.
+  const dmo::Mesh elsewhere = once.mesh.with_positions(arrays.positions.data());
+  EXPECT_EQ(elsewhere.point_data()[0].values, once.mesh.point_data()[0].values);
+
+  const std::string file = (std::filesystem::temp_directory_path() / "dmoscope_library_depth.14").string();
+  const auto written = [&](const dmo::Mesh& what) {
+    (void)what.write(file);
+    std::ifstream stream(file);
+    return std::string(std::istreambuf_iterator<char>(stream), {});
+  };
+  (void)written(mesh);
+  const dmo::Mesh read = dmo::Mesh::read(file);
+  const dmo::Smoothed again = dmo::smooth(read);
+  const std::string bytes = written(again.mesh);
+  const dmo::Mesh back = dmo::Mesh::read(file);
+  for (std::size_t v = 0; v < back.vertex_count(); ++v)
+    EXPECT_NEAR(back.point_data()[0].values[v], 10.0 * back.positions()[3 * v] + 0.25, 1e-12);
+  // Written again by way of bytes and of other positions it is the same.
+  EXPECT_EQ(written(dmo::Mesh::from_bytes(again.mesh.to_bytes())), bytes);
+  EXPECT_EQ(written(again.mesh.with_positions(again.mesh.positions())), bytes);
+  EXPECT_EQ(written(dmo::Mesh::from_bytes(again.mesh.with_positions(again.mesh.positions()).to_bytes())), bytes);
+  std::filesystem::remove(file);
+}
+
 TEST(Library, WrongArraysAreRefusedByName) {
   const auto refused = [](const Arrays& arrays, const char* told) {
     try {

@@ -108,6 +108,7 @@ class Case(unittest.TestCase):
 
     def same_as_alone(self, mesh, options=(), ranks=(1, 2, 3), partitions=("hilbert",), threads=(1,)):
         want = self.folder / ("want" + mesh.suffix)
+        options = (*options, "--fields", "carry")  # as several ranks do
         code = subprocess.run([str(DMOSCOPE), "smooth", str(mesh), "-o", str(want), *map(str, options)], capture_output=True, timeout=240).returncode
         self.assertIn(code, (0, 1))
         for n in ranks:
@@ -123,6 +124,7 @@ class Case(unittest.TestCase):
     def pieces_same_as_alone(self, mesh, options, ranks):
         """By way of PVTU: pieces smoothed by many are what all of them smoothed by one are."""
         alone("convert", mesh, self.folder / "m.pvtu", "--pieces", 3)
+        options = (*options, "--fields", "carry")
         code = subprocess.run([str(DMOSCOPE), "smooth", str(self.folder / "m.pvtu"), "-o", str(self.folder / "want.pvtu"), *map(str, options)],
                               capture_output=True, timeout=240).returncode
         alone("convert", self.folder / "want.pvtu", self.folder / "want.vtk")
@@ -205,6 +207,16 @@ class SameBytes(Case):
         mesh.write_text(text)
         self.same_as_alone(mesh, ("--iterations", 4), ranks=(1, 3))
         self.same_as_alone(mesh, ("--iterations", 4, "--interfaces", "free"), ranks=(2,))
+
+    def test_that_fields_are_carried_is_said(self):
+        mesh = self.make("a.14")
+        done = mpirun(2, "smooth", mesh, "-o", self.folder / "o.14", "--json")
+        self.assertIn("depth is carried with the vertices", done.stderr)
+        self.assertEqual(json.loads(done.stdout)["fields"]["carried"], ["depth"])
+        self.assertNotIn("carried", mpirun(2, "smooth", mesh, "-o", self.folder / "p.14", "--fields", "carry").stderr)
+        self.assertEqual((self.folder / "o.14").read_bytes(), (self.folder / "p.14").read_bytes())
+        self.assertIn("depth is carried", mpirun(2, "smooth", self.vtu("m.vtu"), "-o", self.folder / "q.vtu").stderr)
+        self.assertNotIn("carried", mpirun(2, "smooth", self.make("a.obj"), "-o", self.folder / "o.obj").stderr)
 
     def test_shared_meshes(self):
         if not SHARED.is_dir():

@@ -333,6 +333,24 @@ def test_an_interrupt_at_once_keeps_the_mesh_or_is_raised(tmp_path):
         dmoscope.smooth(moved, iterations=10**6, raise_on_interrupt=True)
 
 
+def test_point_data_belong_to_places():
+    points, triangles, _ = sheet()
+    depth = 10 * points[:, 0] + 0.25
+    mesh = dmoscope.Mesh(points, {"triangle": triangles}, point_data={"depth": depth, "flag": np.arange(len(points)) % 3})
+    result = dmoscope.smooth(mesh)
+    assert (result.mesh.points != mesh.points).any()
+    assert np.allclose(result.mesh.point_data["depth"], 10 * result.mesh.points[:, 0] + 0.25, rtol=0, atol=1e-12)
+    assert (result.mesh.point_data["flag"] == mesh.point_data["flag"]).all()
+    assert result.fields.startswith("depth was taken anew")
+    assert (pickle.loads(pickle.dumps(result.mesh)).point_data["depth"] == result.mesh.point_data["depth"]).all()
+    assert (dmoscope.smooth(mesh, fields="carry").mesh.point_data["depth"] == depth).all()
+    meshio = pytest.importorskip("meshio")
+    given = meshio.Mesh(points, [("triangle", triangles)], point_data={"depth": depth.astype(np.float32), "flag": np.arange(len(points))})
+    back = dmoscope.smooth(given).mesh
+    assert back.point_data["depth"].dtype == np.float32 and np.allclose(back.point_data["depth"], 10 * back.points[:, 0] + 0.25, atol=1e-5)
+    assert (back.point_data["flag"] == given.point_data["flag"]).all()
+
+
 def test_meshes_can_be_pickled():
     points, triangles, _ = sheet()
     mesh = dmoscope.Mesh(points, {"triangle": triangles}, {"material": np.arange(len(triangles)) // 16}, {"depth": points[:, 0]})
@@ -362,10 +380,10 @@ def test_copies_are_smoothed_and_written_as_the_mesh_is(tmp_path, kind, extensio
 def test_new_places_are_written_in_the_file_s_own_format(coast, tmp_path):
     mesh = dmoscope.read(coast)
     moved = mesh.with_points(mesh.points * [2, 2, 1] + [1000, 0, 0])
-    smoothed = dmoscope.smooth(moved)
+    smoothed = dmoscope.smooth(moved, fields="carry")
     count = int(coast.read_text().split("\n")[1].split()[1])
     before = [line.split() for line in coast.read_text().splitlines()]
-    for one in (moved, smoothed.mesh, dmoscope.smooth(smoothed.mesh.with_points(moved.points)).mesh):
+    for one in (moved, smoothed.mesh, dmoscope.smooth(smoothed.mesh.with_points(moved.points), fields="carry").mesh):
         one.write(tmp_path / "new.14")
         after = [line.split() for line in (tmp_path / "new.14").read_text().splitlines()]
         nodes = slice(2, 2 + count)

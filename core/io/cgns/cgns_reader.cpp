@@ -15,6 +15,31 @@
 namespace dmoscope {
 namespace {
 
+/// The last solution of a zone at its vertices, and at its cells.
+struct CgnsSolutions {
+  std::optional<CgnsNode> of_vertices, of_cells;
+  std::size_t many = 0;
+  bool elsewhere = false;
+};
+
+CgnsSolutions read_solutions(const CgnsTree& tree, const CgnsZone& zone) {
+  CgnsSolutions found;
+  for (const CgnsNode& node : tree.children(zone.node, "FlowSolution_t")) {
+    const auto location = tree.child(node, "GridLocation_t");
+    const std::string where = location ? tree.text(*location) : "Vertex";
+    ++found.many;
+    if (where == "Vertex")
+      found.of_vertices = node;
+    else if (where == "CellCenter")
+      found.of_cells = node;
+    else
+      found.elsewhere = true;
+  }
+  return found;
+}
+
+bool has_rind(const CgnsTree& tree, const CgnsNode& solution) { return !tree.children(solution, "Rind_t").empty(); }
+
 class CgnsReader {
  public:
   CgnsReader(SourceFile& source, const IoContext& context)
@@ -51,27 +76,16 @@ class CgnsReader {
   }
 
   void solutions(const CgnsPoints& points, std::size_t z) {
-    const CgnsZone& zone = points.zones[z];
-    std::optional<CgnsNode> of_vertices, of_cells;
-    std::size_t many = 0;
-    for (const CgnsNode& node : tree_.children(zone.node, "FlowSolution_t")) {
-      const auto location = tree_.child(node, "GridLocation_t");
-      const std::string where = location ? tree_.text(*location) : "Vertex";
-      ++many;
-      if (where == "Vertex")
-        of_vertices = node;
-      else if (where == "CellCenter")
-        of_cells = node;
-      else
-        source_.add_only_in_file("solutions elsewhere than at vertices and cells");
-    }
-    if (many > std::size_t{of_vertices.has_value()} + std::size_t{of_cells.has_value()}) source_.add_only_in_file("earlier solutions");
-    if (of_vertices) solution(points, z, *of_vertices, Field::On::Vertices);
-    if (of_cells) solution(points, z, *of_cells, Field::On::Elements);
+    const CgnsSolutions found = read_solutions(tree_, points.zones[z]);
+    if (found.elsewhere) source_.add_only_in_file("solutions elsewhere than at vertices and cells");
+    if (found.many > std::size_t{found.of_vertices.has_value()} + std::size_t{found.of_cells.has_value()})
+      source_.add_only_in_file("earlier solutions");
+    if (found.of_vertices) solution(points, z, *found.of_vertices, Field::On::Vertices);
+    if (found.of_cells) solution(points, z, *found.of_cells, Field::On::Elements);
   }
 
   void solution(const CgnsPoints& points, std::size_t z, const CgnsNode& node, Field::On on) {
-    if (!tree_.children(node, "Rind_t").empty()) return source_.add_only_in_file("solutions with rind cells");
+    if (has_rind(tree_, node)) return source_.add_only_in_file("solutions with rind cells");
     const CgnsZone& zone = points.zones[z];
     const std::size_t expected = on == Field::On::Vertices ? zone.count : first_element_[z + 1] - first_element_[z];
     for (const CgnsNode& array : tree_.children(node, "DataArray_t")) {
@@ -140,15 +154,36 @@ Notes write_cgns(AtomicFile& file, const Mesh&, std::span<const Vec3>, const IoC
   throw OutputError(file.path().string(), "CGNS files are written only where one was read: write it as .vtu or .msh");
 }
 
-Notes patch_cgns(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {
+/// The arrays of solutions at vertices whose fields changed.
+std::vector<ArrayValues> changed_solutions(Hdf5File& file, const CgnsPoints& points, const Mesh& mesh,
+                                           std::span<const FieldValues> fields) {
+  const CgnsTree tree(file);
+  std::vector<ArrayValues> changed;
+  for (const CgnsZone& zone : points.zones) {
+    const std::optional<CgnsNode> solution = read_solutions(tree, zone).of_vertices;
+    if (!solution || has_rind(tree, *solution)) continue;
+    for (const CgnsNode& array : tree.children(*solution, "DataArray_t")) {
+      const auto found = std::ranges::find_if(fields, [&](const FieldValues& one) {
+        return mesh.fields[one.field].name == array.name && mesh.fields[one.field].on == Field::On::Vertices;
+      });
+      if (found == fields.end()) continue;
+      changed.push_back({CgnsTree::array(array), std::vector<double>(zone.count)});
+      for (std::size_t i = 0; i < zone.count; ++i) changed.back().values[i] = found->values[points.vertex_of[zone.first + i]];
+    }
+  }
+  return changed;
+}
+
+Notes patch_cgns(AtomicFile& file, const Mesh& mesh, const MovedMesh& moved, const IoContext& context) {
   Notes notes;
-  if (same_positions(mesh.positions, positions)) {
+  if (same_positions(mesh.positions, moved.positions) && moved.fields.empty()) {
     file.write(mesh.source->bytes());
     return notes;
   }
   Hdf5File arrays(mesh.source->bytes(), mesh.source->path().string(), context);
   const CgnsPoints points = read_cgns_points(CgnsTree(arrays), nullptr);
-  file.write(points.coordinates.replaced(arrays, mesh.positions, positions, file.path().string(), notes));
+  file.write(points.coordinates.replaced(arrays, mesh.positions, moved.positions, file.path().string(), notes,
+                                         changed_solutions(arrays, points, mesh, moved.fields)));
   return notes;
 }
 

@@ -247,6 +247,10 @@ class ExodusReader {
     if (field.values.size() != mesh_.positions.size()) {
       fail(fmt::format("nodal variable {}: {} numbers for {} nodes", quote_token(name), field.values.size(), mesh_.positions.size()));
     }
+    std::uint64_t row = 0;  // the number of the array's part, of those of one size
+    for (std::size_t k = 0; k < first.size(); ++k) row = row * info->sizes[k] + first[k];
+    field.place.array = array;
+    field.place.begin = row * field.values.size();
     mesh_.fields.push_back(std::move(field));
   }
 
@@ -341,16 +345,20 @@ Notes write_exodus(AtomicFile& file, const Mesh&, std::span<const Vec3>, const I
   throw OutputError(file.path().string(), "Exodus files are written only where one was read: write it as .vtu or .msh");
 }
 
-Notes patch_exodus(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {
+Notes patch_exodus(AtomicFile& file, const Mesh& mesh, const MovedMesh& moved, const IoContext& context) {
   Notes notes;
-  if (same_positions(mesh.positions, positions)) {
+  if (same_positions(mesh.positions, moved.positions) && moved.fields.empty()) {
     file.write(mesh.source->bytes());
     return notes;
   }
   const std::unique_ptr<ArrayFile> arrays = open_netcdf(*mesh.source, context);
   std::vector<Vec3> before;
   const CoordinateArrays coordinates = read_exodus_points(*arrays, before);
-  file.write(coordinates.replaced(*arrays, mesh.positions, positions, file.path().string(), notes));
+  const auto steps = arrays->find("time_whole");
+  if (!moved.fields.empty() && steps && steps->count() > 1)
+    notes.emplace_back("Fields of earlier time steps were carried: those of the last one alone were taken anew.");
+  file.write(coordinates.replaced(*arrays, mesh.positions, moved.positions, file.path().string(), notes,
+                                  changed_arrays(*arrays, mesh, moved.fields, notes)));
   return notes;
 }
 

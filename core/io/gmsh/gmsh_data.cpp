@@ -74,17 +74,26 @@ void GmshData::read(Field::On on, const TagPlaces& tags) {
   in_.begin_data();
   const std::size_t each = 4 + n * kReal;
   const char* const bytes = in_.binary ? in_.words.block(head.values * each, "values").data() : nullptr;
+  field.place.at = in_.binary ? 4 : 1;  // the node's number
+  if (in_.binary) {
+    field.place.begin = in_.words.token();
+    field.place.bytes = static_cast<std::uint32_t>(each);
+  }
+  std::vector<Index> order;
+  bool in_order = true;
   for (std::size_t i = 0; i < head.values; ++i) {
     const std::int64_t tag = in_.binary ? in_.int_at(bytes + i * each) : in_.words.integer("the number of a node or element");
     const Index row = tags.find(tag);
-    if (i == 0 && !in_.binary) field.place = {in_.words.token(), static_cast<std::uint32_t>(n + 1)};
-    if (row != i) field.place = {};
+    if (i == 0 && !in_.binary) field.place.begin = in_.words.token(), field.place.words = static_cast<std::uint32_t>(n + 1);
+    in_order = in_order && row == i;
+    order.push_back(row);
     if (row == kNoIndex) in_.words.fail(fmt::format("values of {} {}, which the file does not have", of_nodes ? "node" : "element", tag));
     for (std::size_t k = 0; k < n; ++k) {
       const double value = in_.binary ? in_.real_at(bytes + i * each + 4 + k * kReal) : in_.words.number("a value");
       if (hold) field.values[row * n + k] = value;
     }
   }
+  if (!in_order || head.values != tags.size()) field.place.rows = std::move(order);
   if (hold) fields_.push_back(std::move(field));
 }
 

@@ -17,6 +17,6 @@ Mesh read_nastran(SourceFile& source, const IoContext& context);
 /// See FormatHandler: nodes in large fields, elements in small ones. Throws OutputError, Cancelled.
 Notes write_nastran(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context);
 /// See FormatHandler: a node that moved gets large fields, whatever it had.
-Notes patch_nastran(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context);
+Notes patch_nastran(AtomicFile& file, const Mesh& mesh, const MovedMesh& moved, const IoContext& context);
 
 }  // namespace dmoscope

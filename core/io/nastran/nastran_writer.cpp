@@ -174,9 +174,10 @@ Notes write_nastran(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> po
   return NastranWriter(file, mesh, positions, context).write();
 }
 
-Notes patch_nastran(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {
+Notes patch_nastran(AtomicFile& file, const Mesh& mesh, const MovedMesh& moved, const IoContext& context) {
   constexpr std::size_t kGrain = 16384;
   const SourceFile& source = *mesh.source;
+  const std::span<const Vec3> positions = moved.positions;
   const std::string_view bytes = source.bytes();
   const std::string_view line_end = bytes.find("\r\n") != std::string_view::npos ? "\r\n" : "\n";
   std::atomic<std::size_t> rounded = 0;

@@ -171,6 +171,8 @@ class PlyReader {
       field.type = property.type_word;
       field.role = "property";
       reserve_large(field.values, element.count);
+      const std::optional<std::uint32_t> at = place_in_row(element, p);
+      if (on == Field::On::Vertices && at) field.place = {.with_positions = true, .at = *at};
       mesh_.fields.push_back(std::move(field));
       indices.push_back(p);
     }
@@ -206,18 +208,25 @@ class PlyReader {
     set_layout(element, axis);
   }
 
+  /// Words, or bytes, from a row's begin to one of its properties; nothing where a list comes before.
+  [[nodiscard]] std::optional<std::uint32_t> place_in_row(const PlyElement& element, std::size_t property) const {
+    std::size_t at = 0;
+    for (std::size_t p = 0; p < property; ++p) {
+      if (element.properties[p].list) return std::nullopt;
+      at += ascii() ? 1 : size_of(element.properties[p].type);
+    }
+    return static_cast<std::uint32_t>(at);
+  }
+
   void set_layout(const PlyElement& element, const std::array<std::size_t, 3>& axis) {
     CoordinateLayout layout;
     layout.binary = !ascii();
     layout.big_endian = big_endian();
     for (std::size_t k = 0; k < 3; ++k) {
       const ScalarType type = element.properties[axis[k]].type;
-      std::size_t at = 0;
-      for (std::size_t p = 0; p < axis[k]; ++p) {
-        if (element.properties[p].list) source_.set_not_patchable("lists come before its coordinates");
-        at += ascii() ? 1 : size_of(element.properties[p].type);
-      }
-      layout.at[k] = static_cast<std::uint32_t>(at);
+      const std::optional<std::uint32_t> at = place_in_row(element, axis[k]);
+      if (!at) source_.set_not_patchable("lists come before its coordinates");
+      layout.at[k] = at.value_or(0);
       layout.scalar[k] = type == ScalarType::Float32 ? CoordinateScalar::Float32 : CoordinateScalar::Float64;
       if (is_whole(type)) source_.set_not_patchable("its coordinates are whole numbers");
     }

@@ -224,8 +224,8 @@ class StlPatcher {
   bool moved_ = false;
 };
 
-Notes patch_stl(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {
-  return StlPatcher(file, mesh, positions, context).write(context.progress);
+Notes patch_stl(AtomicFile& file, const Mesh& mesh, const MovedMesh& moved, const IoContext& context) {
+  return StlPatcher(file, mesh, moved.positions, context).write(context.progress);
 }
 
 void note_vertices(const Mesh& mesh, std::span<const Vec3> positions, Notes& notes) {

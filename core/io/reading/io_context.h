@@ -13,9 +13,9 @@ struct IoContext {
   IoContext(Progress& watched, ThreadPool* threads = nullptr, std::uint64_t memory = 0)  // NOLINT(google-explicit-constructor)
       : progress(watched), pool(threads), most_memory(memory) {}
   Progress& progress;
-  ThreadPool* pool;           // null: the calling thread alone
-  std::uint64_t most_memory;  // bytes that a file may unpack to; 0: see UnpackBudget
-  std::size_t pieces = 0;     // into which a format that has several files cuts a mesh; 0: as it likes
+  ThreadPool* pool;                         // null: the calling thread alone
+  std::uint64_t most_memory;                // bytes that a file may unpack to; 0: see UnpackBudget
+  std::size_t pieces = 0;                   // into which a format that has several files cuts a mesh; 0: as it likes
 };
 
 }  // namespace dmoscope

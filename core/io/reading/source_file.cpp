@@ -61,6 +61,11 @@ std::size_t SourceFile::line_of_row(const Mesh& mesh, std::size_t field, std::si
   Tokenizer words(text, file.string(), {.comment = '#', .free_form = true}, unwatched);
   if (place.with_positions) return layout_.binary || row >= place_count() ? 0 : words.line_at(static_cast<std::size_t>(this->place(row)));
   if (place.words == 0 || place.begin >= text.size()) return 0;
+  if (!place.rows.empty()) {
+    const auto found = std::ranges::find(place.rows, static_cast<Index>(row));
+    if (found == place.rows.end()) return 0;
+    row = static_cast<std::size_t>(found - place.rows.begin());
+  }
   words.seek(place.begin);
   for (std::size_t n = row * place.words; n > 0; --n) (void)words.token();
   return words.at_end() ? 0 : words.line_at(words.offset());

@@ -78,7 +78,7 @@ class Reader {
                 .type = "double",
                 .role = "depth",
                 .values = {},
-                .place = {.with_positions = true}};
+                .place = {.with_positions = true, .at = 2}};
     reserve_large(mesh_.positions, count);
     reserve_large(depth.values, count);
     numbers_.reserve(count);

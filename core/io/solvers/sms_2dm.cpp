@@ -195,7 +195,7 @@ class Sms2dmReader {
                             .type = "double",
                             .role = std::string(kElevation),
                             .values = std::move(elevations_),
-                            .place = {.with_positions = true}});
+                            .place = {.with_positions = true, .at = 2}});
     add_strings();
   }
 

@@ -24,8 +24,8 @@ constexpr std::string_view kMarker = "boundary marker";
 constexpr std::string_view kAttribute = "attribute";
 constexpr std::int64_t kMostAttributes = 1024;
 
-/// Columns of numbers that become fields.
-std::vector<Field> fields_of(Field::On on, std::size_t attributes, bool marker, std::size_t rows) {
+/// Columns of numbers that become fields; `before`: how many numbers come before them in a row.
+std::vector<Field> fields_of(Field::On on, std::size_t attributes, bool marker, std::size_t rows, std::size_t before) {
   std::vector<Field> fields;
   const auto add = [&](std::string name, std::string_view type, std::string_view role) {
     fields.push_back({.name = std::move(name),
@@ -34,7 +34,7 @@ std::vector<Field> fields_of(Field::On on, std::size_t attributes, bool marker, 
                       .type = std::string(type),
                       .role = std::string(role),
                       .values = {},
-                      .place = {.with_positions = on == Field::On::Vertices}});
+                      .place = {.with_positions = on == Field::On::Vertices, .at = static_cast<std::uint32_t>(before + fields.size())}});
     fields.back().values.reserve(rows);
   };
   for (std::size_t k = 1; k <= attributes; ++k) add(fmt::format("{} {}", kAttribute, k), "double", kAttribute);
@@ -93,7 +93,7 @@ class TetgenReader {
     source_.set_layout({.components = dimension_, .syntax = kTetgenSyntax});
     reserve_large(mesh_.positions, count);
     source_.reserve_places(count);
-    std::vector<Field> fields = fields_of(Field::On::Vertices, columns, markers == 1, count);
+    std::vector<Field> fields = fields_of(Field::On::Vertices, columns, markers == 1, count, static_cast<std::size_t>(dimension_));
     for (std::size_t v = 0; v < count; ++v) {
       if (tokens.at_end()) tokens.fail_at_end(fmt::format("vertex {} of {}", v + 1, count));
       number(tokens, v, first_, "vertex");
@@ -136,7 +136,7 @@ class TetgenReader {
     const std::size_t count = tokens.check_count(declared, "number of elements", 2 * (1 + std::size_t{info(kind).corners} + columns));
     tokens.end_line();
     mesh_.elements.reserve(count, count * info(kind).corners);
-    std::vector<Field> fields = fields_of(Field::On::Elements, columns, false, count);
+    std::vector<Field> fields = fields_of(Field::On::Elements, columns, false, count, 0);
     std::int64_t first = 0;
     for (std::size_t e = 0; e < count; ++e) {
       if (tokens.at_end()) tokens.fail_at_end(fmt::format("element {} of {}", e + 1, count));

@@ -102,9 +102,12 @@ void VtkAttributes::append(std::string name, std::string_view role, std::string_
   values_.in.need(n, values_.least_bytes(type), "the number of values");
   field.values.reserve(n);
   bool rounded = false;
+  const bool plain = type.kind == VtkType::Kind::Scalar && scale == 1.0;
+  const auto row = static_cast<std::uint32_t>(components * size_of(type.scalar));
   values_.numbers(type, n, "a value of the data", [&](double value, std::size_t at) {
     field.values.push_back(value * scale);
     if (field.values.size() == 1 && !values_.binary) field.place = {at, static_cast<std::uint32_t>(components)};
+    if (field.values.size() == 1 && values_.binary && plain) field.place = {.begin = at, .bytes = row};
     rounded = rounded || std::abs(value) >= kExactWhole;
   });
   if (rounded && is_whole(type.scalar)) {

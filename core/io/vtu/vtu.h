@@ -28,6 +28,6 @@ std::vector<std::string> write_vtp(AtomicFile& file, const Mesh& mesh, std::span
 [[nodiscard]] std::string_view vtu_type_word(const Field& field);
 
 /// Writes mesh.source again with moved coordinates, in its own encoding; all but the points stays byte for byte.
-std::vector<std::string> patch_vtu(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context);
+std::vector<std::string> patch_vtu(AtomicFile& file, const Mesh& mesh, const MovedMesh& moved, const IoContext& context);
 
 }  // namespace dmoscope

@@ -1,6 +1,6 @@
 #include <algorithm>
-#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -9,6 +9,8 @@
 #include "core/base/error.h"
 #include "core/base/same_bits.h"
 #include "core/io/format.h"
+#include "core/io/reading/tokenizer.h"
+#include "core/io/reading/unpack_budget.h"
 #include "core/io/vtu/vtu.h"
 #include "core/io/vtu/vtu_data.h"
 #include "core/io/vtu/vtu_document.h"
@@ -18,23 +20,39 @@
 namespace dmoscope {
 namespace {
 
-/// Encodes the points anew that are base64 or compressed, and moves the offsets of what comes behind them in appended data.
+/// The numbers of an array before and after, row by row.
+struct ArrayChange {
+  std::span<const double> before, after;
+  bool of_points = false;
+};
+
+/// Writes arrays anew whose numbers changed: points, and fields of points. Moves the offsets of what comes behind them in appended data.
 class VtuPatcher {
  public:
-  VtuPatcher(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context)
-      : file_(file), mesh_(mesh), positions_(positions), context_(context), document_(*mesh.source, context.progress) {}
+  VtuPatcher(AtomicFile& file, const Mesh& mesh, const MovedMesh& moved, const IoContext& context)
+      : file_(file),
+        mesh_(mesh),
+        moved_(moved),
+        context_(context),
+        document_(*mesh.source, context.progress),
+        appended_(document_.appended()),
+        budget_(mesh.source->size_on_disk(), context.most_memory) {}
 
   Notes write() {
     std::size_t first = 0;
     for (const pugi::xml_node piece : document_.grid().children("Piece")) {
       const std::size_t count = document_.count(piece, "NumberOfPoints", mesh_.positions.size() - first);
-      if (count > 0) points(piece.child("Points").child("DataArray"), first, count);
+      if (count > 0) {
+        points(piece.child("Points").child("DataArray"), first, count);
+        fields(piece.child("PointData"), first, count);
+      }
       first += count;
     }
     move_offsets();
     apply();
-    if (rounded_ == 0) return {};
-    return {fmt::format("{} moved coordinates were rounded to 32-bit floats, which is what the file holds.", rounded_)};
+    if (rounded_ > 0)
+      notes_.push_back(fmt::format("{} moved coordinates were rounded to 32-bit floats, which is what the file holds.", rounded_));
+    return std::move(notes_);
   }
 
  private:
@@ -46,18 +64,44 @@ class VtuPatcher {
   };
 
   void points(pugi::xml_node node, std::size_t first, std::size_t count) {
-    bool moved = false;
-    for (std::size_t v = first; v < first + count && !moved; ++v) moved = !same_bits(mesh_.positions[v], positions_[v]);
-    if (!moved) return;
-    const VtuArray array = *document_.array(node);
+    static_assert(sizeof(Vec3) == 3 * sizeof(double));
+    const auto numbers = [&](std::span<const Vec3> all) { return std::span<const double>(&all[first].x, 3 * count); };
+    replace(*document_.array(node), {numbers(mesh_.positions), numbers(moved_.positions), true});
+  }
+
+  /// An array is that of the first field of its name that was not met in this piece, as it was read.
+  void fields(pugi::xml_node data, std::size_t first, std::size_t count) {
+    std::vector<std::uint8_t> met(mesh_.fields.size(), 0);
+    for (const pugi::xml_node node : data.children("DataArray")) {
+      const auto array = document_.array(node);
+      if (!array) continue;
+      std::size_t f = 0;
+      const auto is_its = [&](const Field& field) { return field.on == Field::On::Vertices && field.name == array->name; };
+      while (f < met.size() && (met[f] != 0 || !is_its(mesh_.fields[f]))) ++f;
+      if (f == met.size()) continue;
+      met[f] = 1;
+      const auto changed = std::ranges::find(moved_.fields, f, &FieldValues::field);
+      if (changed == moved_.fields.end()) continue;
+      const std::size_t n = array->components;
+      const auto numbers = [&](const std::vector<double>& all) { return std::span<const double>(all).subspan(first * n, count * n); };
+      replace(*array, {numbers(mesh_.fields[f].values), numbers(changed->values), false});
+    }
+  }
+
+  void replace(const VtuArray& array, const ArrayChange& change) {
+    if (same_numbers(change.before, change.after)) return;
+    const bool shared =
+        array.appended && std::ranges::count(appended_, array.begin, &VtuDocument::Appended::begin) > 1;  // see find_shared_data()
+    if (shared && !change.of_points)
+      return notes_.push_back(fmt::format("Field \"{}\" was carried: other data share its bytes.", array.name));
+    if (array.ascii) return replace_text(array, change);
     const std::size_t size = size_of(array.type);
-    const VtuData before = vtu_data(document_, array, 3 * count * size);
+    const VtuData before = vtu_data(document_, array, change.after.size() * size);
     std::string bytes(before.bytes);
-    for (std::size_t v = 0; v < count; ++v) {
-      const Vec3 p = positions_[first + v];
-      put(bytes.data() + (3 * v) * size, array.type, p.x, mesh_.positions[first + v].x, first + v);
-      put(bytes.data() + (3 * v + 1) * size, array.type, p.y, mesh_.positions[first + v].y, first + v);
-      put(bytes.data() + (3 * v + 2) * size, array.type, p.z, mesh_.positions[first + v].z, first + v);
+    for (std::size_t i = 0; i < change.after.size(); ++i) {
+      if (same_bits(change.before[i], change.after[i])) continue;
+      if (change.of_points) require_float(array.type, change.after[i], i / 3);
+      store_scalar(bytes.data() + i * size, array.type, document_.big_endian(), change.after[i]);
     }
     const VtuEncoding encoding{document_.big_endian(), document_.header(), document_.compressed(), array.base64, before.block};
     const std::size_t blanks = array.appended ? 0 : document_.bytes().find_first_not_of(" \t\r\n", array.begin) - array.begin;
@@ -65,18 +109,36 @@ class VtuPatcher {
         {array.begin + blanks, before.end, vtu_encoded(file_.path().string(), bytes, encoding, context_.pool), array.appended});
   }
 
-  void put(char* at, ScalarType type, double value, double before, std::size_t vertex) {
-    if (std::bit_cast<std::uint64_t>(value) == std::bit_cast<std::uint64_t>(before)) return;
-    if (type == ScalarType::Float32) {
-      if (!std::isfinite(static_cast<float>(value))) {
-        throw OutputError(file_.path().string(), fmt::format("coordinate {} of vertex {} is too large for a 32-bit float", value, vertex));
-      }
-      if (static_cast<double>(static_cast<float>(value)) != value) ++rounded_;
+  void replace_text(const VtuArray& array, const ArrayChange& change) {
+    std::size_t end = array.begin;
+    std::vector<std::uint64_t> places;
+    (void)vtu_numbers(document_, array, change.after.size(), end, budget_, &places);
+    Progress unwatched;
+    Tokenizer words(document_.bytes().substr(0, array.limit), document_.file(), vtu_text_syntax(), unwatched);
+    TextBuffer text;
+    std::size_t copied = array.begin;
+    for (std::size_t i = 0; i < change.after.size(); ++i) {
+      if (same_bits(change.before[i], change.after[i])) continue;
+      text << document_.bytes().substr(copied, places[i] - copied);
+      put_number(text, change.after[i], change.of_points ? ScalarType::Float64 : array.type);
+      words.seek(places[i]);
+      copied = places[i] + words.token().size();
     }
-    store_scalar(at, type, document_.big_endian(), value);
+    replacements_.push_back({array.begin, copied, std::string(text.text()), false});
   }
 
-  /// What comes behind points whose encoded size changed moves with them.
+  [[nodiscard]] static bool same_numbers(std::span<const double> a, std::span<const double> b) {
+    return std::ranges::equal(a, b, [](double x, double y) { return same_bits(x, y); });
+  }
+
+  void require_float(ScalarType type, double value, std::size_t vertex) {
+    if (type != ScalarType::Float32) return;
+    if (!std::isfinite(static_cast<float>(value)))
+      throw OutputError(file_.path().string(), fmt::format("coordinate {} of vertex {} is too large for a 32-bit float", value, vertex));
+    if (static_cast<double>(static_cast<float>(value)) != value) ++rounded_;
+  }
+
+  /// What comes behind arrays whose encoded size changed moves with them.
   void move_offsets() {
     const auto by_begin = [](const Replacement& a, const Replacement& b) { return a.begin < b.begin; };
     std::sort(replacements_.begin(), replacements_.end(), by_begin);
@@ -87,7 +149,7 @@ class VtuPatcher {
       ends.push_back(one.end);
       growth.push_back((growth.empty() ? 0 : growth.back()) + one.bytes.size() - (one.end - one.begin));
     }
-    for (const auto& array : document_.appended()) {
+    for (const auto& array : appended_) {
       const auto before = static_cast<std::size_t>(std::upper_bound(ends.begin(), ends.end(), array.begin) - ends.begin());
       if (before == 0 || growth[before - 1] == 0) continue;
       const auto [begin, size] = document_.attribute_place(array.node, "offset");
@@ -109,18 +171,21 @@ class VtuPatcher {
 
   AtomicFile& file_;
   const Mesh& mesh_;
-  std::span<const Vec3> positions_;
+  const MovedMesh& moved_;
   const IoContext& context_;
   VtuDocument document_;
+  std::vector<VtuDocument::Appended> appended_;
+  UnpackBudget budget_;
+  Notes notes_;
   std::vector<Replacement> replacements_;
   std::size_t rounded_ = 0;
 };
 
 }  // namespace
 
-Notes patch_vtu(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {
-  if (mesh.source->place_count() == positions.size()) return write_patched(file, mesh, positions, context);
-  return VtuPatcher(file, mesh, positions, context).write();
+Notes patch_vtu(AtomicFile& file, const Mesh& mesh, const MovedMesh& moved, const IoContext& context) {
+  if (mesh.source->place_count() == moved.positions.size() && moved.fields.empty()) return write_patched(file, mesh, moved, context);
+  return VtuPatcher(file, mesh, moved, context).write();
 }
 
 }  // namespace dmoscope

@@ -3,14 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/base/same_bits.h"
 #include "core/io/reading/binary.h"
+#include "core/io/reading/binary_scalar.h"
 #include "core/io/reading/source_file.h"
 #include "core/io/reading/tokenizer.h"
 #include "core/io/writing/field_number.h"
@@ -22,19 +26,39 @@ using Coordinates = std::array<double, 3>;
 
 Coordinates coordinates(Vec3 p) { return {p.x, p.y, p.z}; }
 
+/// A field that changed, and how its numbers are stored.
+struct ChangedField {
+  const Field* field;
+  const std::vector<double>* after;
+  ScalarType type = ScalarType::Float64;
+
+  [[nodiscard]] std::size_t components() const { return static_cast<std::size_t>(field->components); }
+  [[nodiscard]] bool differs(std::size_t number) const { return !same_bits(field->values[number], (*after)[number]); }
+  [[nodiscard]] std::size_t row_of(std::size_t i) const { return field->place.rows.empty() ? i : field->place.rows[i]; }
+  [[nodiscard]] std::size_t row_count() const {
+    return field->place.rows.empty() ? field->values.size() / components() : field->place.rows.size();
+  }
+};
+
 /// Copies a part of the source and replaces in it, place after place.
 class Patcher {
  public:
-  /// `begin`: where the part begins in the source. `file` is what errors call the target.
-  Patcher(const std::string& file, const SourceFile& source, std::size_t begin, TextBuffer& out)
+  /// `begin`: where the part begins in the source. `file` is what errors call the target. `fields`: those at the places of vertices.
+  Patcher(const std::string& file, const SourceFile& source, std::size_t begin, TextBuffer& out, std::span<const ChangedField> fields = {})
       : file_(file),
         source_(source),
         layout_(source.layout()),
         out_(out),
+        fields_(fields),
         tokens_(source.bytes(), source.path().string(), source.layout().syntax, unwatched_),
         copied_(begin) {
-    std::sort(order_.begin(), order_.begin() + layout_.components,
-              [this](std::size_t a, std::size_t b) { return layout_.at[a] < layout_.at[b]; });
+    for (std::size_t axis = 0; axis < static_cast<std::size_t>(layout_.components); ++axis)
+      numbers_.push_back({layout_.at[axis], kNone, axis});
+    for (std::size_t f = 0; f < fields.size(); ++f) {
+      const std::size_t each = layout_.binary ? size_of(fields[f].type) : 1;
+      for (std::size_t k = 0; k < fields[f].components(); ++k) numbers_.push_back({fields[f].field->place.at + k * each, f, k});
+    }
+    std::ranges::sort(numbers_, {}, &Number::at);
   }
 
   void place(std::size_t i, const Coordinates& before, const Coordinates& after) {
@@ -42,16 +66,48 @@ class Patcher {
     if (layout_.components == 2 && after[2] != 0.0) {
       throw OutputError(file_, fmt::format("vertex {} has z = {}, but the file holds only x and y", vertex, after[2]));
     }
-    bool any = false;
-    for (int k = 0; k < layout_.components; ++k) {
-      const auto c = static_cast<std::size_t>(k);
-      any = any || !same_bits(before[c], after[c]);
+    const auto changed = [&](const Number& number) {
+      if (number.field == kNone) return !same_bits(before[number.component], after[number.component]);
+      return fields_[number.field].differs(vertex * fields_[number.field].components() + number.component);
+    };
+    if (std::ranges::none_of(numbers_, changed)) return;
+    std::size_t next = 0;  // text: number of the token that comes next
+    if (!layout_.binary) tokens_.seek(source_.place(i));
+    for (const Number& number : numbers_) {
+      std::string_view token;
+      if (!layout_.binary)
+        for (; next <= number.at; ++next) token = tokens_.token();
+      if (!changed(number)) continue;
+      copy_until(layout_.binary ? source_.place(i) + number.at : tokens_.offset_of(token));
+      if (number.field != kNone) {
+        const ChangedField& field = fields_[number.field];
+        put_field(field, (*field.after)[vertex * field.components() + number.component], token.size());
+      } else if (layout_.binary) {
+        put_binary(after[number.component], number.component, vertex);
+      } else {
+        put_text(after[number.component]);
+        copied_ += token.size();
+      }
     }
-    if (!any) return;
-    if (layout_.binary) {
-      binary_place(i, before, after);
-    } else {
-      text_place(i, before, after);
+  }
+
+  /// A field that stands by itself, from its first row to its last.
+  void run(const ChangedField& field) {
+    const Field::Place& place = field.field->place;
+    const std::size_t n = field.components();
+    if (place.bytes == 0) tokens_.seek(place.begin);
+    for (std::size_t i = 0; i < field.row_count(); ++i) {
+      const std::size_t first = field.row_of(i) * n;
+      if (place.bytes == 0)
+        for (std::uint32_t k = 0; k < place.at; ++k) (void)tokens_.token();
+      for (std::size_t k = 0; k < n; ++k) {
+        const std::string_view token = place.bytes == 0 ? tokens_.token() : std::string_view();
+        if (!field.differs(first + k)) continue;
+        copy_until(place.bytes == 0 ? tokens_.offset_of(token) : place.begin + i * place.bytes + place.at + k * size_of(field.type));
+        put_field(field, (*field.after)[first + k], token.size());
+      }
+      if (place.bytes == 0)
+        for (std::size_t k = place.at + n; k < place.words; ++k) (void)tokens_.token();
     }
   }
 
@@ -65,30 +121,29 @@ class Patcher {
   [[nodiscard]] std::size_t rounded() const noexcept { return rounded_; }
 
  private:
-  void text_place(std::size_t i, const Coordinates& before, const Coordinates& after) {
-    tokens_.seek(source_.place(i));
-    std::uint32_t next = 0;  // number of the token that comes next
-    for (int k = 0; k < layout_.components; ++k) {
-      const std::size_t c = order_[static_cast<std::size_t>(k)];
-      std::string_view token;
-      for (; next <= layout_.at[c]; ++next) token = tokens_.token();
-      if (same_bits(before[c], after[c])) continue;
-      copy_until(tokens_.offset_of(token));
-      put_text(after[c]);
-      copied_ += token.size();
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+  /// One at the place of a vertex; `at`: words or bytes from there.
+  struct Number {
+    std::size_t at, field, component;  // kNone: a coordinate
+  };
+
+  void put_field(const ChangedField& field, double value, std::size_t token) {
+    if (layout_.binary) {
+      std::array<char, 8> bytes{};
+      store_scalar(bytes.data(), field.type, layout_.big_endian, value);
+      out_ << std::string_view(bytes.data(), size_of(field.type));
+      copied_ += size_of(field.type);
+    } else {
+      put_number(out_, value, field.type);
+      copied_ += token;
     }
   }
 
-  void binary_place(std::size_t i, const Coordinates& before, const Coordinates& after) {
-    for (int k = 0; k < layout_.components; ++k) {
-      const std::size_t c = order_[static_cast<std::size_t>(k)];
-      if (same_bits(before[c], after[c])) continue;
-      copy_until(source_.place(i) + layout_.at[c]);
-      if (layout_.scalar[c] == CoordinateScalar::Float64) {
-        put(after[c]);
-      } else {
-        put(to_float(after[c], source_.vertex_at(i)));
-      }
+  void put_binary(double value, std::size_t axis, std::size_t vertex) {
+    if (layout_.scalar[axis] == CoordinateScalar::Float64) {
+      put(value);
+    } else {
+      put(to_float(value, vertex));
     }
   }
 
@@ -111,8 +166,8 @@ class Patcher {
     return rounded;
   }
 
-  template <class Number>
-  void put(Number value) {
+  template <class Scalar>
+  void put(Scalar value) {
     const auto bytes = store_number(value, layout_.big_endian);
     out_ << std::string_view(bytes.data(), bytes.size());
     copied_ += bytes.size();
@@ -122,14 +177,49 @@ class Patcher {
   const SourceFile& source_;
   const CoordinateLayout& layout_;
   TextBuffer& out_;
-  Progress unwatched_;  // the writer watches
+  std::span<const ChangedField> fields_;
+  std::vector<Number> numbers_;  // as they come in the file
+  Progress unwatched_;           // the writer watches
   Tokenizer tokens_;
-  std::array<std::size_t, 3> order_{0, 1, 2};  // components as they come in the file
   std::size_t copied_;
   std::size_t rounded_ = 0;
 };
 
+/// The fields that changed: at the places of vertices, and by themselves as they come in the file.
+struct ChangedFields {
+  std::vector<ChangedField> with_positions, runs;
+};
+
+ChangedFields changed_fields(const Mesh& mesh, std::span<const FieldValues> changed, std::vector<std::string>& notes) {
+  ChangedFields fields;
+  for (const FieldValues& one : changed) {
+    const Field& field = mesh.fields[one.field];
+    ChangedField found{&field, &one.values};
+    const bool typed = scalar_of_word(field.type, found.type);
+    const bool binary = mesh.source->layout().binary;
+    const bool known = field.place.with_positions || (binary ? field.place.bytes : field.place.words) > 0;
+    if (!known || (binary && !typed)) {
+      notes.push_back(fmt::format("Field \"{}\" was carried: where it stands in the file is not known.", field.name));
+    } else {
+      (field.place.with_positions ? fields.with_positions : fields.runs).push_back(found);
+    }
+  }
+  std::ranges::sort(fields.runs, {}, [](const ChangedField& one) { return one.field->place.begin; });
+  return fields;
+}
+
 }  // namespace
+
+void put_number(TextBuffer& out, double value, ScalarType type) {
+  if (type != ScalarType::Float32 || !std::isfinite(static_cast<float>(value))) {
+    out << value;
+    return;
+  }
+  constexpr std::size_t kLongestNumber = 64;
+  std::array<char, kLongestNumber> text;
+  const char* const end = std::to_chars(text.data(), text.data() + text.size(), static_cast<float>(value)).ptr;
+  out << std::string_view(text.data(), static_cast<std::size_t>(end - text.data()));
+}
 
 std::size_t patch_part(TextBuffer& out, const std::string& file, const SourceFile& source, std::span<const Vec3> before,
                        std::span<const Vec3> after) {
@@ -139,33 +229,83 @@ std::size_t patch_part(TextBuffer& out, const std::string& file, const SourceFil
   return patcher.rounded();
 }
 
-std::vector<std::string> write_patched(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {
-  constexpr std::size_t kGrain = 16384;
-  const SourceFile& source = *mesh.source;
-  const std::size_t count = source.place_count();
-  const std::string name = file.path().string();
-  std::atomic<std::size_t> rounded = 0;
-  std::size_t copied = count == 0 ? 0 : source.place(0);
-  TextWriter out(file, context);
-  out.bytes(source.bytes().substr(0, copied));
-  out.in_parts(count, kGrain, [&](TextBuffer& part, std::size_t first, std::size_t last) {
-    Patcher patcher(name, source, source.place(first), part);
-    for (std::size_t i = first; i < last; ++i) {
-      const std::size_t vertex = source.vertex_at(i);
-      patcher.place(i, coordinates(mesh.positions[vertex]), coordinates(positions[vertex]));
-    }
-    patcher.copy_until(source.place(last < count ? last : last - 1));
-    rounded += patcher.rounded();
-    context.progress.set(static_cast<double>(last) / static_cast<double>(count));
-    if (last == count) copied = patcher.copied();
-  });
-  out.bytes(source.bytes().substr(copied));
-  if (rounded == 0) return {};
-  if (!source.layout().binary) {
-    return {fmt::format("{} moved coordinates were rounded to the {} characters that the format has for a number.", rounded.load(),
-                        source.layout().width)};
+namespace {
+
+/// Writes the source from byte to byte: what is between the places of vertices and the fields by themselves, and these.
+class PatchedFile {
+ public:
+  PatchedFile(AtomicFile& file, const Mesh& mesh, const MovedMesh& moved, const IoContext& context)
+      : name_(file.path().string()),
+        source_(*mesh.source),
+        mesh_(mesh),
+        positions_(moved.positions),
+        context_(context),
+        out_(file, context) {
+    fields_ = changed_fields(mesh, moved.fields, notes_);
   }
-  return {fmt::format("{} moved coordinates were rounded to 32-bit floats, which is what the file holds.", rounded.load())};
+
+  std::vector<std::string> write() {
+    auto run = fields_.runs.begin();
+    const std::size_t first = source_.place_count() == 0 ? source_.bytes().size() : source_.place(0);
+    for (; run != fields_.runs.end() && run->field->place.begin < first; ++run) write_run(*run);
+    if (source_.place_count() > 0) write_places();
+    for (; run != fields_.runs.end(); ++run) write_run(*run);
+    out_.bytes(source_.bytes().substr(copied_));
+    tell_rounded();
+    return std::move(notes_);
+  }
+
+ private:
+  void write_places() {
+    constexpr std::size_t kGrain = 16384;
+    const std::size_t count = source_.place_count();
+    out_.bytes(source_.bytes().substr(copied_, source_.place(0) - copied_));
+    out_.in_parts(count, kGrain, [&](TextBuffer& part, std::size_t first, std::size_t last) {
+      Patcher patcher(name_, source_, source_.place(first), part, fields_.with_positions);
+      for (std::size_t i = first; i < last; ++i) {
+        const std::size_t vertex = source_.vertex_at(i);
+        patcher.place(i, coordinates(mesh_.positions[vertex]), coordinates(positions_[vertex]));
+      }
+      patcher.copy_until(source_.place(last < count ? last : last - 1));
+      rounded_ += patcher.rounded();
+      context_.progress.set(static_cast<double>(last) / static_cast<double>(count));
+      if (last == count) copied_ = patcher.copied();
+    });
+  }
+
+  void write_run(const ChangedField& field) {
+    TextBuffer part;
+    Patcher patcher(name_, source_, copied_, part);
+    patcher.run(field);
+    out_.bytes(part.text());
+    copied_ = patcher.copied();
+    context_.progress.check();
+  }
+
+  void tell_rounded() {
+    if (rounded_ == 0) return;
+    notes_.push_back(source_.layout().binary
+                         ? fmt::format("{} moved coordinates were rounded to 32-bit floats, which is what the file holds.", rounded_.load())
+                         : fmt::format("{} moved coordinates were rounded to the {} characters that the format has for a number.",
+                                       rounded_.load(), source_.layout().width));
+  }
+
+  const std::string name_;
+  const SourceFile& source_;
+  const Mesh& mesh_;
+  std::span<const Vec3> positions_;
+  const IoContext& context_;
+  TextWriter out_;
+  std::vector<std::string> notes_;
+  ChangedFields fields_;
+  std::atomic<std::size_t> rounded_ = 0;
+  std::size_t copied_ = 0;
+};
+
+}  // namespace
+
+std::vector<std::string> write_patched(AtomicFile& file, const Mesh& mesh, const MovedMesh& moved, const IoContext& context) {
+  return PatchedFile(file, mesh, moved, context).write();
 }
 
 }  // namespace dmoscope

@@ -26,7 +26,7 @@ Notes write_xdmf(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> posit
 
 /// See FormatHandler. Where the numbers are in an HDF5 file, that is written beside the XML, under its own name or, where the XML has
 /// another name than the one that was read, under that one with .h5. Throws OutputError, Cancelled.
-Notes patch_xdmf(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context);
+Notes patch_xdmf(AtomicFile& file, const Mesh& mesh, const MovedMesh& moved, const IoContext& context);
 
 /// The name of the file with the numbers for an XML of this name, where they are not in it.
 [[nodiscard]] std::string numbers_beside(const std::filesystem::path& xml);

@@ -44,9 +44,9 @@ CoordinateArrays read_xdmf_points(const XdmfDocument& document, pugi::xml_node i
   return coordinates;
 }
 
-Notes patch_xdmf(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {
+Notes patch_xdmf(AtomicFile& file, const Mesh& mesh, const MovedMesh& moved, const IoContext& context) {
   const SourceFile* numbers = mesh.source->companion();
-  if (numbers == nullptr) return write_patched(file, mesh, positions, context);
+  if (numbers == nullptr) return write_patched(file, mesh, moved, context);
   const XdmfDocument document(*mesh.source, context);
   const pugi::xml_node geometry = document.grid().child("Geometry");
   const pugi::xml_node item = document.item(geometry);
@@ -58,7 +58,7 @@ Notes patch_xdmf(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> posit
   FormerMesh(file.path()).require_own(target);
   Notes notes;
   std::string bytes(numbers->bytes());
-  if (!same_positions(mesh.positions, positions)) {
+  if (!same_positions(mesh.positions, moved.positions) || !moved.fields.empty()) {
     const std::unique_ptr<ArrayFile> arrays = open_hdf5(*numbers, context);
     const bool plane = mesh.source->layout().components == 2;
     CoordinateArrays coordinates;
@@ -72,7 +72,8 @@ Notes patch_xdmf(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> posit
                       .first = 0,
                       .count = mesh.vertex_count()},
                      before);
-    bytes = coordinates.replaced(*arrays, mesh.positions, positions, file.path().string(), notes);
+    bytes = coordinates.replaced(*arrays, mesh.positions, moved.positions, file.path().string(), notes,
+                                 changed_arrays(*arrays, mesh, moved.fields, notes));
   }
   std::string xml(mesh.source->bytes());
   for (auto place = all.rbegin(); place != all.rend(); ++place) xml.replace(place->begin, place->end - place->begin, xml_escaped(name));

@@ -199,12 +199,13 @@ class XdmfReader {
     if ((!of_points && !equal_ignoring_case(centre, "Cell")) || text || (passed_over_ && !of_points)) {
       return source_.add_only_in_file("further attributes");
     }
+    std::vector<std::uint64_t> places;
     Field field{.name = name,
                 .on = of_points ? Field::On::Vertices : Field::On::Elements,
                 .components = 1,
                 .type = "float",
                 .role = "",
-                .values = document_.numbers(document_.item(node))};
+                .values = document_.numbers(document_.item(node), &places)};
     const bool precise = std::string_view(item.attribute("Precision").value()) == "8";
     if (equal_ignoring_case(type, "Int")) {
       field.type = precise ? "long" : "int";
@@ -217,6 +218,11 @@ class XdmfReader {
       document_.fail(node, fmt::format("{} numbers for {} {}", field.values.size(), things, of_points ? "points" : "cells"));
     }
     field.components = static_cast<int>(field.values.size() / things);
+    if (const auto place = document_.elsewhere(document_.item(node))) {
+      field.place.array = place->array;
+    } else if (!places.empty()) {
+      field.place = {places.front(), static_cast<std::uint32_t>(field.components)};
+    }
     if (!of_points && !rows_.empty()) keep_rows(field);
     mesh_.fields.push_back(std::move(field));
   }

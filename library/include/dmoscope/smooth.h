@@ -44,6 +44,7 @@ struct Smoothed {
   bool cancelled = false;             // by after_iteration or progress; `mesh` is what there was then
   std::string sentence;               // why it ended: "converged: no vertex moved any more; ..."
   std::vector<std::string> warnings;  // what a person should know
+  std::string fields;                 // what became of the point data: "depth was taken anew at the new places ..."; empty without any
 };
 
 /// The positions have the bits that `dmoscope smooth` writes. Throws UsageError for what does not fit the mesh.

@@ -1,7 +1,8 @@
 #pragma once
-// Boxes around boxes around triangles: finds the nearest one.
+// Boxes around boxes around triangles or tetrahedra: finds the nearest one.
 
 #include <array>
+#include <cstddef>
 #include <span>
 #include <utility>
 #include <vector>
@@ -10,27 +11,31 @@
 
 namespace dmoscope {
 
-/// The nearest point of a triangle, as weights of its corners.
-struct NearestPoint {
-  std::array<double, 3> weights{};
-  double square = 0.0;  // of the distance
+/// The nearest point of a triangle (3 corners) or tetrahedron (4), as weights of its corners.
+template <std::size_t N>
+struct NearestIn {
+  std::array<double, N> weights{};
+  double square = 0.0;  // of the distance; 0 in a tetrahedron
 };
-[[nodiscard]] NearestPoint nearest_point(const std::array<Vec3, 3>& triangle, Vec3 p);
+using NearestPoint = NearestIn<3>;
+[[nodiscard]] NearestIn<3> nearest_point(const std::array<Vec3, 3>& triangle, Vec3 p);
+[[nodiscard]] NearestIn<4> nearest_point(const std::array<Vec3, 4>& tetrahedron, Vec3 p);
 
-/// A tree for each patch of a set of triangles.
-class FacetTree {
+/// A tree for each patch of a set of triangles or tetrahedra.
+template <std::size_t N>
+class SimplexTree {
  public:
-  FacetTree() = default;
-  /// `patch_of`: by triangle.
-  FacetTree(std::vector<std::array<Vec3, 3>> triangles, std::span<const Index> patch_of);
+  SimplexTree() = default;
+  /// `patch_of`: by simplex.
+  SimplexTree(std::vector<std::array<Vec3, N>> simplices, std::span<const Index> patch_of);
 
   struct Nearest {
-    Index triangle = kNoIndex;
-    NearestPoint point;
+    Index triangle = kNoIndex;  // or tetrahedron
+    NearestIn<N> point;
   };
-  /// Of the triangles of a patch the nearest; of equals the first. `near`: one of them to begin with, any; the nearer, the faster.
+  /// Of the simplices of a patch the nearest; of equals the first. `near`: one of them to begin with, any; the nearer, the faster.
   [[nodiscard]] Nearest nearest(Vec3 p, Index near) const;
-  /// visit(a, b) for each pair of triangles of the first patch whose boxes overlap.
+  /// visit(a, b) for each pair of simplices of the first patch whose boxes overlap.
   template <class Visit>
   void for_overlapping(Visit visit) const;
 
@@ -38,21 +43,23 @@ class FacetTree {
   struct Node {
     Vec3 low, high;
     Index up;        // kNoIndex: it is a patch's whole tree
-    Index right;     // the second half; the first half is the next node; kNoIndex: it is one triangle
+    Index right;     // the second half; the first half is the next node; kNoIndex: it is one simplex
     Index triangle;  // of one
   };
   Index build(std::span<Index> order, Index up);
   void look_through(Index from, Vec3 p, Nearest& best) const;
   [[nodiscard]] static double square_to(const Node& node, Vec3 p);
 
-  std::vector<std::array<Vec3, 3>> triangles_;
+  std::vector<std::array<Vec3, N>> triangles_;
   std::vector<Node> nodes_;
-  std::vector<Index> node_of_;  // by triangle
+  std::vector<Index> node_of_;  // by simplex
   double rounding_ = 0.0;       // of a distance, squared
 };
+using FacetTree = SimplexTree<3>;
 
+template <std::size_t N>
 template <class Visit>
-void FacetTree::for_overlapping(Visit visit) const {
+void SimplexTree<N>::for_overlapping(Visit visit) const {
   std::vector<std::array<Index, 2>> waiting;
   if (!nodes_.empty()) waiting.push_back({0, 0});
   const auto is_one = [this](Index n) { return nodes_[n].right == kNoIndex; };

@@ -1,4 +1,4 @@
-#include "core/reference/facet_tree.h"
+#include "core/reference/simplex_tree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@ namespace dmoscope {
 namespace {
 
 constexpr double kRoundings = 16.0;   // of the largest coordinate, in a distance
-constexpr std::size_t kDeepest = 64;  // halves of 2^32 triangles
+constexpr std::size_t kDeepest = 64;  // halves of 2^32 simplices
 
 double coordinate(Vec3 p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
 Vec3 lower(Vec3 a, Vec3 b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
@@ -49,8 +49,29 @@ NearestPoint nearest_point(const std::array<Vec3, 3>& triangle, Vec3 p) {
   return best;
 }
 
-FacetTree::FacetTree(std::vector<std::array<Vec3, 3>> triangles, std::span<const Index> patch_of)
-    : triangles_(std::move(triangles)), node_of_(triangles_.size()) {
+/// Inside, or the nearest of its faces.
+NearestIn<4> nearest_point(const std::array<Vec3, 4>& tetrahedron, Vec3 p) {
+  const Vec3 a = tetrahedron[0], ab = tetrahedron[1] - a, ac = tetrahedron[2] - a, ad = tetrahedron[3] - a, ap = p - a;
+  const double volume = dot(ab, cross(ac, ad));
+  if (volume != 0.0) {
+    const double wb = dot(ap, cross(ac, ad)) / volume, wc = dot(ab, cross(ap, ad)) / volume, wd = dot(ab, cross(ac, ap)) / volume;
+    const double wa = 1.0 - wb - wc - wd;
+    if (wa >= 0.0 && wb >= 0.0 && wc >= 0.0 && wd >= 0.0) return {{wa, wb, wc, wd}, 0.0};
+  }
+  NearestIn<4> best{{}, std::numeric_limits<double>::infinity()};
+  for (std::size_t without = 0; without < 4; ++without) {
+    const std::array<std::size_t, 3> face{(without + 1) % 4, (without + 2) % 4, (without + 3) % 4};
+    const NearestIn<3> on_face = nearest_point(std::array{tetrahedron[face[0]], tetrahedron[face[1]], tetrahedron[face[2]]}, p);
+    if (!(on_face.square < best.square)) continue;
+    best = {{}, on_face.square};
+    for (std::size_t k = 0; k < 3; ++k) best.weights[face[k]] = on_face.weights[k];
+  }
+  return best;
+}
+
+template <std::size_t N>
+SimplexTree<N>::SimplexTree(std::vector<std::array<Vec3, N>> simplices, std::span<const Index> patch_of)
+    : triangles_(std::move(simplices)), node_of_(triangles_.size()) {
   double largest = 0.0;
   for (const auto& triangle : triangles_)
     for (const Vec3 p : triangle) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
@@ -69,9 +90,14 @@ FacetTree::FacetTree(std::vector<std::array<Vec3, 3>> triangles, std::span<const
 
 /// Splits in the middle of the triangles along the longest side of the box of their centres; among equals by number, so that the tree is
 /// the same on every machine.
-Index FacetTree::build(std::span<Index> order, Index up) {
+template <std::size_t N>
+Index SimplexTree<N>::build(std::span<Index> order, Index up) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  const auto centre = [this](Index t) { return triangles_[t][0] + triangles_[t][1] + triangles_[t][2]; };
+  const auto centre = [this](Index t) {
+    Vec3 sum = triangles_[t][0];
+    for (std::size_t k = 1; k < N; ++k) sum = sum + triangles_[t][k];
+    return sum;
+  };
   Node node{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}, up, kNoIndex, kNoIndex};
   Vec3 low = node.low, high = node.high;  // of the centres
   for (const Index t : order) {
@@ -97,7 +123,8 @@ Index FacetTree::build(std::span<Index> order, Index up) {
   return number;
 }
 
-double FacetTree::square_to(const Node& node, Vec3 p) {
+template <std::size_t N>
+double SimplexTree<N>::square_to(const Node& node, Vec3 p) {
   const auto beyond = [](double low, double at, double high) { return std::max(std::max(low - at, at - high), 0.0); };
   const double x = beyond(node.low.x, p.x, node.high.x), y = beyond(node.low.y, p.y, node.high.y), z = beyond(node.low.z, p.z, node.high.z);
   return x * x + y * y + z * z;
@@ -105,7 +132,8 @@ double FacetTree::square_to(const Node& node, Vec3 p) {
 
 /// From the triangle to begin with upwards, and at each step through the other half: where that triangle is near, little is left to look
 /// at.
-FacetTree::Nearest FacetTree::nearest(Vec3 p, Index near) const {
+template <std::size_t N>
+auto SimplexTree<N>::nearest(Vec3 p, Index near) const -> Nearest {
   Nearest best{near, nearest_point(triangles_[near], p)};
   for (Index below = node_of_[near], here = nodes_[below].up; here != kNoIndex; below = here, here = nodes_[here].up)
     look_through(nodes_[here].right == below ? here + 1 : nodes_[here].right, p, best);
@@ -113,7 +141,8 @@ FacetTree::Nearest FacetTree::nearest(Vec3 p, Index near) const {
 }
 
 /// Through all below a node.
-void FacetTree::look_through(Index from, Vec3 p, Nearest& best) const {
+template <std::size_t N>
+void SimplexTree<N>::look_through(Index from, Vec3 p, Nearest& best) const {
   std::array<Index, kDeepest> waiting;
   std::size_t count = 0;
   waiting[count++] = from;
@@ -123,7 +152,7 @@ void FacetTree::look_through(Index from, Vec3 p, Nearest& best) const {
     // Both are rounded, and the one found must not depend on where the search began.
     if (square_to(node, p) > 2.0 * (best.point.square + rounding_)) continue;
     if (node.right == kNoIndex) {
-      const NearestPoint found = nearest_point(triangles_[node.triangle], p);
+      const NearestIn<N> found = nearest_point(triangles_[node.triangle], p);
       const bool equal = found.square == best.point.square;
       if (found.square < best.point.square || (equal && node.triangle < best.triangle)) best = {node.triangle, found};
       continue;
@@ -133,5 +162,8 @@ void FacetTree::look_through(Index from, Vec3 p, Nearest& best) const {
     waiting[count++] = left_first ? number + 1 : node.right;
   }
 }
+
+template class SimplexTree<3>;
+template class SimplexTree<4>;
 
 }  // namespace dmoscope

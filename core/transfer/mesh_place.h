@@ -1,0 +1,63 @@
+#pragma once
+// Where a place lies in a mesh: found from a vertex near it.
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "core/mesh/mesh.h"
+#include "core/mesh/plane.h"
+#include "core/mesh/topology.h"
+#include "core/reference/simplex_tree.h"
+
+namespace dmoscope {
+
+/// The part of an element that a place lies in, or the nearest: a triangle (N = 3) or a tetrahedron (4), and the weights of its corners,
+/// which are >= 0 and add up to 1.
+template <std::size_t N>
+struct MeshPlace {
+  std::array<Index, N> corners{};
+  std::array<double, N> weights{};
+};
+
+/// Finds places in a mesh whose elements are split into triangles (of a plane or a surface) or tetrahedra. A quadrilateral is split by its
+/// shorter diagonal, a volume element such that it fits its neighbours. Mesh and topology must outlive it; threads may share it.
+template <std::size_t N>
+class PlaceSearch {
+ public:
+  PlaceSearch(const Mesh& mesh, const Topology& topology, const Geometry& geometry);
+
+  /// The nearest part of the mesh. `near`: a vertex of an element; the nearer, the faster. Of parts that are equally near, one that does
+  /// not depend on what was asked before.
+  [[nodiscard]] MeshPlace<N> at(Index near, Vec3 place) const;
+
+ private:
+  struct Found {
+    Index element = kNoIndex;
+    MeshPlace<N> place;
+    double square;
+  };
+  using Part = std::array<Index, N>;
+  struct Tree {
+    SimplexTree<N> simplices;
+    std::vector<Part> parts;
+    std::vector<Index> first_of;  // by element, as far as it has one
+  };
+  template <class Visit>
+  void for_parts(Index element, const Visit& visit) const;
+  [[nodiscard]] std::array<Vec3, N> points(const Part& part) const;
+  void look_around(Index vertex, Vec3 place, Found& best) const;
+  [[nodiscard]] const Tree& tree() const;
+
+  const Mesh& mesh_;
+  const Topology& topology_;
+  Plane plane_;
+  bool wraps_ = false;
+  double rounding_ = 0.0;  // of a distance, squared
+  mutable std::once_flag planted_;
+  mutable std::unique_ptr<Tree> tree_;
+};
+
+}  // namespace dmoscope

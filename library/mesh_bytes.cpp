@@ -45,22 +45,19 @@ struct MeshParts {
   std::vector<Field> fields, fields_as_read;
   std::vector<dmoscope::FieldValues> moved_fields;
   std::vector<Group> groups;
+  std::vector<std::array<Index, 2>> periodic;
   bool single_precision = false;
   std::vector<SourceParts> source;  // one, or none
 };
 
 template <class Archive>
 void pass(Archive& archive, Field& f) {
-<<<<<<< HEAD
-  archive(f.name, f.on, f.components, f.type, f.role, f.values, f.said_material);
-=======
-  archive(f.name, f.on, f.components, f.type, f.role, f.values, f.place.begin, f.place.words, f.place.with_positions, f.place.at,
-          f.place.bytes, f.place.array, f.place.rows);
+  archive(f.name, f.on, f.components, f.type, f.role, f.values, f.said_material, f.place.begin, f.place.words, f.place.with_positions,
+          f.place.at, f.place.bytes, f.place.array, f.place.rows);
 }
 template <class Archive>
 void pass(Archive& archive, dmoscope::FieldValues& v) {
   archive(v.field, v.values);
->>>>>>> 3f90fe56 (fields: depth and temperature stay with places)
 }
 template <class Archive>
 void pass(Archive& archive, Group& g) {
@@ -76,7 +73,7 @@ void pass(Archive& archive, SourceParts& s) {
 template <class Archive>
 void pass(Archive& archive, MeshParts& m) {
   archive(m.name, m.title, m.path, m.positions, m.moved, m.as_read, m.kinds, m.offsets, m.connectivity, m.fields, m.fields_as_read,
-          m.moved_fields, m.groups, m.single_precision, m.source);
+          m.moved_fields, m.groups, m.periodic, m.single_precision, m.source);
 }
 
 template <class T>
@@ -255,6 +252,7 @@ std::string Mesh::to_bytes() const {
                   .fields_as_read = data_->as_read ? data_->as_read->fields : std::vector<Field>(),
                   .moved_fields = data_->fields,
                   .groups = mesh.groups,
+                  .periodic = mesh.periodic,
                   .single_precision = mesh.single_precision,
                   .source = {}};
   if (mesh.source) parts.source.push_back(parts_of(*mesh.source));
@@ -296,6 +294,7 @@ Mesh Mesh::from_bytes(std::string_view bytes, const Progress& progress) {
     mesh.positions = std::move(parts.positions);
     mesh.fields = std::move(parts.fields);
     mesh.groups = std::move(parts.groups);
+    mesh.periodic = std::move(parts.periodic);
     mesh.single_precision = parts.single_precision;
     data->input = prepare_input(std::move(mesh), parts.path, dmoscope::Need::Smoothing, progress.state().progress);
     return Mesh(std::shared_ptr<const Data>(std::move(data)));

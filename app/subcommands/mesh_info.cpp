@@ -57,8 +57,13 @@ void tell_mesh(const std::filesystem::path& file, bool json) {
   print_groups(mesh, std::numeric_limits<std::size_t>::max());
   print_fields(mesh);
   if (const BoundaryLayers layers = find_boundary_layers(mesh, input->geometry); !layers.empty())
-    print("\nboundary layers: {} in {}, up to {} high (--target layers:input keeps them)\n",
-          counted(layers.elements.size(), "element", "elements"), counted(layers.stacks, "stack", "stacks"), layers.most);
+    print("\nboundary layers: {} in {}, up to {} high ({})\n", counted(layers.elements.size(), "element", "elements"),
+          counted(layers.stacks, "stack", "stacks"), layers.most,
+          input->layers.empty()
+              ? "--target layers:input keeps them"
+              : fmt::format("{} of them stay when it is smoothed: --layers free lets them go, --target layers:input keeps "
+                            "their shape",
+                            counted(input->layers.size(), "vertex", "vertices")));
   if (const std::string sentence = input->interfaces.sentence("--interfaces free"); !sentence.empty())
     print("\nwhen it is smoothed, {}\n", sentence);
 }

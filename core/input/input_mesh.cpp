@@ -8,6 +8,7 @@
 #include "core/base/error.h"
 #include "core/input/declared_floats.h"
 #include "core/input/element_findings.h"
+#include "core/input/layer_vertices.h"
 #include "core/input/mesh_share.h"
 #include "core/input/reference_measures.h"
 #include "core/input/volume_input.h"
@@ -94,6 +95,7 @@ std::shared_ptr<const InputMesh> assemble(Mesh mesh, Geometry geometry, Topology
   Interfaces interfaces(mesh, topology);
   progress.check();
   const bool has_strays = find_strays(mesh, geometry, topology, report, [](Index) { return true; });
+  std::vector<Index> layers = layer_vertices(mesh, geometry);
   return std::make_shared<const InputMesh>(InputMesh{std::move(mesh),
                                                      geometry,
                                                      std::move(topology),
@@ -105,6 +107,7 @@ std::shared_ptr<const InputMesh> assemble(Mesh mesh, Geometry geometry, Topology
                                                      std::move(interfaces),
                                                      {},
                                                      {},
+                                                     std::move(layers),
                                                      has_strays});
 }
 

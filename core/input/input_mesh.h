@@ -35,6 +35,7 @@ struct InputMesh {
   Interfaces interfaces{};
   std::shared_ptr<const InputMesh> surface{};  // on which vertices slide instead of on the mesh's own; null: that. See slide_on()
   std::vector<Vec3> surface_normals{};  // of a curved surface, by element: which way it looks where that surface says so; zero: unknown
+  std::vector<Index> layers{};          // vertices of boundary layers: see layer_vertices(); none of a share
   bool has_strays = false;  // a vertex of an inverted element, off the boundary, that lies outside the box of its star's other vertices
   std::shared_ptr<const MeshShare> share{};  // of a mesh that several processes have together; null: this is all of it
   /// Elements of the whole mesh, whichever processes have them.

@@ -110,12 +110,8 @@ struct Field {
   std::string type = "double";  // the file's own word for its scalar ("float", "int", ...)
   std::string role;             // the file's own word for what it is ("SCALARS", "VECTORS", "depth", ...), may be empty
   std::vector<double> values;
-<<<<<<< HEAD
   bool said_material = false;  // a person said that it names materials, see name_materials()
-  /// Where it stands in the text it was read from, for errors that are found late.
-=======
   /// Where it stands in the file that it was read from: for errors that are found late, and to write it again.
->>>>>>> 3f90fe56 (fields: depth and temperature stay with places)
   struct Place {
     std::uint64_t begin = 0;      // the byte of its first row; of an array that has a name, the number of its first number
     std::uint32_t words = 0;      // text: from row to row; 0: not known
@@ -152,7 +148,7 @@ struct Mesh {
   std::vector<Field> fields;
   std::vector<Group> groups;
   /// Vertices that the file says are one, a period apart.
-  std::vector<std::pair<Index, Index>> periodic{};
+  std::vector<std::array<Index, 2>> periodic{};
   /// Elements whose winding was reversed after reading (see orientation.h); empty if none, else one entry per element.
   std::vector<std::uint8_t> flipped;
   /// The file holds 32-bit coordinates, or says so: moved vertices are put on such, so that what is judged is what will be read.

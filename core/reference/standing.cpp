@@ -16,6 +16,14 @@ BoundaryRule parse_boundary_rule(std::string_view word) {
   throw UsageError(unknown_value("rule for the boundary", word, std::array{name(BoundaryRule::Fixed), name(BoundaryRule::Slide)}));
 }
 
+std::string_view name(LayerRule rule) noexcept { return rule == LayerRule::Keep ? "keep" : "free"; }
+
+LayerRule parse_layer_rule(std::string_view word) {
+  for (const LayerRule rule : {LayerRule::Keep, LayerRule::Free})
+    if (word == name(rule)) return rule;
+  throw UsageError(unknown_value("rule for boundary layers", word, std::array{name(LayerRule::Keep), name(LayerRule::Free)}));
+}
+
 bool lets_slide(const InputMesh& input, const StandingRule& rule) {
   return rule.slides() || (input.geometry.shape == Shape::Planar && !rule.kinds.features.empty());
 }
@@ -30,6 +38,8 @@ std::vector<std::uint8_t> standing_vertices(const InputMesh& input, const Standi
     else if (input.is_surface())
       standing[v] = 1;
   }
+  if (rule.layers == LayerRule::Keep)
+    for (const Index v : input.layers) standing[v] = 1;
   // Inside a plane the ends of feature edges that a person names would be free.
   if (domain == nullptr || input.geometry.shape != Shape::Planar) return standing;
   for (const auto& edge : rule.kinds.features)

@@ -31,7 +31,8 @@ double to_positive(const std::string& word, double most, std::string_view what) 
 using P = RunParameters;
 using Word = const std::string&;
 
-constexpr std::array<std::string_view, 2> kPrecisions{"float", "double"}, kDirections{"random", "axes"}, kBoundary{"fixed", "slide"};
+constexpr std::array<std::string_view, 2> kPrecisions{"float", "double"}, kDirections{"random", "axes"}, kBoundary{"fixed", "slide"},
+    kLayers{"keep", "free"};
 constexpr std::array<std::string_view, 3> kBackends{"auto", "cpu", "cuda"}, kInterfaces{"fixed", "free", "slide"};
 
 const std::array kTable{
@@ -151,6 +152,18 @@ const std::array kTable{
         .from_text = [](P& p, Word word) { p.interfaces = parse_interface_rule(word); },
         .in_title = [](const P& p) { return fmt::format("interfaces {}", name(p.interfaces)); },
         .before = "free"},
+    ParameterInfo{
+        .name = "layers",
+        .title = "layers",
+        .type = "keep|free",
+        .doc = "Whether the vertices of boundary layers stay: stacks of at least 3 quadrilaterals, wedges or hexahedra that begin at the "
+               "boundary 4 times as wide as high, and grow. With a target they are free",
+        .kind = ParameterKind::Choice,
+        .choices = kLayers,
+        .to_text = [](const P& p) { return std::string(name(p.layers)); },
+        .from_text = [](P& p, Word word) { p.layers = parse_layer_rule(word); },
+        .in_title = [](const P& p) { return fmt::format("layers {}", name(p.layers)); },
+        .before = "free"},
     ParameterInfo{.name = "boundary",
                   .title = "boundary",
                   .type = "fixed|slide",
@@ -266,6 +279,11 @@ const ParameterInfo& parameter_info(std::string_view name) {
   const auto found = std::ranges::find(kTable, name, &ParameterInfo::name);
   if (found == kTable.end()) throw UsageError(fmt::format("there is no parameter '{}'", name));
   return *found;
+}
+
+StandingRule RunParameters::standing() const {
+  const bool kept = target_of(metric).is_ideal() && layers == LayerRule::Keep;
+  return {interfaces, boundary, corner_angle, feature_angle, kinds, kept ? LayerRule::Keep : LayerRule::Free};
 }
 
 void aim_at(RunParameters& parameters, const Target& target) {

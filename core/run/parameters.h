@@ -47,6 +47,7 @@ struct RunParameters {
   std::vector<Index> fixed{};  // the user's fixed set, besides boundary and unused vertices and, as `interfaces` says, those on interfaces
   InterfaceRule interfaces = InterfaceRule::Fixed;
   BoundaryRule boundary = BoundaryRule::Fixed;
+  LayerRule layers = LayerRule::Keep;                   // of boundary layers, unless a target is given
   double corner_angle = StandingRule{}.corner_angle;    // degrees; where the boundary slides
   double feature_angle = StandingRule{}.feature_angle;  // degrees; of volumes, likewise
   Kinds kinds{};                                        // of vertices and edges, what the user says against angles
@@ -55,7 +56,7 @@ struct RunParameters {
   FieldRules fields{};                                  // of nodal fields, when the mesh is written
   Backend backend = Backend::Auto;
   friend bool operator==(const RunParameters&, const RunParameters&) = default;
-  [[nodiscard]] StandingRule standing() const { return {interfaces, boundary, corner_angle, feature_angle, kinds}; }
+  [[nodiscard]] StandingRule standing() const;
 };
 
 enum class ParameterKind { Whole, Real, Choice, Text };

@@ -153,7 +153,7 @@ class Card {
       const double was = height(before_), is = height(after_);
       if (was > 0.0 && is > 0.0) most = std::max({most, is / was, was / is});
     }
-    add("wall cells", 1.0, most, kOfWall - 1.0, "target layers:input");
+    add("wall cells", 1.0, most, kOfWall - 1.0, "layers keep");
   }
 
   const InputMesh& input_;

@@ -31,6 +31,8 @@ std::string Run::why_fixed(Index vertex) const {
   if (vertex >= fixed().size()) return fmt::format("the mesh has {} vertices", fixed().size());
   if (fixed()[vertex] == 0) return {};
   if (input_->topology.star(vertex).empty()) return "it belongs to no element";
+  if (parameters_.standing().layers == LayerRule::Keep && std::ranges::binary_search(input_->layers, vertex))
+    return "it lies in a boundary layer, which is kept";
   if (domain_ && domain_->slides(vertex)) return "it was fixed by hand";
   if (input_->topology.boundary()[vertex] != 0 && parameters_.boundary == BoundaryRule::Fixed)
     return "it lies on the boundary, which stays";

@@ -14,7 +14,10 @@ namespace {
 
 constexpr double kAtWall = 2.0, kAbove = 1.2;  // least width over height of the first element of a stack, and of those above
 constexpr double kShrinks = 0.8;               // layers get higher from the wall on: at least so high against the one below
-constexpr std::uint16_t kHighest = 60000;      // layers of a stack
+constexpr double kFlat = 4.0,
+                 kGrown = 1.5;      // of a pronounced stack: width over height of the first, height of the last over that of the first
+constexpr std::size_t kLayers = 3;  // at least
+constexpr std::uint16_t kHighest = 60000;  // layers of a stack
 
 struct Extent {
   double width = 0.0, height = 0.0;  // means, along the wall and away from it
@@ -93,7 +96,11 @@ class Shapes {
 class Finder {
  public:
   Finder(const Mesh& mesh, const Geometry& geometry)
-      : mesh_(mesh), shapes_(mesh, geometry.plane, mesh.positions), height_(mesh.elements.size()), base_(mesh.elements.size()) {}
+      : mesh_(mesh),
+        shapes_(mesh, geometry.plane, mesh.positions),
+        height_(mesh.elements.size()),
+        base_(mesh.elements.size()),
+        pronounced_(mesh.elements.size()) {}
 
   BoundaryLayers run(bool volume) {
     if (volume)
@@ -105,12 +112,24 @@ class Finder {
       layers_.elements.push_back(e);
       layers_.heights.push_back(height_[e]);
       layers_.bases.push_back(base_[e]);
+      layers_.pronounced.push_back(pronounced_[e]);
       layers_.most = std::max(layers_.most, height_[e]);
     }
     return std::move(layers_);
   }
 
  private:
+  void begin_stack() { stack_.clear(); }
+  void add_to_stack(Index element, const Extent& extent) {
+    if (stack_.empty()) first_ = extent, ++layers_.stacks;
+    last_ = extent;
+    stack_.push_back(element);
+  }
+  void end_stack() {
+    if (stack_.size() < kLayers || first_.width < kFlat * first_.height || last_.height < kGrown * first_.height) return;
+    for (const Index element : stack_) pronounced_[element] = 1;
+  }
+
   // In the plane: a side is a quadrilateral's edge i, from corner i to i + 1.
 
   void from_edges() {
@@ -137,6 +156,11 @@ class Finder {
   }
 
   void climb_edges(Index element, Index edge) {
+    begin_stack();
+    climb_from_edge(element, edge);
+    end_stack();
+  }
+  void climb_from_edge(Index element, Index edge) {
     double below = 0.0;
     for (std::uint16_t height = 1; height < kHighest; ++height) {
       if (mesh_.elements.kind(element) != ElementKind::Quadrilateral || height_[element] != 0) return;
@@ -145,7 +169,7 @@ class Finder {
       below = here.height;
       height_[element] = height;
       base_[element] = static_cast<std::uint8_t>(edge);
-      if (height == 1) ++layers_.stacks;
+      add_to_stack(element, here);
       const Index opposite = (edge + 2) % 4, next = across_[4 * std::size_t{element} + opposite];
       if (next == kNoIndex) return;
       const auto c = mesh_.elements.corners(element);
@@ -163,6 +187,11 @@ class Finder {
   }
 
   void climb_faces(const FaceNeighbours& neighbours, ElementFace at) {
+    begin_stack();
+    climb_from_face(neighbours, at);
+    end_stack();
+  }
+  void climb_from_face(const FaceNeighbours& neighbours, ElementFace at) {
     double below = 0.0;
     for (std::uint16_t height = 1; height < kHighest; ++height) {
       const ElementKind kind = mesh_.elements.kind(at.element);
@@ -174,7 +203,7 @@ class Finder {
       below = here.height;
       height_[at.element] = height;
       base_[at.element] = static_cast<std::uint8_t>(at.face);
-      if (height == 1) ++layers_.stacks;
+      add_to_stack(at.element, here);
       const ElementFace top{at.element, *other};
       const Index next = neighbours.of(at.element)[*other];
       if (next == kNoIndex) return;
@@ -187,7 +216,10 @@ class Finder {
   Shapes shapes_;
   std::vector<std::uint16_t> height_;  // by element; 0: in no stack
   std::vector<std::uint8_t> base_;     // by element: the side that it stands on
-  std::vector<Index> across_;          // by element and edge
+  std::vector<std::uint8_t> pronounced_;
+  std::vector<Index> stack_;   // the one that is climbed, from the wall on
+  Extent first_, last_;        // of its elements
+  std::vector<Index> across_;  // by element and edge
   BoundaryLayers layers_;
 };
 

@@ -11,9 +11,10 @@
 namespace dmoscope {
 
 struct BoundaryLayers {
-  std::vector<Index> elements;         // ascending
-  std::vector<std::uint16_t> heights;  // of each its place in its stack: 1 is at the wall
-  std::vector<std::uint8_t> bases;     // of each the side that it stands on: an edge, from corner i to i + 1, or a face, see faces_of()
+  std::vector<Index> elements;           // ascending
+  std::vector<std::uint16_t> heights;    // of each its place in its stack: 1 is at the wall
+  std::vector<std::uint8_t> bases;       // of each the side that it stands on: an edge, from corner i to i + 1, or a face, see faces_of()
+  std::vector<std::uint8_t> pronounced;  // of each: whether its stack is
   Index stacks = 0;
   std::uint16_t most = 0;  // layers of the highest stack
   [[nodiscard]] bool empty() const noexcept { return elements.empty(); }
@@ -22,6 +23,8 @@ struct BoundaryLayers {
 /// A stack begins at an edge (in a volume: a face) of the boundary whose element is at least twice as wide along it as it is high. It goes
 /// on from one side of an element to the opposite one, while elements are at least 1.2 times as wide as high, and not less than 0.8 times
 /// as high as the one below: layers get higher from the wall on. An element is in the stack that comes first to it. Linear in their number.
+/// Pronounced is a stack of at least 3 layers whose first element is 4 times as wide as high, and whose last one is 1.5 times as high as
+/// that: as somebody makes them who wants to resolve what happens at a wall.
 [[nodiscard]] BoundaryLayers find_boundary_layers(const Mesh& mesh, const Geometry& geometry);
 
 /// How high an element of a stack stands on one of its sides: the mean of the edges away from it, in mesh units.

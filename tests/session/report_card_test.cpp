@@ -102,7 +102,7 @@ TEST(ReportCard, TellsHowHighWallCellsHaveBecome) {
   const ReportCard card = card_of(*mesh, after);
   EXPECT_NEAR(figure(card, "", "wall cells").after, 1.5, 1e-9);
   EXPECT_EQ(figure(card, "", "wall cells").verdict, Verdict::Worse);
-  EXPECT_THAT(card.sentence(true), HasSubstr("--target layers:input keeps"));
+  EXPECT_THAT(card.sentence(true), HasSubstr("--layers keep keeps"));
 }
 
 }  // namespace

@@ -143,7 +143,7 @@ class GmshReader {
     const Index one = nodes_.find(node), other = nodes_.find(master);
     if (one == kNoIndex || other == kNoIndex)
       words().fail(fmt::format("$Periodic pairs node {} with {}, and $Nodes has not both", node, master));
-    if (one != other) mesh_.periodic.emplace_back(one, other);
+    if (one != other) mesh_.periodic.push_back({one, other});
   }
 
   // --- Nodes ---

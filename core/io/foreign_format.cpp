@@ -106,15 +106,6 @@ bool is_gid(const Head& h) {
   });
 }
 
-/// DHI MIKE 21, 3: the kind and unit of the depths, which older files leave out, the number of nodes, and a projection.
-bool is_mike(const Head& h) {
-  if (!h.is(".mesh")) return false;
-  const auto head = words(h.line(0)), node = words(h.line(1));
-  const bool counts = (head.size() >= 4 && all_whole(std::span(head).first(3)) && !whole(head[3])) ||
-                      (head.size() >= 2 && all_whole(std::span(head).first(1)) && !whole(head[1]));
-  return counts && node.size() == 5 && whole(node.front()) && whole(node.back());
-}
-
 /// Nemoh, a code for waves: "2" and whether the mesh is half of one; then nodes by number.
 bool is_nemoh(const Head& h) {
   const auto head = words(h.line(0)), first = words(h.line(1)), second = words(h.line(2));
@@ -123,13 +114,6 @@ bool is_nemoh(const Head& h) {
 }
 
 bool is_fvcom(const Head& h) { return begins(h.line(0), "Node Number") && h.line(0).find('=') != std::string_view::npos; }
-
-/// SELAFIN: Fortran's records, of which the first is a title of 80 characters.
-bool is_selafin(const Head& h) {
-  using namespace std::string_view_literals;
-  constexpr std::string_view kEighty = "\0\0\0\x50"sv;
-  return h.bytes.starts_with(kEighty) && h.bytes.substr(std::min<std::size_t>(h.bytes.size(), 84)).starts_with(kEighty);
-}
 
 /// A part of a mesh of Elmer: mesh.header, mesh.nodes, mesh.elements, mesh.boundary.
 bool is_elmer(const Head& h) {
@@ -176,10 +160,8 @@ constexpr std::array kForeign{
     Foreign{"an HDF5 file (MED, Fluent and others are such; of XDMF, open the .xdmf file)", "convert it with ParaView or meshio to .vtu",
             begins_hdf5},
     Foreign{"a NetCDF file (UGRID and others are such)", "open it in ParaView and save it as .vtu", begins_netcdf},
-    Foreign{"a MIKE mesh (DHI)", "export it from MIKE's Mesh Generator or from SMS as .2dm", is_mike, ".mike"},
     Foreign{"a Nemoh mesh", "convert it with meshmagick to .vtp or .stl", is_nemoh},
     Foreign{"an FVCOM grid", "export it from SMS as .2dm", is_fvcom},
-    Foreign{"a SELAFIN file (TELEMAC)", "convert it with TELEMAC's converter.py (srf2vtk) or in BlueKenue", is_selafin, ".slf"},
     Foreign{"an FEBio model", "open it in FEBio Studio and export it as .vtk", [](const Head& h) { return h.has_line("<febio_spec"); }},
     Foreign{"a GMV file", "open it in ParaView and save it as .vtu", [](const Head& h) { return begins(h.line(0), "gmvinput"); }},
     Foreign{"a UGRID mesh (AFLR)", kMeshio, [](const Head& h) { return h.is(".ugrid"); }},

@@ -68,6 +68,8 @@ struct FormatHandler {
 [[nodiscard]] const FormatHandler& abaqus_format();
 [[nodiscard]] const FormatHandler& sms_2dm_format();
 [[nodiscard]] const FormatHandler& nastran_format();
+[[nodiscard]] const FormatHandler& mike_format();
+[[nodiscard]] const FormatHandler& selafin_format();
 [[nodiscard]] const FormatHandler& xdmf_format();  // needs pugixml: not in every build
 [[nodiscard]] const FormatHandler& exodus_format();
 [[nodiscard]] const FormatHandler& cgns_format();  // needs HDF5: not in every build

@@ -15,12 +15,12 @@ namespace {
 
 const std::vector<const FormatHandler*>& handlers() {
   static const std::vector<const FormatHandler*> table{
-      &off_format(),    &obj_format(),    &ply_format(),     &stl_format(),     &vtk_format(),
+      &off_format(),    &obj_format(),     &ply_format(),     &stl_format(),   &vtk_format(),
 #ifdef DMOSCOPE_VTU
-      &vtu_format(),    &vtp_format(),    &pvtu_format(),    &xdmf_format(),
+      &vtu_format(),    &vtp_format(),     &pvtu_format(),    &xdmf_format(),
 #endif
-      &fort14_format(), &su2_format(),    &gmsh_format(),    &medit_format(),   &meshb_format(),
-      &tetgen_format(), &abaqus_format(), &sms_2dm_format(), &nastran_format(), &exodus_format(),
+      &fort14_format(), &su2_format(),     &gmsh_format(),    &medit_format(), &meshb_format(),   &tetgen_format(),
+      &abaqus_format(), &sms_2dm_format(), &nastran_format(), &mike_format(),  &selafin_format(), &exodus_format(),
 #ifdef DMOSCOPE_HDF5
       &cgns_format(),
 #endif
@@ -51,17 +51,20 @@ std::string mesh_extension(const std::filesystem::path& path) {
   return gzip_is_here() && equal_ignoring_case(extension, kPacked) ? path.stem().extension().string() : extension;
 }
 
+bool has_extension(const FormatHandler& handler, std::string_view extension) {
+  std::string_view list = handler.info.extensions;
+  while (!list.empty()) {
+    const std::string_view one = list.substr(0, list.find(' '));
+    if (equal_ignoring_case(one, extension)) return true;
+    list.remove_prefix(std::min(list.size(), one.size() + 1));
+  }
+  return false;
+}
+
 const FormatHandler* by_extension(std::string_view extension) {
   if (extension.size() < 2) return nullptr;
-  for (const FormatHandler* handler : handlers()) {
-    std::string_view list = handler->info.extensions;
-    while (!list.empty()) {
-      const std::string_view one = list.substr(0, list.find(' '));
-      if (equal_ignoring_case(one, extension)) return handler;
-      list.remove_prefix(std::min(list.size(), one.size() + 1));
-    }
-  }
-  return nullptr;
+  const auto found = std::ranges::find_if(handlers(), [&](const FormatHandler* handler) { return has_extension(*handler, extension); });
+  return found == handlers().end() ? nullptr : *found;
 }
 
 std::string known_formats() {

@@ -12,7 +12,9 @@ namespace dmoscope {
 
 inline constexpr std::string_view kPacked = ".gz";  // the extension of a packed file
 
-/// The format with this extension (".off", whatever its case), null if there is none.
+/// Is it one of the format's extensions? Some formats share one, and are told apart by content.
+[[nodiscard]] bool has_extension(const FormatHandler& handler, std::string_view extension);
+/// The first format with this extension (".off", whatever its case), null if there is none.
 [[nodiscard]] const FormatHandler* by_extension(std::string_view extension);
 /// "off (.off), obj (.obj), ..."
 [[nodiscard]] std::string known_formats();

@@ -245,7 +245,7 @@ std::vector<std::string> write_commented_mesh(const std::filesystem::path& path,
                                  : write_anew(file, *handler, with_fields(mesh, moved.fields), positions, context);
     if (second) handler->companion->write(*second, mesh, context);
   }
-  if (handler != by_extension(extension))
+  if (!has_extension(*handler, extension))
     notes.push_back(fmt::format("Written as {}, which {} is.", handler->info.title, mesh.source->path().filename().string()));
   if (!comment.empty()) add_comment(file, *handler, mesh, comment, notes);
   progress.check();

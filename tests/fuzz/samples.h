@@ -9,6 +9,7 @@
 #include "core/io/mesh_io.h"
 #include "core/io/reading/binary.h"
 #include "tests/fuzz/array_samples.h"
+#include "tests/fuzz/selafin_samples.h"
 #include "tests/fuzz/vtp_samples.h"
 #include "tests/fuzz/vtu_samples.h"
 
@@ -444,6 +445,10 @@ inline std::vector<Sample> samples() {
       {"strings", "2dm", sms_2dm()},
       {"volume", "nastran", nastran_volume()},
       {"planar", "nastran", nastran_planar()},
+      {"mixed", "mike",
+       "100079 1000 5 UTM-33\n1 0 0 -5.5 1\n2 1 0 -5 1\n3 1 1 -4 0\n4 0 1.50 -3 2\n5 2 0.5 -2 1\n2 4 25\n1 1 2 3 4\n2 2 5 3 0\n"},
+      {"single_big", "selafin", selafin_sample(true, false)},
+      {"double_little", "selafin", selafin_sample(false, true)},
       {"solids", "exodus", exodus_solids()},
       {"plane", "exodus", exodus_plane()},
   };

@@ -31,7 +31,7 @@ void put(const std::filesystem::path& path, std::string_view bytes);
 
 /// Is there a file of this format for a mesh that was read from another one?
 [[nodiscard]] inline bool is_made_anew(const FormatInfo& format) {
-  return format.name != "meshb" && format.name != "exodus" && format.name != "cgns";
+  return format.name != "meshb" && format.name != "mike" && format.name != "selafin" && format.name != "exodus" && format.name != "cgns";
 }
 
 /// Expects InputError at this line (from 1; 0: none) with these words in it.

@@ -84,6 +84,8 @@ const std::vector<Backing> kBackings{
     {"Abaqus", "ASCII, one part, with or without an assembly", "abaqus", {"volume", "planar"}},
     {"SMS 2dm", "ASCII", "2dm", {"strings"}},
     {"Nastran", "bulk data in free, small and large fields", "nastran", {"volume", "planar"}},
+    {"MIKE", "ASCII, with and without the unit of the levels", "mike", {"mixed"}},
+    {"TELEMAC SELAFIN", "planar, either byte order", "selafin", {"single_big", "double_little"}},
     {"XDMF", "one uniform grid, numbers in the XML", "xdmf", {"mixed", "planar"}},
 };
 
@@ -210,7 +212,7 @@ TEST_P(FormatTable, IsMadeAnewAsItSays) {
   for_samples([&](const Sample& sample) {
     Mesh mesh = read_bytes(sample.format, sample.bytes);
     mesh.source.reset();
-    if (row_->anew == "no: .mesh") {
+    if (begins(row_->anew, "no: .mesh") || begins(row_->anew, "no: .2dm")) {
       EXPECT_THROW((void)made_anew(mesh), OutputError);
       return;
     }

@@ -36,6 +36,9 @@ void draw_formats(PanelContext& context, std::string& name) {
   if (!open) context.items.record_last("export:format");
   if (open) {
     for (const FormatInfo& format : format_table()) {
+      const std::string_view first = format.extensions.substr(0, format.extensions.find(' '));
+      if (format_by_extension(first)->name != format.name)
+        continue;  // told apart from another by content, which is written where it was read
       const std::string label = fmt::format("{}   {}", format.title, format.extensions);
       if (ImGui::Selectable(label.c_str(), &format == current)) {
         const std::string extensions(format.extensions);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <string>
 
@@ -49,8 +50,8 @@ bool among(const Names& names, const std::string& name) {
 
 bool is_of_cells(const Field& field) { return field.on == Field::On::Elements && field.components == 1; }
 
-/// How many different whole numbers there are, where each stands for two elements or more on average; else 0.
-std::size_t count_sorting(const Field& field) {
+/// How many different whole numbers there are, where each stands for two elements or more on average and there are `most` at most; else 0.
+std::size_t count_sorting(const Field& field, std::size_t most = std::numeric_limits<std::size_t>::max()) {
   std::set<double> different;
   double last = std::nan("");
   for (const double value : field.values) {
@@ -58,7 +59,7 @@ std::size_t count_sorting(const Field& field) {
     if (value != std::floor(value) || std::abs(value) > 9e15) return 0;  // also what is not finite
     last = value;
     different.insert(value);
-    if (2 * different.size() > field.values.size() && different.size() > 2) return 0;
+    if (different.size() > most || (2 * different.size() > field.values.size() && different.size() > 2)) return 0;
   }
   return different.size();
 }
@@ -110,8 +111,8 @@ std::vector<std::string> said_materials(const Mesh& mesh) {
 std::size_t possible_materials(const Field& field) {
   constexpr std::size_t kFew = 32;
   if (!is_of_cells(field) || naming_of(field) != Naming::Nothing || among(kOthers, plain(field.name))) return 0;
-  const std::size_t different = count_sorting(field);
-  return different >= 2 && different <= kFew ? different : 0;
+  const std::size_t different = count_sorting(field, kFew);
+  return different >= 2 ? different : 0;
 }
 
 }  // namespace dmoscope

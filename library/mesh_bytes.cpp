@@ -60,6 +60,10 @@ void pass(Archive& archive, dmoscope::FieldValues& v) {
   archive(v.field, v.values);
 }
 template <class Archive>
+void pass(Archive& archive, std::array<Index, 2>& pair) {
+  archive(pair[0], pair[1]);
+}
+template <class Archive>
 void pass(Archive& archive, Group& g) {
   archive(g.name, g.role, g.code, g.dimension, g.members, g.faces);
 }

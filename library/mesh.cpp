@@ -12,6 +12,7 @@
 #include "core/io/reading/binary_scalar.h"
 #include "core/io/source_again.h"
 #include "core/io/vtk/vtk_order.h"
+#include "core/mesh/geographic.h"
 #include "library/mesh_data.h"
 #include "library/translate.h"
 
@@ -121,15 +122,24 @@ std::shared_ptr<const Mesh::Data> data_of(std::shared_ptr<const InputMesh> input
 
 std::size_t corner_count(CellKind kind) { return info(static_cast<ElementKind>(kind)).corners; }
 
-std::shared_ptr<const InputMesh> Mesh::Data::prepared(dmoscope::Progress& progress) const {
-  if (!moved) return input;
+std::shared_ptr<const InputMesh> Mesh::Data::prepared(dmoscope::Progress& progress, bool mapped) const {
+  if (!moved && !mapped) return input;
   dmoscope::Mesh mesh = with_fields(input->mesh, fields);
-  mesh.positions = *moved;
+  if (moved) mesh.positions = *moved;
+  if (mapped) map_to_mercator(mesh);
   // As the elements came in: what is reversed is noted anew.
   for (std::size_t e = 0; e < mesh.flipped.size(); ++e)
     if (mesh.flipped[e] != 0) mesh.elements.flip(static_cast<Index>(e));
   mesh.flipped.clear();
   return prepare_input(std::move(mesh), input->path, Need::Smoothing, progress);
+}
+
+std::vector<Vec3> Mesh::Data::judged_positions() const {
+  const auto own = positions();
+  std::vector<Vec3> all(own.begin(), own.end());
+  if (in_degrees)
+    for (Vec3& p : all) p.y = dmoscope::mercator(p.y);
+  return all;
 }
 
 const Mesh::Data::Arrays& Mesh::Data::arrays() const {
@@ -164,6 +174,7 @@ Mesh moved_mesh(const Mesh& mesh, std::vector<Vec3> positions, std::vector<dmosc
   auto data = std::make_shared<Mesh::Data>();
   data->input = mesh.data()->input;
   data->as_read = mesh.data()->as_read;
+  data->in_degrees = mesh.data()->in_degrees;
   data->moved = std::make_shared<const std::vector<Vec3>>(std::move(positions));
   data->fields = std::move(fields);
   return Mesh(std::shared_ptr<const Mesh::Data>(std::move(data)));
@@ -188,7 +199,28 @@ Mesh::Mesh(const Mesh&) = default;
 Mesh& Mesh::operator=(const Mesh&) = default;
 
 Mesh Mesh::read(const std::string& path, const Progress& progress) {
-  return translated([&] { return Mesh(data_of(load_input(path, Need::Smoothing, {progress.state().progress, nullptr}))); });
+  return translated([&] {
+    auto data = std::make_shared<Data>();
+    data->input = load_input(path, Need::Smoothing, {progress.state().progress, nullptr});
+    data->in_degrees = looks_geographic(data->input->mesh) == dmoscope::Likeness::Said;
+    return Mesh(std::shared_ptr<const Data>(std::move(data)));
+  });
+}
+
+bool Mesh::in_degrees() const { return data_->in_degrees; }
+
+Mesh Mesh::with_degrees(bool degrees) const {
+  return translated([&] {
+    if (const std::string why = degrees ? why_not_geographic(data_->input->mesh) : std::string(); !why.empty())
+      refuse(fmt::format("it cannot be taken for longitude and latitude: {}", why));
+    auto data = std::make_shared<Data>();
+    data->input = data_->input;
+    data->moved = data_->moved;
+    data->fields = data_->fields;
+    data->as_read = data_->as_read;
+    data->in_degrees = degrees;
+    return Mesh(std::shared_ptr<const Data>(std::move(data)));
+  });
 }
 
 std::vector<std::string> Mesh::write(const std::string& path, const Progress& progress) const {
@@ -238,6 +270,7 @@ Mesh Mesh::with_positions(const double* positions, const Progress& progress) con
     auto data = std::make_shared<Data>();
     data->input = moved.data()->prepared(progress.state().progress);
     data->as_read = data_->as_read;
+    data->in_degrees = data_->in_degrees;
     if (!data->as_read && data_->input->mesh.source) data->as_read = {data_->input, &data_->input->mesh};
     return Mesh(std::shared_ptr<const Data>(std::move(data)));
   });

@@ -21,13 +21,22 @@ struct Mesh::Data {
   std::shared_ptr<const dmoscope::InputMesh> input;
   std::shared_ptr<const std::vector<dmoscope::Vec3>> moved;  // null: where `input` has them
   std::vector<dmoscope::FieldValues> fields;                 // nodal fields that have other numbers there than `input` has
+  bool in_degrees = false;                                   // longitude and latitude: judged on the Earth
   std::shared_ptr<const dmoscope::Mesh> as_read;  // with the positions of the file that it was read from; null: as `input` has it
 
   [[nodiscard]] std::span<const dmoscope::Vec3> positions() const { return moved ? *moved : input->mesh.positions; }
   /// What `input` has become since it was read as `before`.
   [[nodiscard]] std::vector<dmoscope::FieldValues> fields_since(const dmoscope::Mesh& before) const;
   /// The mesh as it is prepared at its own positions, which is `input` where nothing has moved.
-  [[nodiscard]] std::shared_ptr<const dmoscope::InputMesh> prepared(dmoscope::Progress& progress) const;
+  [[nodiscard]] std::shared_ptr<const dmoscope::InputMesh> prepared(dmoscope::Progress& progress) const {
+    return prepared(progress, false);
+  }
+  /// The same as it is judged and smoothed: mapped where it is in degrees (geographic.h).
+  [[nodiscard]] std::shared_ptr<const dmoscope::InputMesh> judged(dmoscope::Progress& progress) const {
+    return prepared(progress, in_degrees);
+  }
+  /// positions() as they are judged.
+  [[nodiscard]] std::vector<dmoscope::Vec3> judged_positions() const;
 
   // As they came in; made for who asks first.
   struct Arrays {
@@ -37,6 +46,8 @@ struct Mesh::Data {
   [[nodiscard]] const Arrays& arrays() const;
 
  private:
+  [[nodiscard]] std::shared_ptr<const dmoscope::InputMesh> prepared(dmoscope::Progress& progress, bool mapped) const;
+
   mutable std::once_flag arrays_made_;
   mutable Arrays arrays_;
 };

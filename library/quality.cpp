@@ -31,7 +31,7 @@ std::vector<double> quality(const Mesh& mesh, const std::string& metric, unsigne
     const dmoscope::Metric parsed = dmoscope::parse_metric(metric);
     dmoscope::ThreadPool pool(threads);
     std::vector<double> values(mesh.cell_count());
-    dmoscope::element_qualities(mesh.data()->input->quality_context(), mesh.data()->positions(), parsed, &pool, values);
+    dmoscope::element_qualities(mesh.data()->input->quality_context(), mesh.data()->judged_positions(), parsed, &pool, values);
     return values;
   });
 }
@@ -44,7 +44,7 @@ Statistics statistics(const Mesh& mesh, const std::string& metric, unsigned thre
     require_defined(parsed, input);
     dmoscope::ThreadPool pool(threads);
     return statistics_of(
-        dmoscope::compute_statistics(input.quality_context(), mesh.data()->positions(), parsed, input.topology.boundary(), &pool));
+        dmoscope::compute_statistics(input.quality_context(), mesh.data()->judged_positions(), parsed, input.topology.boundary(), &pool));
   });
 }
 

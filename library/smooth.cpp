@@ -5,6 +5,7 @@
 
 #include "core/base/thread_pool.h"
 #include "core/input/input_mesh.h"
+#include "core/mesh/geographic.h"
 #include "core/run/crossing_faces.h"
 #include "core/run/ending.h"
 #include "core/run/run.h"
@@ -50,7 +51,7 @@ Smoothed smooth(const Mesh& mesh, const SmoothOptions& options) {
     dmoscope::Progress& progress = options.progress.state().progress;
     std::shared_ptr<const dmoscope::InputMesh> input;
     try {
-      input = mesh.data()->prepared(progress);
+      input = mesh.data()->judged(progress);
     } catch (const dmoscope::Cancelled&) {
       return Smoothed{mesh, {}, 0, false, true, "cancelled", {}, {}};
     }
@@ -66,11 +67,11 @@ Smoothed smooth(const Mesh& mesh, const SmoothOptions& options) {
     result.iteration = run.moment().iteration;
     if (const auto left = find_left_inverted(run)) result.warnings.push_back(left->sentence());
     if (const auto crossing = find_crossing_faces(run)) result.warnings.push_back(crossing->sentence());
-    const auto positions = run.positions();
+    std::vector<dmoscope::Vec3> positions = places_in_file(input->mesh, run.positions());
     dmoscope::Progress unwatched;  // what was done until a cancel is kept whole
     dmoscope::MovedFields fields = move_fields(*mesh.data()->input, request.parameters.fields, positions, pool.get(), unwatched);
     result.fields = fields.sentence();
-    result.mesh = moved_mesh(mesh, {positions.begin(), positions.end()}, std::move(fields.values));
+    result.mesh = moved_mesh(mesh, std::move(positions), std::move(fields.values));
     return result;
   });
 }

@@ -1,6 +1,7 @@
 #include "library/include/dmoscope/trace.h"
 
 #include "core/inspect/visit_trace.h"
+#include "core/mesh/geographic.h"
 #include "core/run/run.h"
 #include "library/mesh_data.h"
 #include "library/run_options.h"
@@ -17,10 +18,10 @@ void put(double (&to)[3], const dmoscope::Vec3& p) {
 
 /// `lift`: an offset from the vertex, in space.
 template <class Traced, class Lift>
-Trace trace_of(const Traced& traced, const Lift& lift) {
+Trace trace_of(const dmoscope::Mesh& mesh, const Traced& traced, const Lift& lift) {
   Trace result;
-  put(result.from, traced.from);
-  put(result.to, traced.to);
+  put(result.from, in_file(mesh, traced.from));
+  put(result.to, in_file(mesh, traced.to));
   result.before = quality_of(traced.before);
   result.after = quality_of(traced.after);
   result.value = traced.value_phrase;
@@ -32,7 +33,7 @@ Trace trace_of(const Traced& traced, const Lift& lift) {
     out.quality = level.quality;
     out.best = level.best ? static_cast<long>(*level.best) : -1L;
     for (const auto& offset : level.offsets) {
-      const dmoscope::Vec3 place = traced.from + lift(offset);
+      const dmoscope::Vec3 place = in_file(mesh, traced.from + lift(offset));
       out.candidates.insert(out.candidates.end(), {place.x, place.y, place.z});
     }
     result.levels.push_back(std::move(out));
@@ -44,7 +45,7 @@ Trace trace_of(const Traced& traced, const Lift& lift) {
 
 Trace trace(const Mesh& mesh, Index vertex, const SmoothOptions& options) {
   return translated([&] {
-    const auto input = mesh.data()->prepared(options.progress.state().progress);
+    const auto input = mesh.data()->judged(options.progress.state().progress);
     if (input->is_surface()) throw dmoscope::UsageError("the search of a vertex on a curved surface is not traced here");
     if (vertex >= input->mesh.vertex_count())
       throw dmoscope::UsageError("there is no vertex " + std::to_string(vertex) + ", the mesh has " +
@@ -59,9 +60,10 @@ Trace trace(const Mesh& mesh, Index vertex, const SmoothOptions& options) {
       return function(*input, positions, run.fixed(), run.parameters().metric, run.parameters().search, vertex, composite, sweep.untangling,
                       run.guard());
     };
-    if (input->is_volume()) return trace_of(look(dmoscope::trace_volume_visit), [](const dmoscope::Vec3& offset) { return offset; });
+    if (input->is_volume())
+      return trace_of(input->mesh, look(dmoscope::trace_volume_visit), [](const dmoscope::Vec3& offset) { return offset; });
     const dmoscope::Plane plane = input->geometry.plane;
-    return trace_of(look(dmoscope::trace_visit), [plane](const dmoscope::Vec2<double>& offset) { return plane.lift(offset); });
+    return trace_of(input->mesh, look(dmoscope::trace_visit), [plane](const dmoscope::Vec2<double>& offset) { return plane.lift(offset); });
   });
 }
 

@@ -299,6 +299,8 @@ void define_mesh(py::module_& module) {
       .def("to_bytes", [](const dmo::Mesh& mesh) { return py::bytes(mesh.to_bytes()); })
       .def_static("from_bytes", [](const py::bytes& bytes) { return dmo::Mesh::from_bytes(std::string_view(bytes)); })
       .def_property_readonly("is_volume", &dmo::Mesh::is_volume)
+      .def_property_readonly("in_degrees", &dmo::Mesh::in_degrees)
+      .def("with_degrees", &dmo::Mesh::with_degrees)
       .def_property_readonly("is_surface", &dmo::Mesh::is_surface);
 }
 

@@ -128,6 +128,7 @@ Json json_of(const SmoothReport& r) {
   object["held_on_interfaces"] = p.interfaces == InterfaceRule::Free ? 0 : r.on_interfaces;
   if (p.interfaces == InterfaceRule::Slide) object["held_on_interfaces"] = r.on_interfaces - r.run.domain()->count_inside();
   object["sliding"] = r.run.domain() ? r.run.domain()->count() : 0;
+  object["geographic"] = r.run.input().mesh.degrees != nullptr;
   object["iterations"] = r.outcome.iterations;
   object["stopped"] = reason_name(r.outcome.reason);
   object["last_rise"] = r.outcome.last_rise;
@@ -162,6 +163,7 @@ void print_summary(const SmoothReport& r) {
   print("{}: {}, {}, {} free; {}, {}\n", r.run.input().mesh.name, counted(r.vertices, "vertex", "vertices"),
         counted(r.elements, "element", "elements"), grouped(r.free), r.run.title(), name(r.run.backend()));
   if (r.card) print("  {}\n", r.card->sentence(true));
+  if (r.run.input().mesh.degrees) print("  in degrees of longitude and latitude: judged on the Earth\n");
   if (const auto& domain = r.run.domain()) print("  {}\n", domain->sentence());
   print("  {:<16} {:>10} -> {}\n", "minimum", brief(before.minimum), brief(after.minimum));
   print("  {:<16} {:>10} -> {}\n", "movable minimum", brief(before.movable_minimum), brief(after.movable_minimum));

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/common/geographic_option.h"
 #include "app/common/judged_run.h"
 #include "app/common/memory_limit.h"
 #include "app/common/run_options.h"
@@ -22,6 +23,7 @@ struct CompareOptions {
   Goal goal;
   std::uint64_t shuffles = 0;
   MemoryLimit memory;
+  GeographicOption geographic;
   bool json = false;
 };
 

@@ -76,8 +76,9 @@ int compare(const CompareOptions& options, const std::string& command_line) {
   Watch watch;
   Progress& progress = watch.progress();
   const auto pool = std::make_shared<ThreadPool>(options.run.threads);
-  const auto input =
-      load_input_on(options.file, options.surface, Need::Smoothing, {progress, pool.get(), options.memory.bytes()}, options.materials);
+  IoContext reading(progress, pool.get(), options.memory.bytes());
+  reading.geographic = options.geographic.choice();
+  const auto input = load_input_on(options.file, options.surface, Need::Smoothing, reading, options.materials);
   std::vector<std::string> warnings = tell_findings(*input);
   const Kinds kinds = kinds_of(*input, plan.contenders.front().parameters, options.run.kinds, warnings);
   fit_to_mesh(plan, input, vertices_to_fix(input->mesh, options.run.fix), kinds);
@@ -147,6 +148,7 @@ void add_compare(CLI::App& app, Action& action, const std::string& command_line)
   subcommand->add_option("--report", options->report, "Write a page with tables, plots and pictures that needs nothing else")
       ->type_name("FILE.html");
   add_memory_option(*subcommand, options->memory);
+  add_geographic_option(*subcommand, options->geographic);
   subcommand->add_flag("--json", options->json, "Print one JSON object and nothing else on standard output");
   subcommand->callback([options, goal, command_line = &command_line, &action] {
     options->goal = goal_of(*goal);

@@ -42,7 +42,9 @@ Json json_of(const InputMesh& input, const std::filesystem::path& file, const st
 
 void tell_mesh(const std::filesystem::path& file, bool json) {
   Watch watch;
-  const auto input = load_input(file, Need::QualityOnly, watch.progress());
+  IoContext reading(watch.progress());
+  reading.geographic = Geographic::Auto;
+  const auto input = load_input(file, Need::QualityOnly, reading);
   const Mesh& mesh = input->mesh;
   const std::vector<std::string> warnings = tell_findings(*input);
   if (json) return print_json(json_of(*input, file, warnings));

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "app/common/console.h"
+#include "app/common/geographic_option.h"
 #include "app/common/memory_limit.h"
 #include "app/common/option_checks.h"
 #include "app/common/output_checks.h"
@@ -40,6 +41,7 @@ struct QualityOptions {
   std::string target;  // see parse_target(); empty: ideal elements
   std::size_t worst = 0;
   MemoryLimit memory;
+  GeographicOption geographic;
   bool json = false;
 };
 
@@ -103,7 +105,8 @@ MetricSummary summary_of(const InputMesh& input, const Column& column, std::size
   summary.mean = column.mean;
   summary.unacceptable = column.unacceptable;
   for (const Index e : worst_of(column, worst))
-    summary.worst.push_back({e, input.mesh.elements.kind(e), column.values[e], centroid(input.quality_context(), input.mesh.positions, e)});
+    summary.worst.push_back({e, input.mesh.elements.kind(e), column.values[e],
+                             in_file(input.mesh, centroid(input.quality_context(), input.mesh.positions, e))});
   return summary;
 }
 
@@ -138,7 +141,9 @@ int quality(const QualityOptions& options) {
   if (!options.surface.empty()) require_another_file(options.elements, "--elements", options.surface);
 
   Watch watch;
-  const auto input = load_input_on(options.input, options.surface, Need::QualityOnly, {watch.progress(), nullptr, options.memory.bytes()});
+  IoContext reading(watch.progress(), nullptr, options.memory.bytes());
+  reading.geographic = options.geographic.choice();
+  const auto input = load_input_on(options.input, options.surface, Need::QualityOnly, reading);
   const Mesh& mesh = input->mesh;
   std::vector<std::string> warnings = tell_findings(*input);
   for (const Metric metric : metrics)
@@ -206,6 +211,7 @@ void add_quality(CLI::App& app, Action& action) {
       ->type_name("FILE.csv");
   add_surface_option(*subcommand, options->surface);
   add_memory_option(*subcommand, options->memory);
+  add_geographic_option(*subcommand, options->geographic);
   subcommand->add_flag("--json", options->json, "Print one JSON object and nothing else on standard output");
   subcommand->callback([options, &action] {
     action = [options] { return within_memory(options->memory, options->input, [options] { return quality(*options); }); };

@@ -11,6 +11,7 @@
 
 #include "app/common/acceleration.h"
 #include "app/common/console.h"
+#include "app/common/geographic_option.h"
 #include "app/common/goal_options.h"
 #include "app/common/hints.h"
 #include "app/common/memory_limit.h"
@@ -47,6 +48,7 @@ struct SmoothOptions {
   std::string write = "best";
   CheckpointOptions checkpoints;
   MemoryLimit memory;
+  GeographicOption geographic;
   bool json = false;
   bool provenance = false;
   bool strict = false;
@@ -121,8 +123,9 @@ int smooth(const SmoothOptions& options) {
     if (!checkpoints.end_soon()) progress.request_cancel();
   });
   const auto pool = session.pool();
-  const auto input =
-      load_input_on(options.input, options.surface, Need::Smoothing, {progress, pool.get(), options.memory.bytes()}, options.materials);
+  IoContext reading(progress, pool.get(), options.memory.bytes());
+  reading.geographic = options.geographic.choice();
+  const auto input = load_input_on(options.input, options.surface, Need::Smoothing, reading, options.materials);
   std::vector<std::string> warnings = tell_findings(*input);
   parameters.fixed = vertices_to_fix(input->mesh, options.run.fix);
   require_fields(parameters.fields, input->mesh);
@@ -218,6 +221,7 @@ void add_smooth(CLI::App& app, Action& action, const std::string& command_line) 
   subcommand->add_option("--stats", options->stats, "Write the statistics of every iteration; row 0 is the input")->type_name("FILE.csv");
   add_checkpoint_options(*subcommand, options->checkpoints);
   add_memory_option(*subcommand, options->memory);
+  add_geographic_option(*subcommand, options->geographic);
   subcommand->add_flag(
       "--provenance", options->provenance,
       "Say in a comment of the mesh written what made it: the input's hash, version, options; where the format has comments");

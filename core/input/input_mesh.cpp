@@ -10,6 +10,7 @@
 #include "core/input/element_findings.h"
 #include "core/input/layer_vertices.h"
 #include "core/input/mesh_share.h"
+#include "core/input/prepare.h"
 #include "core/input/reference_measures.h"
 #include "core/input/volume_input.h"
 #include "core/io/reading/source_file.h"
@@ -129,8 +130,12 @@ std::shared_ptr<const InputMesh> prepare_volume(Mesh mesh, const Geometry& geome
 
 std::shared_ptr<const InputMesh> prepare_input(Mesh mesh, std::filesystem::path path, Need need, Progress& progress,
                                                std::string generator) {
+  return prepare(std::move(mesh), std::move(path), need, progress, std::move(generator), {});
+}
+
+std::shared_ptr<const InputMesh> prepare(Mesh mesh, std::filesystem::path path, Need need, Progress& progress, std::string generator,
+                                         std::vector<std::string> notes) {
   const std::string file = path.empty() ? (mesh.name.empty() ? "mesh" : mesh.name) : path.string();
-  std::vector<std::string> notes;
   if (std::string note = round_to_declared(mesh, file); !note.empty()) notes.push_back(std::move(note));
   Geometry geometry = classify(mesh);
   refuse_what_cannot_be_done(mesh, geometry, file, need);

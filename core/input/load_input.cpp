@@ -1,21 +1,48 @@
 #include <new>
+#include <string>
 #include <utility>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/base/words.h"
 #include "core/input/input_mesh.h"
+#include "core/input/prepare.h"
 #include "core/io/mesh_io.h"
 #include "core/mesh/generate.h"
+#include "core/mesh/geographic.h"
 #include "core/mesh/materials.h"
 
 namespace dmoscope {
+namespace {
+
+/// Maps a mesh that is in degrees; returns what a person should know of it.
+std::vector<std::string> take_degrees(Mesh& mesh, const std::filesystem::path& path, Geographic choice) {
+  if (choice == Geographic::Off) return {};
+  if (choice == Geographic::On) {
+    if (const std::string why = why_not_geographic(mesh); !why.empty())
+      throw InputError(path.string(), 0, fmt::format("it cannot be taken for longitude and latitude (--geographic on): {}", why));
+  } else {
+    const Likeness likeness = looks_geographic(mesh);
+    if (likeness == Likeness::Range)
+      return {"its coordinates may be degrees of longitude and latitude, but nothing says so: --geographic on judges it on the Earth"};
+    if (likeness == Likeness::None) return {};
+  }
+  map_to_mercator(mesh);
+  return {
+      "its coordinates are degrees of longitude and latitude, and it is judged on the Earth (--geographic off takes them as they stand)"};
+}
+
+}  // namespace
 
 std::shared_ptr<const InputMesh> load_input(const std::filesystem::path& path, Need need, const IoContext& context,
                                             std::span<const std::string> materials) {
   try {
     Mesh mesh = read_mesh(path, context);
     name_materials(mesh, materials);
-    return prepare_input(std::move(mesh), path, need, context.progress);
+    std::vector<std::string> notes = take_degrees(mesh, path, context.geographic);
+    return prepare(std::move(mesh), path, need, context.progress, {}, std::move(notes));
   } catch (const std::bad_alloc&) {
     throw InputError(path.string(), 0, "not enough memory for this mesh");
   }

@@ -206,6 +206,12 @@ std::vector<std::string> write_mesh(const std::filesystem::path& path, const Mes
 
 std::vector<std::string> write_commented_mesh(const std::filesystem::path& path, const Mesh& mesh, const MovedMesh& moved,
                                               const IoContext& context, std::string_view comment) {
+  if (mesh.degrees) {
+    Mesh in_degrees = mesh;
+    in_degrees.positions = *mesh.degrees;
+    in_degrees.degrees = nullptr;
+    return write_commented_mesh(path, in_degrees, {places_in_file(mesh, moved.positions), moved.fields}, context, comment);
+  }
   Progress& progress = context.progress;
   progress.begin("writing " + path.filename().string());
   const std::string extension = mesh_extension(path);

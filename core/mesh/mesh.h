@@ -153,6 +153,8 @@ struct Mesh {
   std::vector<std::uint8_t> flipped;
   /// The file holds 32-bit coordinates, or says so: moved vertices are put on such, so that what is judged is what will be read.
   bool single_precision = false;
+  /// Where the file has the vertices, in longitude and latitude, of a mesh that was mapped (geographic.h); null: where they are.
+  std::shared_ptr<const std::vector<Vec3>> degrees{};
   /// What the file was; writing the same format patches only the coordinates that changed. May be null.
   std::shared_ptr<const SourceFile> source;
 

@@ -37,8 +37,9 @@ struct Degrees {
   /// Looks no further once something lies beyond the poles, as it does in most meshes.
   explicit Degrees(const Mesh& mesh) {
     for (const Index v : mesh.elements.all_corners()) {
-      x.add(mesh.positions[v].x);
-      y.add(mesh.positions[v].y);
+      const Vec3 p = mesh.degrees ? (*mesh.degrees)[v] : mesh.positions[v];
+      x.add(p.x);
+      y.add(p.y);
       if (!y.within(-kPole, kPole)) return;
     }
   }

@@ -207,7 +207,7 @@ class VertexWord {
     for (std::size_t a = 0; a < axes; ++a)
       if (limits[a + axes] < limits[a]) fail(fmt::format("the box ends at {} before it begins at {}", limits[a + axes], limits[a]));
     for (Index v = 0; v < mesh_.vertex_count(); ++v) {
-      const Vec3& p = mesh_.positions[v];
+      const Vec3& p = mesh_.degrees ? (*mesh_.degrees)[v] : mesh_.positions[v];
       const std::array<double, 3> at{p.x, p.y, p.z};
       bool inside = true;
       for (std::size_t a = 0; a < axes; ++a) inside = inside && at[a] >= limits[a] && at[a] <= limits[a + axes];

@@ -69,6 +69,8 @@ DefinedJudge::DefinedJudge(const DefinedMetric& metric, const Mesh& mesh, const 
   unit_matters_ = unit_matters_ || metric.formula->uses_place();
   if (metric.formula->uses_place() && frames.geometry.shape == Shape::Surface)
     throw UsageError(fmt::format("{} depends on where elements lie, which is not possible on curved surfaces", metric.name));
+  if (metric.formula->uses_place() && mesh.degrees)
+    throw UsageError(fmt::format("{} depends on where elements lie, which is not possible on the Earth (--geographic off)", metric.name));
   if (metric.formula->uses_place() && frames.geometry.plane.period > 0.0)
     throw UsageError(
         fmt::format("{} depends on where elements lie, which is not possible in meshes that go round in longitude", metric.name));

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/base/thread_pool.h"
+#include "core/mesh/geographic.h"
 #include "core/quality/defined_judge.h"
 #include "core/quality/defined_quality.h"
 #include "core/quality/element_shape.h"
@@ -76,7 +77,8 @@ void InvertedCount::add(const QualityContext& context, PositionView positions, I
   const std::optional<Vec3> inside = inverted_inside(context, positions, element);
   ++all;
   inside_alone += inside ? 1 : 0;
-  if (first.size() < kMostNamed) first.push_back({number, inside.has_value(), inside ? *inside : centroid(context, positions, element)});
+  if (first.size() < kMostNamed)
+    first.push_back({number, inside.has_value(), in_file(context.mesh, inside ? *inside : centroid(context, positions, element))});
 }
 
 InvertedCount count_inverted(const QualityContext& context, PositionView positions) {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/number_text.h"
+#include "core/mesh/geographic.h"
 #include "core/smooth/execution/method_table.h"
 
 namespace dmoscope {
@@ -40,11 +41,12 @@ std::optional<LeftInverted> find_left_inverted(const Run& run) {
   if (found.all.all == 0) return std::nullopt;
   const auto rank = [&](Index v) { return std::tuple(around[v], run.fixed()[v]); };
   found.inside = inverted_inside(context, positions, found.element);
+  if (found.inside) found.inside = in_file(input.mesh, *found.inside);
   found.vertex = 0;
   for (Index v = 1; v < around.size(); ++v)
     if (rank(v) > rank(found.vertex)) found.vertex = v;
   found.around = around[found.vertex];
-  found.place = positions[found.vertex];
+  found.place = place_in_file(input.mesh, found.vertex, positions[found.vertex]);
   found.why_fixed = run.why_fixed(found.vertex);
   return found;
 }

@@ -28,7 +28,9 @@ bool has_all(const InputMesh& input, const Kinds& kinds) {
 std::string Session::reload(Progress& progress) {
   const std::shared_ptr<const InputMesh> stale = input();
   if (stale->path.empty()) throw UsageError("this mesh was made here: there is no file to read again");
-  auto fresh = load_input(stale->path, Need::Smoothing, reading(progress), said_materials(stale->mesh));
+  IoContext as_before = reading(progress);
+  as_before.geographic = stale->mesh.degrees ? Geographic::On : Geographic::Off;
+  auto fresh = load_input(stale->path, Need::Smoothing, as_before, said_materials(stale->mesh));
   if (stale->surface) fresh = slide_on(*fresh, stale->surface);
   return exchange(stale, fresh);
 }

@@ -57,7 +57,9 @@ std::shared_ptr<const InputMesh> to_input(const Json& json, const std::filesyste
   } else {
     const std::filesystem::path path = find_mesh(json.at("path").get<std::string>(), state);
     source = path.string();
-    input = load_input(path, Need::Smoothing, context);
+    IoContext as_saved = context;  // an older file says nothing: it was taken as it stands
+    as_saved.geographic = json.value("geographic", false) ? Geographic::On : Geographic::Off;
+    input = load_input(path, Need::Smoothing, as_saved);
   }
   if (json.contains("single") && json.at("single") != input->mesh.single_precision)
     throw UsageError(fmt::format("{} has changed since the session was saved: it holds {}-bit coordinates now", source,
@@ -111,6 +113,7 @@ StateJson input_json(const MeshStanding& mesh) {  // NOLINT(misc-no-recursion): 
   const InputMesh& input = *mesh.input;
   Json source{{"vertices", input.mesh.vertex_count()}, {"elements", input.mesh.elements.size()}, {"checksum", checksum(input.mesh)}};
   source["single"] = input.mesh.single_precision;
+  if (input.mesh.degrees) source["geographic"] = true;
   // To be able to say what it was where other vertices keep their place one day.
   for (const DataMark& mark : data_marks(input.mesh)) source["data"].push_back({mark.first, mark.second});
   if (!input.generator.empty()) {

@@ -68,8 +68,14 @@ class Session {
   void note_original(std::filesystem::path copy);
   /// Bytes that a file may unpack to from now on; 0: see UnpackBudget.
   void set_most_memory(std::uint64_t bytes) noexcept { most_memory_ = bytes; }
+  /// Whether coordinates of meshes that are opened from now on are taken for degrees.
+  void set_geographic(Geographic choice) noexcept { geographic_ = choice; }
   /// How files are read for this session.
-  [[nodiscard]] IoContext reading(Progress& progress) const { return {progress, nullptr, most_memory_}; }
+  [[nodiscard]] IoContext reading(Progress& progress) const {
+    IoContext context(progress, nullptr, most_memory_);
+    context.geographic = geographic_;
+    return context;
+  }
   [[nodiscard]] bool has_input() const noexcept { return input_ != nullptr; }
   /// The active run's mesh. Throws UsageError "no mesh is open".
   [[nodiscard]] const std::shared_ptr<const InputMesh>& input() const;
@@ -150,6 +156,7 @@ class Session {
   SavedMarks saved_;
   std::vector<std::pair<std::weak_ptr<const InputMesh>, std::filesystem::path>> originals_;  // see source_path()
   std::uint64_t most_memory_ = 0;
+  Geographic geographic_ = Geographic::Auto;
   std::uint64_t last_id_ = 0;  // of all runs there were
   UndoStack undo_;
   Holds holds_;

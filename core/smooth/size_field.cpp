@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/mesh/geographic.h"
 #include "core/smooth/edge_neighbours.h"
 
 namespace dmoscope {
@@ -83,12 +84,15 @@ void SizeField::read_field() {
 }
 
 double SizeField::at(Index vertex, Vec3 place) const {
-  if (field_) return field_->at(vertex, place);
-  return formula()->at(input_->geometry.plane, place);
+  // On the map all is longer than on the Earth.
+  const double stretch = input_->mesh.degrees ? stretch_of_map(place.y) : 1.0;
+  if (field_) return stretch * field_->at(vertex, place);
+  const SizeFormula plain{function_.kind, on_map(input_->mesh, function_.point), least_distance_};
+  return stretch * plain.at(input_->geometry.plane, place);
 }
 
 std::optional<SizeFormula> SizeField::formula() const {
-  if (field_) return std::nullopt;
+  if (field_ || input_->mesh.degrees) return std::nullopt;
   return SizeFormula{function_.kind, function_.point, least_distance_};
 }
 

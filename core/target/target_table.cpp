@@ -350,6 +350,8 @@ class TargetTable::Maker {
 
   void by_field(const TargetShape& shape, const std::vector<Index>& elements) {
     require_flat("metric fields");
+    if (mesh_.degrees)
+      throw UsageError("metric fields are of the coordinates as they stand, which is not possible on the Earth (--geographic off)");
     const Field& field = field_named(shape.field);
     std::vector<SmallMatrix> logs(mesh_.positions.size());
     std::vector<std::uint8_t> known(mesh_.positions.size());

@@ -17,10 +17,14 @@ double square_length(Vec3 v) { return dot(v, v); }
 }  // namespace
 
 template <std::size_t N>
-PlaceSearch<N>::PlaceSearch(const Mesh& mesh, const Topology& topology, const Geometry& geometry)
-    : mesh_(mesh), topology_(topology), plane_(geometry.plane), wraps_(geometry.shape == Shape::Planar && geometry.plane.period > 0.0) {
+PlaceSearch<N>::PlaceSearch(const Mesh& mesh, std::span<const Vec3> positions, const Topology& topology, const Geometry& geometry)
+    : mesh_(mesh),
+      positions_(positions),
+      topology_(topology),
+      plane_(geometry.plane),
+      wraps_(geometry.shape == Shape::Planar && geometry.plane.period > 0.0) {
   double largest = 0.0;
-  for (const Vec3 p : mesh.positions) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  for (const Vec3 p : positions) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   rounding_ = std::pow(kRoundings * std::numeric_limits<double>::epsilon() * largest, 2);
 }
 
@@ -29,7 +33,7 @@ template <std::size_t N>
 std::array<Vec3, N> PlaceSearch<N>::points(const Part& part) const {
   std::array<Vec3, N> points;
   for (std::size_t k = 0; k < N; ++k) {
-    points[k] = mesh_.positions[part[k]];
+    points[k] = positions_[part[k]];
     if (wraps_ && k > 0) points[k] = points[0] + plane_.difference(points[k], points[0]);
   }
   return points;
@@ -43,9 +47,9 @@ void PlaceSearch<N>::for_parts(Index element, const Visit& visit) const {
   const auto c = mesh_.elements.corners(element);
   if constexpr (N == 3) {
     if (c.size() == 3) return visit(Part{c[0], c[1], c[2]});
-    const Vec3 a = mesh_.positions[c[0]], b = mesh_.positions[c[1]];
-    const Vec3 ac = wraps_ ? plane_.difference(mesh_.positions[c[2]], a) : mesh_.positions[c[2]] - a;
-    const Vec3 bd = wraps_ ? plane_.difference(mesh_.positions[c[3]], b) : mesh_.positions[c[3]] - b;
+    const Vec3 a = positions_[c[0]], b = positions_[c[1]];
+    const Vec3 ac = wraps_ ? plane_.difference(positions_[c[2]], a) : positions_[c[2]] - a;
+    const Vec3 bd = wraps_ ? plane_.difference(positions_[c[3]], b) : positions_[c[3]] - b;
     const std::size_t first = square_length(ac) <= square_length(bd) ? 0 : 1;
     visit(Part{c[first], c[first + 1], c[first + 2]});
     visit(Part{c[first], c[first + 2], c[(first + 3) % 4]});

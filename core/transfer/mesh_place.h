@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <vector>
 
 #include "core/mesh/mesh.h"
@@ -27,7 +28,8 @@ struct MeshPlace {
 template <std::size_t N>
 class PlaceSearch {
  public:
-  PlaceSearch(const Mesh& mesh, const Topology& topology, const Geometry& geometry);
+  /// `positions`: of the mesh, as the places are that are looked for.
+  PlaceSearch(const Mesh& mesh, std::span<const Vec3> positions, const Topology& topology, const Geometry& geometry);
 
   /// The nearest part of the mesh. `near`: a vertex of an element; the nearer, the faster. Of parts that are equally near, one that does
   /// not depend on what was asked before.
@@ -52,6 +54,7 @@ class PlaceSearch {
   [[nodiscard]] const Tree& tree() const;
 
   const Mesh& mesh_;
+  std::span<const Vec3> positions_;
   const Topology& topology_;
   Plane plane_;
   bool wraps_ = false;

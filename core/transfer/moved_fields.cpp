@@ -9,6 +9,7 @@
 
 #include "core/base/same_bits.h"
 #include "core/io/reading/binary_scalar.h"
+#include "core/mesh/geographic.h"
 #include "core/numeric/small_matrix.h"
 #include "core/target/target_table.h"
 #include "core/transfer/mesh_place.h"
@@ -107,13 +108,13 @@ void take_all(std::span<PlacedField> fields, const InputMesh& input, std::span<c
               Progress& progress) {
   constexpr std::size_t kGrain = 4096;
   const Mesh& mesh = input.mesh;
-  const PlaceSearch<N> search(mesh, input.topology, input.geometry);
+  const PlaceSearch<N> search(mesh, mesh.degrees ? *mesh.degrees : mesh.positions, input.topology, input.geometry);
   for_chunks(pool, positions.size(), kGrain, [&](std::size_t first, std::size_t last) {
     progress.check();
     for (std::size_t v = first; v < last; ++v) {
       if (same_bits(positions[v], mesh.positions[v])) continue;
       const auto vertex = static_cast<Index>(v);
-      const MeshPlace<N> place = search.at(vertex, positions[v]);
+      const MeshPlace<N> place = search.at(vertex, place_in_file(mesh, vertex, positions[v]));
       for (PlacedField& field : fields) field.take(vertex, place);
     }
   });

@@ -155,6 +155,15 @@ class Mesh:
         return self._mesh.boundary.view(np.bool_)
 
     @property
+    def in_degrees(self) -> bool:
+        """Are x and y longitude and latitude, so that the mesh is judged and smoothed on the Earth? with_degrees() says so, or not."""
+        return self._mesh.in_degrees
+
+    def with_degrees(self, degrees: bool = True) -> "Mesh":
+        """The mesh with x and y taken for longitude and latitude in degrees, or as they stand. Raises InputError for what cannot be degrees."""
+        return Mesh._of(self._mesh.with_degrees(bool(degrees)))
+
+    @property
     def is_volume(self) -> bool:
         return self._mesh.is_volume
 

@@ -386,6 +386,34 @@ TEST(Library, PointDataBelongToPlaces) {
   std::filesystem::remove(file);
 }
 
+/// Squares of degrees at 60 degrees north are twice as high as wide.
+TEST(Library, DegreesAreJudgedOnTheEarth) {
+  const std::string file = (std::filesystem::temp_directory_path() / "dmoscope_library_degrees.14").string();
+  {
+    std::ofstream stream(file);
+    stream << "in degrees\n4 9\n";
+    for (int v = 0; v < 9; ++v) stream << v + 1 << ' ' << (v == 4 ? 0.012 : 0.01 * (v % 3)) << ' ' << 60.0 + 0.01 * (v / 3) << " 1\n";
+    stream << "1 4 1 2 5 4\n2 4 2 3 6 5\n3 4 4 5 8 7\n4 4 5 6 9 8\n";
+  }
+  const dmo::Mesh mesh = dmo::Mesh::read(file);
+  std::filesystem::remove(file);
+  EXPECT_TRUE(mesh.in_degrees());
+  EXPECT_EQ(mesh.positions()[3 * 8 + 1], 60.02);
+  // A rectangle of one by two has the mean ratio 2 / (1 / 2 + 2) of its corners.
+  const auto regular = [](const dmo::Mesh& at) {
+    std::vector<double> positions(at.positions(), at.positions() + 3 * at.vertex_count());
+    positions[3 * 4] = 0.01;
+    return dmo::statistics(at.with_positions(positions.data())).minimum;
+  };
+  EXPECT_NEAR(regular(mesh), 0.8, 1e-3);
+  EXPECT_NEAR(regular(mesh.with_degrees(false)), 1.0, 1e-12);
+  const dmo::Smoothed smoothed = dmo::smooth(mesh);
+  EXPECT_NEAR(smoothed.mesh.positions()[3 * 4], 0.01, 1e-5);
+  EXPECT_NEAR(smoothed.mesh.positions()[3 * 4 + 1], 60.01, 1e-4);
+  EXPECT_EQ(smoothed.mesh.positions()[3 * 8 + 1], 60.02);
+  EXPECT_TRUE(dmo::Mesh::from_bytes(smoothed.mesh.to_bytes()).in_degrees());
+}
+
 TEST(Library, WrongArraysAreRefusedByName) {
   const auto refused = [](const Arrays& arrays, const char* told) {
     try {

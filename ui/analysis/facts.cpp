@@ -5,6 +5,7 @@
 
 #include "core/base/error.h"
 #include "core/inspect/target_shape.h"
+#include "core/mesh/geographic.h"
 #include "core/view/patch.h"
 
 namespace dmoscope::ui {
@@ -17,6 +18,7 @@ void read_vertex(PickedFacts& facts, const Frame& frame, Index vertex) {
   const auto own = std::ranges::lower_bound(patch.vertices, vertex);
   facts.at = own != patch.vertices.end() && *own == vertex ? patch.mesh.positions[static_cast<std::size_t>(own - patch.vertices.begin())]
                                                            : positions_of(frame, {&vertex, 1}).front();
+  facts.at = place_in_file(frame.input->mesh, vertex, facts.at);
   facts.now = facts.before = std::numeric_limits<double>::infinity();
   const InputMesh& input = *frame.input;
   for (Index k = 0; k < elements.size(); ++k) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/mesh/geographic.h"
 #include "ui/commands/command_words.h"
 #include "ui/state/format.h"
 
@@ -24,17 +25,17 @@ void add_size_point_commands(CommandTable& table, ViewState& state, const Comman
             });
 }
 
-std::string size_point_command(const ViewState& state, const Plane& plane, Vec2<double> pixel) {
-  const Vec3 point = plane.lift(state.camera.to_plane(pixel, state.viewport));
+std::string size_point_command(const ViewState& state, const InputMesh& input, Vec2<double> pixel) {
+  const Vec3 point = in_file(input.mesh, input.geometry.plane.lift(state.camera.to_plane(pixel, state.viewport)));
   std::string command = fmt::format("size-point {} {}", full_number(point.x), full_number(point.y));
   if (point.z != 0.0) command += ' ' + full_number(point.z);
   return command;
 }
 
-void add_size_point(render::Marks& marks, const RunView& run, const Plane& plane, render::Rgba ink, render::Rgba casing) {
+void add_size_point(render::Marks& marks, const RunView& run, const InputMesh& input, render::Rgba ink, render::Rgba casing) {
   const Vec3* point = size_point_of(run);
   if (point == nullptr) return;
-  const Vec2<double> at = plane.place(*point);
+  const Vec2<double> at = input.geometry.plane.place(on_map(input.mesh, *point));
   marks.dots.push_back({at, 17.0F, casing, render::DotShape::Diamond});
   marks.dots.push_back({at, 12.0F, ink, render::DotShape::Diamond});
 }

@@ -16,9 +16,9 @@ void add_size_point_commands(CommandTable& table, ViewState& state, const Comman
 [[nodiscard]] const Vec3* size_point_of(const RunView& run);
 
 /// The session's command that puts the point to where the viewport has a pixel.
-[[nodiscard]] std::string size_point_command(const ViewState& state, const Plane& plane, Vec2<double> pixel);
+[[nodiscard]] std::string size_point_command(const ViewState& state, const InputMesh& input, Vec2<double> pixel);
 
 /// A diamond at the point of the run's size function.
-void add_size_point(render::Marks& marks, const RunView& run, const Plane& plane, render::Rgba ink, render::Rgba casing);
+void add_size_point(render::Marks& marks, const RunView& run, const InputMesh& input, render::Rgba ink, render::Rgba casing);
 
 }  // namespace dmoscope::ui

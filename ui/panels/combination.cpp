@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/mesh/geographic.h"
 #include "core/smooth/execution/method_table.h"
 #include "core/smooth/size_field.h"
 #include "ui/commands/size_point.h"
@@ -28,7 +29,7 @@ Vec3 middle(const InputMesh& input) {
   Vec3 sum{};
   const Plane& plane = input.geometry.plane;
   for (const Vec3& p : input.mesh.positions) sum = sum + (plane.period > 0.0 ? plane.lift(plane.place(p)) : p);
-  return (1.0 / std::max<double>(1.0, static_cast<double>(input.mesh.positions.size()))) * sum;
+  return in_file(input.mesh, (1.0 / std::max<double>(1.0, static_cast<double>(input.mesh.positions.size()))) * sum);
 }
 
 bool moves_jointly(const RunParameters& p) { return p.then_joint || method_info(p.method).joint; }

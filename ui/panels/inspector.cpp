@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/mesh/geographic.h"
 #include "core/mesh/volume.h"
 #include "core/quality/quality.h"
 #include "core/reference/domain.h"
@@ -405,7 +406,8 @@ void draw_worst(PanelContext& context) {
       const float number_left = at.x + width - number_width - context.px(4), why_left = number_left - why_width - 2 * gap;
       if (ImGui::IsItemVisible())  // as far as a click goes there
         context.items.record(fmt::format("worst:{}", k), {at.x, ImGui::GetItemRectMin().y, why_left, ImGui::GetItemRectMax().y});
-      next_item_tooltip(full_number(ranked.quality) + (ranked.inside ? inside_words(*ranked.inside) : "") + "\nclick to go there");
+      next_item_tooltip(full_number(ranked.quality) + (ranked.inside ? inside_words(in_file(frame->input->mesh, *ranked.inside)) : "") +
+                        "\nclick to go there");
       ImDrawList& list = *ImGui::GetWindowDrawList();
       const std::string rank = std::to_string(k + 1), number = short_number(ranked.quality);
       if (ranked_rows) list.AddText({at.x + ranks - ImGui::CalcTextSize(rank.c_str()).x, at.y}, colour(context.palette.dim), rank.c_str());

@@ -198,7 +198,7 @@ void pick_at(PanelContext& context, const PaneFacts& pane, Vec2<double> pixel) {
     if (pane.frame()->input->in_space()) return;  // in a plane alone a pixel is a point
     const Vec2<double> there =
         state.camera.to_pixel(pane.camera.to_plane(pixel, state.viewport), state.viewport);  // as the active one has it
-    context.send(size_point_command(state, context.session.input->geometry.plane, there));
+    context.send(size_point_command(state, *context.session.input, there));
     return;
   }
   const auto [vertex, element] = context.pick(pane.number, pixel);

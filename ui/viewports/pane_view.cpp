@@ -243,7 +243,7 @@ render::Marks PaneView::marks(const Scenery& scenery, const MarkView& view, bool
   }
   if (!searching) add_targets(marks, *frame(), metric_of_targets(), marks.elements);
   if (frame()->run != Frame::kNoRun)
-    add_size_point(marks, session_->runs[session_->active], frame()->input->geometry.plane, plain.highlight_colour, plain.casing_colour);
+    add_size_point(marks, session_->runs[session_->active], *frame()->input, plain.highlight_colour, plain.casing_colour);
   return marks;
 }
 

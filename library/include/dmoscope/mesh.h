@@ -86,6 +86,11 @@ class DMO_API Mesh {
   [[nodiscard]] bool is_surface() const;
   /// vertex_count() of them: 1 on the boundary, else 0; as long as this mesh or a copy lives.
   [[nodiscard]] const std::uint8_t* boundary() const;
+  /// Are x and y longitude and latitude in degrees, so that the mesh is judged and smoothed on the Earth? read() takes them so where the
+  /// title or the name of a fort.14 or .2dm says it; with_degrees() says it, or that they are not. Throws InputError for what cannot be
+  /// degrees.
+  [[nodiscard]] bool in_degrees() const;
+  [[nodiscard]] Mesh with_degrees(bool degrees) const;
   /// The same mesh with its vertices elsewhere: vertex_count() x 3, copied. Throws InputError as the constructor does.
   [[nodiscard]] Mesh with_positions(const double* positions, const Progress& progress = {}) const;
   /// The same mesh, in which the cell data of these names, one number a cell each, name materials whatever they are called; no names: those

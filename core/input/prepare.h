@@ -1,0 +1,17 @@
+#pragma once
+// What prepare_input() and load_input() share.
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/input/input_mesh.h"
+
+namespace dmoscope {
+
+/// prepare_input(); `notes`: sentences of the report that come first.
+[[nodiscard]] std::shared_ptr<const InputMesh> prepare(Mesh mesh, std::filesystem::path path, Need need, Progress& progress,
+                                                       std::string generator, std::vector<std::string> notes);
+
+}  // namespace dmoscope

@@ -88,6 +88,7 @@ class MikeReader {
     };
     Field level = field("elevation", "double", "elevation"), code = field("code", "int", "");
     level.place.with_positions = code.place.with_positions = true;
+    level.place.at = 2, code.place.at = 3;  // words behind x
     for (std::vector<double>* values : {&level.values, &code.values}) reserve_large(*values, count);
     reserve_large(mesh_.positions, count);
     source_.reserve_places(count);

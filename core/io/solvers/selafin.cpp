@@ -148,12 +148,14 @@ class SelafinReader {
     in_.skip((steps - 1) * step, "time steps");
     (void)reals(1, "the time");
     for (const std::string& name : names_) {
+      const std::uint64_t begin = in_.offset() + kMark;
       mesh_.fields.push_back({.name = name,
                               .on = Field::On::Vertices,
                               .components = 1,
                               .type = size_ == sizeof(double) ? "double" : "float",
                               .role = "",
-                              .values = reals(points, "a variable")});
+                              .values = reals(points, "a variable"),
+                              .place = {.begin = begin, .bytes = static_cast<std::uint32_t>(size_)}});
     }
     if (steps == 1) return;
     source_.add_note(fmt::format("Fields are those of the last of {} time steps.", steps));
@@ -172,23 +174,27 @@ class SelafinReader {
 Mesh read_selafin(SourceFile& source, const IoContext& context) { return SelafinReader(source, context.progress).read(); }
 
 /// All x stand before all y: what is replaced does not come vertex after vertex.
-Notes patch_selafin(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext&) {
+Notes patch_selafin(AtomicFile& file, const Mesh& mesh, const MovedMesh& moved, const IoContext&) {
+  const std::span<const Vec3> positions = moved.positions;
   const SourceFile& source = *mesh.source;
   const CoordinateLayout& layout = source.layout();
   std::string bytes(source.bytes());
   std::size_t rounded = 0;
-  const auto put = [&](std::size_t vertex, std::size_t axis, double before, double after) {
+  const auto put_at = [&](std::size_t byte, std::size_t vertex, double before, double after) {
     if (std::bit_cast<std::uint64_t>(before) == std::bit_cast<std::uint64_t>(after)) return;
-    char* const at = bytes.data() + source.place(vertex) + layout.at[axis];
-    if (layout.scalar[axis] == CoordinateScalar::Float64) {
+    char* const at = bytes.data() + byte;
+    if (layout.scalar[0] == CoordinateScalar::Float64) {
       std::ranges::copy(store_number(after, layout.big_endian), at);
       return;
     }
     const auto single = static_cast<float>(after);
     if (!std::isfinite(single))
-      throw OutputError(file.path().string(), fmt::format("coordinate {} of vertex {} is too large for a 32-bit float", after, vertex));
+      throw OutputError(file.path().string(), fmt::format("{} of vertex {} is too large for a 32-bit float", after, vertex));
     if (static_cast<double>(single) != after) ++rounded;
     std::ranges::copy(store_number(single, layout.big_endian), at);
+  };
+  const auto put = [&](std::size_t vertex, std::size_t axis, double before, double after) {
+    put_at(source.place(vertex) + layout.at[axis], vertex, before, after);
   };
   for (std::size_t v = 0; v < positions.size(); ++v) {
     if (positions[v].z != mesh.positions[v].z)
@@ -196,9 +202,14 @@ Notes patch_selafin(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> po
     put(v, 0, mesh.positions[v].x, positions[v].x);
     put(v, 1, mesh.positions[v].y, positions[v].y);
   }
+  for (const FieldValues& changed : moved.fields) {
+    const Field& field = mesh.fields[changed.field];
+    for (std::size_t v = 0; v < positions.size(); ++v)
+      put_at(field.place.begin + v * field.place.bytes, v, field.values[v], changed.values[v]);
+  }
   file.write(bytes);
   if (rounded == 0) return {};
-  return {fmt::format("{} moved coordinates were rounded to 32-bit floats, which is what the file holds.", rounded)};
+  return {fmt::format("{} moved numbers were rounded to 32-bit floats, which is what the file holds.", rounded)};
 }
 
 Notes write_selafin(AtomicFile& file, const Mesh&, std::span<const Vec3>, const IoContext&) {

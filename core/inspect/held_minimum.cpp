@@ -210,6 +210,7 @@ class Look {
   [[nodiscard]] Holding holding(Index v) const {
     if (q_.fixed[v] == 0) return q_.task.domain && q_.task.domain->slides(v) ? Holding::Slides : Holding::Nothing;
     if (standing_[v] == 0) return Holding::Hand;
+    if (q_.rule.layers == LayerRule::Keep && std::ranges::binary_search(input_.layers, v) && !on_boundary(v)) return Holding::Layer;
     switch (q_.task.domain ? q_.task.domain->held_on(v) : HeldOn::Nothing) {
       case HeldOn::Corner:
       case HeldOn::Hand:
@@ -220,6 +221,8 @@ class Look {
       case HeldOn::Touching:
       case HeldOn::Unmatched:
         return Holding::Touching;
+      case HeldOn::Tied:
+        return Holding::Tied;
       case HeldOn::Named:
         return Holding::Named;
       case HeldOn::Nothing:

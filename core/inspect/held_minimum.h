@@ -34,7 +34,9 @@ enum class Holding : std::uint8_t {
   Touching,    // parts of the mesh touch there
   Hand,        // it was fixed by hand
   Neighbours,  // no single move gains, joint ones do
-  Threshold    // of two aims: beyond it the first does not count
+  Threshold,   // of two aims: beyond it the first does not count
+  Tied,        // it belongs to another vertex, from which it would part
+  Layer        // it lies in a boundary layer, which is kept
 };
 /// Does it keep a vertex from a place that would be better?
 [[nodiscard]] inline bool is_fixed(Holding by) { return by != Holding::Nothing && by != Holding::Slides; }

@@ -15,9 +15,10 @@ namespace dmoscope {
 
 namespace {
 
-constexpr std::array<std::string_view, 13> kNames{"free",   "slides",  "deviation", "tilt", "boundary",   "interface", "file",
-                                                  "corner", "feature", "touching",  "hand", "neighbours", "threshold"};
-constexpr std::array<std::string_view, 13> kPhrases{"nothing",
+constexpr std::array<std::string_view, 15> kNames{"free",      "slides",     "deviation", "tilt",    "boundary",
+                                                  "interface", "file",       "corner",    "feature", "touching",
+                                                  "hand",      "neighbours", "threshold", "tied",    "layer"};
+constexpr std::array<std::string_view, 15> kPhrases{"nothing",
                                                     "nothing: it slides",
                                                     "the bound of deviation",
                                                     "how far faces may lean",
@@ -29,7 +30,9 @@ constexpr std::array<std::string_view, 13> kPhrases{"nothing",
                                                     "parts that touch there",
                                                     "what is fixed by hand",
                                                     "its neighbours",
-                                                    "the threshold of two aims"};
+                                                    "the threshold of two aims",
+                                                    "vertices from which it would part",
+                                                    "the boundary layers that are kept"};
 
 }  // namespace
 

@@ -11,8 +11,8 @@
 namespace dmoscope {
 namespace {
 
-/// A face by corners, from its least one on.
-using Polygon = std::vector<std::uint8_t>;
+/// A face by corners, from its least one on. Not of bytes: g++ 12 warns of how it compares vectors of these.
+using Polygon = std::vector<std::uint16_t>;
 
 Polygon from_least(Polygon polygon) {
   std::rotate(polygon.begin(), std::min_element(polygon.begin(), polygon.end()), polygon.end());
@@ -20,7 +20,7 @@ Polygon from_least(Polygon polygon) {
 }
 
 /// The faces of a kind whose corner i is corners[i], those that are left; none where one touches itself.
-std::optional<std::vector<Polygon>> faces_left(ElementKind kind, std::span<const std::uint8_t> corners) {
+std::optional<std::vector<Polygon>> faces_left(ElementKind kind, const auto& corners) {
   std::vector<Polygon> left;
   for (const LocalFace& face : faces_of(kind)) {
     Polygon polygon;
@@ -67,7 +67,7 @@ void for_pairs(const CollapsedKinds& collapsed, const Each& each) {
 std::optional<SimplerElement> simpler_element(ElementKind kind, const CornerPattern& pattern) {
   Polygon corners;
   for (std::size_t i = 0; i < info(kind).corners; ++i)
-    if (pattern[i] == i) corners.push_back(static_cast<std::uint8_t>(i));
+    if (pattern[i] == i) corners.push_back(static_cast<std::uint16_t>(i));
   if (corners.size() == info(kind).corners) return std::nullopt;
   const auto simpler = kind_with(info(kind).dimension, corners.size());
   const auto left = faces_left(kind, pattern);

@@ -40,7 +40,7 @@ bool BestState::rises(const IterationRecord& record) const {
 bool BestState::is_worse_than_input(const Statistics& now) const {
   if (now.inverted != input_.inverted) return now.inverted > input_.inverted;
   const double rise = now.minimum - input_.minimum, of_movable = now.movable_minimum - input_.movable_minimum;
-  return rise < 0.0 || (!(rise >= kLeastRise) && !(of_movable >= kLeastRise) && now.mean < input_.mean);
+  return rise < 0.0 || (!(rise >= least_rise_) && !(of_movable >= least_rise_) && now.mean < input_.mean);
 }
 
 bool BestState::is_better(const IterationRecord& record) {

@@ -143,10 +143,10 @@ class Card {
   }
   void add_walls() {
     const BoundaryLayers layers = find_boundary_layers(input_.mesh, input_.geometry);
-    if (layers.empty()) return;
+    if (std::ranges::find(layers.pronounced, 1) == layers.pronounced.end()) return;
     double most = 1.0;
     for (std::size_t i = 0; i < layers.elements.size(); ++i) {
-      if (layers.heights[i] != 1) continue;
+      if (layers.heights[i] != 1 || layers.pronounced[i] == 0) continue;
       const auto height = [&](std::span<const Vec3> positions) {
         return height_on(input_.mesh, input_.geometry, positions, layers.elements[i], layers.bases[i]);
       };

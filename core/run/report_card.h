@@ -31,7 +31,8 @@ struct CardFigure {
 /// a
 ///   twentieth of the elements are not better than, the mean, and how many elements are below 0.1, 0.2 and 0.3.
 /// - Inverted elements, proved. The growth: how many times as large as a neighbour across an edge (in a volume: a face) an element is, at
-///   most. Wall cells, where the input has boundary layers: how many times as high the first one of a stack has become at most, or as low.
+///   most. Wall cells, where the input has pronounced boundary layers: how many times as high the first one of a stack has become at most,
+///   or as low.
 /// Worse is: the least lower by more than a hundredth, another quality by more than 0.005, more elements inverted or below a bound (by more
 /// than a thousandth of all), the growth more than a quarter greater and above 2, wall cells by more than a tenth. Against targets other
 /// than ideal elements the metric that is raised alone tells.

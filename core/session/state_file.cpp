@@ -123,7 +123,7 @@ Json json_of(const RunParameters& p) {
   if (p.then_joint) json["then_joint"] = json_of(*p.then_joint);
   if (p.then_mean) {
     json["then_mean"] = json_of(*p.then_mean);
-    json["then_mean"]["raises"] = name(p.mean);
+    if (p.mean != MeanKind::Arithmetic) json["then_mean"]["raises"] = name(p.mean);
   }
   return json;
 }

@@ -17,7 +17,8 @@ constexpr double kShrinks = 0.8;               // layers get higher from the wal
 constexpr double kFlat = 4.0,
                  kGrown = 1.5;      // of a pronounced stack: width over height of the first, height of the last over that of the first
 constexpr std::size_t kLayers = 3;  // at least
-constexpr std::uint16_t kHighest = 60000;  // layers of a stack
+constexpr double kEven = 0.95, kSteps = 2.5;  // least and most height over that of the layer beneath
+constexpr std::uint16_t kHighest = 60000;     // layers of a stack
 
 struct Extent {
   double width = 0.0, height = 0.0;  // means, along the wall and away from it
@@ -121,12 +122,13 @@ class Finder {
  private:
   void begin_stack() { stack_.clear(); }
   void add_to_stack(Index element, const Extent& extent) {
-    if (stack_.empty()) first_ = extent, ++layers_.stacks;
+    if (stack_.empty()) first_ = last_ = extent, steady_ = true, ++layers_.stacks;
+    steady_ = steady_ && extent.height <= kSteps * last_.height && extent.height >= kEven * last_.height;
     last_ = extent;
     stack_.push_back(element);
   }
   void end_stack() {
-    if (stack_.size() < kLayers || first_.width < kFlat * first_.height || last_.height < kGrown * first_.height) return;
+    if (!steady_ || stack_.size() < kLayers || first_.width < kFlat * first_.height || last_.height < kGrown * first_.height) return;
     for (const Index element : stack_) pronounced_[element] = 1;
   }
 
@@ -219,6 +221,7 @@ class Finder {
   std::vector<std::uint8_t> pronounced_;
   std::vector<Index> stack_;   // the one that is climbed, from the wall on
   Extent first_, last_;        // of its elements
+  bool steady_ = true;         // does no layer of it differ much from the one beneath?
   std::vector<Index> across_;  // by element and edge
   BoundaryLayers layers_;
 };

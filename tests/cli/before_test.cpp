@@ -117,8 +117,18 @@ TEST_F(SessionsOfBefore, WithoutAParameterHaveWhatWasUsualThen) {
 }
 
 TEST_F(FilesOfBefore, ACheckpointGoesOnToTheSameBits) {
-  done({"smooth",  path("grid.off"), "-o",    path("out.off"), "--grid", "6",    "--levels",     "2", "--omega",  "0.9",
-        "--order", "shuffle:5",      "--fix", "27-29",         "--then", "mean", "--iterations", "9", "--resume", path("checkpoint.json")});
+  done({"smooth",       path("grid.off"),
+        "-o",           path("out.off"),
+        "--grid",       "6",
+        "--levels",     "2",
+        "--omega",      "0.9",
+        "--order",      "shuffle:5",
+        "--fix",        "27-29",
+        "--then",       "arithmetic-mean",
+        "--iterations", "9",
+        "--guard",      "off",
+        "--layers",     "free",
+        "--resume",     path("checkpoint.json")});  // what was usual then
   EXPECT_TRUE(read_file(path("out.off")) == read_file(path("resumed.off")));
 }
 

@@ -33,6 +33,7 @@ struct Pair {
     RunParameters parameters;
     parameters.search = search;
     parameters.metric = metric;
+    parameters.guard = std::nullopt;  // which the processor alone keeps
     return parameters;
   }
   static std::shared_ptr<const InputMesh> prepare(Mesh mesh) {

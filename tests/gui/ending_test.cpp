@@ -136,11 +136,13 @@ TEST_F(Ending, WhatTheMeanLostIsSaidAndGotBackByOneClick) {
   const Statistics &input = ended.records.front().statistics, lost = ended.records[ended.moment.iteration].statistics;
   ASSERT_LT(lost.mean, input.mean) << "else this test shows nothing";
   ASSERT_FALSE(notice().empty());
-  EXPECT_EQ(notice().sentences[0], fmt::format("Minimum {} -> {}, mean {} -> {}.", four_digits(input.minimum), four_digits(lost.minimum),
+  EXPECT_THAT(notice().sentences[0], HasSubstr("Worse than the input: mean mean ratio"));
+  EXPECT_EQ(notice().figures.size(), 3U) << "by two metrics, and of the mesh";
+  EXPECT_EQ(notice().sentences[1], fmt::format("Minimum {} -> {}, mean {} -> {}.", four_digits(input.minimum), four_digits(lost.minimum),
                                                four_digits(input.mean), four_digits(lost.mean)));
-  EXPECT_THAT(notice().sentences[1], HasSubstr("The mean fell from "));
+  EXPECT_THAT(notice().sentences[2], HasSubstr("The mean fell from "));
   ASSERT_LT(ended.moment.iteration + 1, ended.records.size()) << "it has gone back";
-  EXPECT_THAT(notice().sentences[2], HasSubstr("went on to iteration " + std::to_string(ended.records.size() - 1)));
+  EXPECT_THAT(notice().sentences[3], HasSubstr("went on to iteration " + std::to_string(ended.records.size() - 1)));
   good("click notice:raise-mean");
   ASSERT_EQ(session()->runs.size(), 2U);
   EXPECT_TRUE(run().parameters.then_mean);

@@ -26,9 +26,9 @@ std::pair<double, double> star_at(const InputMesh& input, std::vector<Vec3> posi
   for (const Incidence& at : input.topology.star(vertex)) {
     const double q = element_quality(input.quality_context(), positions, metric, at.element);
     least = std::min(least, q);
-    sum += q;
+    sum += 1.0 / q;
   }
-  return {least, sum / static_cast<double>(input.topology.star(vertex).size())};
+  return {least, static_cast<double>(input.topology.star(vertex).size()) / sum};
 }
 
 /// Follows an iteration vertex by vertex; `worth`: of a place, by its least first metric and where it is.

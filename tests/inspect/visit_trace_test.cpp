@@ -82,7 +82,7 @@ class Follower {
         run_.seek({static_cast<std::uint64_t>(i), k}, progress_);
         std::vector<Vec3> positions(run_.positions().begin(), run_.positions().end());
         const VisitTrace trace =
-            trace_visit(run_.input(), positions, run_.fixed(), metric(), search(), vertex, {}, run_.sweep().untangling);
+            trace_visit(run_.input(), positions, run_.fixed(), metric(), search(), vertex, {}, run_.sweep().untangling, run_.guard());
         const bool repair = run_.sweep().untangling.repair;
         const std::uint64_t moved = run_.step(StepUnit::Vertex, progress_);
         expect_as_stored(trace, vertex, moved, positions[vertex]);

@@ -116,8 +116,8 @@ class VolumeFollower {
   [[nodiscard]] VolumeTrace look(const std::vector<Vec3>& positions, Index vertex) const {
     std::optional<CompositeObjective> composite;
     if (wish_.second) composite = CompositeObjective{wish_.metric, 0.4, *wish_.second};
-    return trace_volume_visit(run_.input(), positions, run_.fixed(), wish_.metric, wish_.search, vertex, composite,
-                              run_.sweep().untangling);
+    return trace_volume_visit(run_.input(), positions, run_.fixed(), wish_.metric, wish_.search, vertex, composite, run_.sweep().untangling,
+                              run_.guard());
   }
 
   void expect_as_stored(const VolumeTrace& trace, std::uint64_t moved_now, Vec3 before) {

@@ -103,7 +103,7 @@ TEST_P(JointClustersThatSlide, RaiseWhatNeitherAloneCan) {
   const auto file = std::filesystem::path(DMOSCOPE_SHARED_DIR) / "meshes" / GetParam().file;
   if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
   Progress progress;
-  RunParameters parameters;
+  RunParameters parameters{.layers = LayerRule::Free};  // the quadrilaterals are graded towards the boundary
   parameters.boundary = BoundaryRule::Slide;
   parameters.then_joint.emplace();
   dmoscope::Run run = make_run(load_input(file, Need::Smoothing, progress), parameters);

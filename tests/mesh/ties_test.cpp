@@ -15,7 +15,7 @@ namespace dmoscope {
 namespace {
 
 using testing::input;
-using testing::lattice;
+
 
 Mesh extruded(const Mesh& flat, int cells) {
   Mesh mesh;
@@ -37,16 +37,16 @@ std::vector<Tie> ties_of(const InputMesh& mesh) { return find_ties(mesh.mesh, me
 
 TEST(Ties, AMeshOneCellThickIsOneOfPairs) {
   for (const auto cells : {testing::Cells::Quadrilaterals, testing::Cells::Mixed}) {
-    const auto thin = input(extruded(lattice(5, 0.2, 1, cells), 1));
+    const auto thin = input(extruded(testing::lattice(5, 0.2, 1, cells), 1));
     EXPECT_EQ(count(ties_of(*thin), Tie::Pair), thin->mesh.vertex_count());
-    const auto thick = input(extruded(lattice(5, 0.2, 1, cells), 3));
+    const auto thick = input(extruded(testing::lattice(5, 0.2, 1, cells), 3));
     EXPECT_EQ(count(ties_of(*thick), Tie::None), thick->mesh.vertex_count());
   }
 }
 
 TEST(Ties, DoublesOfASeamAreFoundAndNeighboursAreNot) {
-  Mesh mesh = lattice(4, 0.0, 1, testing::Cells::Quadrilaterals);
-  const Mesh other = lattice(4, 0.0, 1, testing::Cells::Quadrilaterals);
+  Mesh mesh = testing::lattice(4, 0.0, 1, testing::Cells::Quadrilaterals);
+  const Mesh other = testing::lattice(4, 0.0, 1, testing::Cells::Quadrilaterals);
   const Index n = mesh.vertex_count();
   for (const Vec3& p : other.positions) mesh.positions.push_back({p.x + 1.0, p.y, 0.0});
   for (Index e = 0; e < other.elements.size(); ++e) {

@@ -50,19 +50,18 @@ TEST(PowerMean, OfManyBadElementsIsStillAbove0) {
 }
 
 TEST(PowerMean, SlotsOfAPackGetTheBitsOfScalars) {
-  using D = Pack<double>;
   const auto all = some_qualities();
   for (const MeanKind kind : kMeanKinds) {
-    PowerMean<D> packed(kind);
-    std::array<PowerMean<double>, D::size> alone = [&]<std::size_t... I>(std::index_sequence<I...>) {
+    PowerMean<Pack<double>> packed(kind);
+    std::array<PowerMean<double>, Pack<double>::size> alone = [&]<std::size_t... I>(std::index_sequence<I...>) {
       return std::array{((void)I, PowerMean<double>(kind))...};
     }
-    (std::make_index_sequence<D::size>{});
-    for (std::size_t i = 0; i + D::size <= all.size(); ++i) {
-      packed.add(D::load_unaligned(all.data() + i));
-      for (std::size_t k = 0; k < D::size; ++k) alone[k].add(all[i + k]);
+    (std::make_index_sequence<Pack<double>::size>{});
+    for (std::size_t i = 0; i + Pack<double>::size <= all.size(); ++i) {
+      packed.add(Pack<double>::load_unaligned(all.data() + i));
+      for (std::size_t k = 0; k < Pack<double>::size; ++k) alone[k].add(all[i + k]);
     }
-    for (std::size_t k = 0; k < D::size; ++k) EXPECT_EQ(packed.value(7.0).get(k), alone[k].value(7.0)) << name(kind);
+    for (std::size_t k = 0; k < Pack<double>::size; ++k) EXPECT_EQ(packed.value(7.0).get(k), alone[k].value(7.0)) << name(kind);
   }
 }
 

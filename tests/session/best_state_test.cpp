@@ -59,7 +59,6 @@ TEST(BestState, WhatJointMovesRaiseCountsThoughAnotherElementStaysWorse) {
   EXPECT_EQ(best_iteration(dmo, records), 1U) << "it moved nothing";
   records[0].statistics.mean = 0.8;
   EXPECT_EQ(best_iteration(dmo, records), 0U) << "with the same minimum nothing of the input's mean is given up";
-  records[0].statistics.mean = 0.5;
   records[1].statistics.minimum = 0.09;
   EXPECT_EQ(best_iteration(dmo, records), 0U) << "no minimum is given up";
 }

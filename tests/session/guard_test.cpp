@@ -20,7 +20,7 @@ namespace {
 using testing::Cells;
 using testing::input;
 using testing::lattice;
-using testing::volume_grid;
+using test::volume_grid;
 
 dmoscope::Run make_run(const std::shared_ptr<const InputMesh>& mesh, RunParameters parameters) {
   return {mesh, std::move(parameters), std::make_shared<ThreadPool>(2), 0};
@@ -68,7 +68,7 @@ TEST(Guard, KeepsItInVolumesAndWhereVerticesSlide) {
   int fell = 0;
   for (const BoundaryRule boundary : {BoundaryRule::Fixed, BoundaryRule::Slide})
     for (const unsigned seed : {1U, 2U, 3U}) {
-      Mesh grid = volume_grid(4, testing::Fill::Hexahedra, 0.3, seed);
+      Mesh grid = volume_grid(4, test::Fill::Hexahedra, 0.3, seed);
       for (Vec3& p : grid.positions) p.z *= 0.25;
       const auto mesh = input(std::move(grid));
       RunParameters parameters{.metric = Metric::ScaledJacobian, .guard = std::nullopt, .boundary = boundary};

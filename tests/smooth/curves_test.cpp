@@ -105,7 +105,7 @@ TEST(Curves, APlaceBesideTheCurveIsNone) {
   EXPECT_FALSE(curves.place(at(4, 2, 0), {0.4, 1.0, 0})) << "that is another side";
 }
 
-TEST(Curves, BothSidesOfASlitSlideButNotItsTips) {
+TEST(Curves, BothSidesOfASlitStayTogetherAndItsTipsStay) {
   Mesh mesh = lattice(4, 0.0, 1, Cells::Quadrilaterals);
   // Cut along y = 1/2 between x = 1/4 and 3/4: the elements above get vertices of their own there.
   const Index twin = mesh.vertex_count(), cut = at(4, 2, 2);
@@ -118,9 +118,9 @@ TEST(Curves, BothSidesOfASlitSlideButNotItsTips) {
     slit.elements.add(ElementKind::Quadrilateral, corners);
   }
   const auto found = sliding(*input(slit));
-  EXPECT_TRUE(found.contains(cut) && found.contains(twin));
+  EXPECT_FALSE(found.contains(cut) || found.contains(twin)) << "they would part";
   EXPECT_FALSE(found.contains(at(4, 1, 2)) || found.contains(at(4, 3, 2))) << "the tips";
-  EXPECT_EQ(found.size(), 12U + 2U);
+  EXPECT_EQ(found.size(), 12U);
 }
 
 TEST(Curves, WhereTheBoundaryTouchesItselfItStays) {

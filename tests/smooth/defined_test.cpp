@@ -269,9 +269,10 @@ TEST(DefinedMetrics, LooksIntoVisitsShowWhatTheSmootherDoes) {
           };
           if (mesh->is_volume())
             check(trace_volume_visit(*mesh, run.positions(), run.fixed(), parameters.metric, parameters.search, v, {},
-                                     run.sweep().untangling));
+                                     run.sweep().untangling, run.guard()));
           else
-            check(trace_visit(*mesh, run.positions(), run.fixed(), parameters.metric, parameters.search, v, {}, run.sweep().untangling));
+            check(trace_visit(*mesh, run.positions(), run.fixed(), parameters.metric, parameters.search, v, {}, run.sweep().untangling,
+                              run.guard()));
           run.step(StepUnit::Vertex, progress);
           ASSERT_EQ(run.positions()[v], to) << "vertex " << v;
         }
@@ -403,7 +404,7 @@ void expect_kept_layers(const std::shared_ptr<const InputMesh>& mesh, const std:
   const LayersAndRest before = layers_and_rest(*mesh, layers, mesh->mesh.positions);
   Progress progress;
   const auto after_with = [&](const std::string& name) {
-    RunParameters parameters{.metric = parse_metric(name)};
+    RunParameters parameters{.metric = parse_metric(name), .layers = LayerRule::Free};
     parameters.boundary = BoundaryRule::Slide;
     auto run = make_run(mesh, parameters);
     run.iterate(20, progress);

@@ -68,7 +68,7 @@ TEST(ThenMean, WhoSleepsIsNotMissed) {
   const auto until_at_rest = [&](double floor) {
     std::uint64_t moved = 0, last = 1;
     while (last > 0) {
-      const Sweep sweep{++iteration, floor};
+      const Sweep sweep{++iteration, floor, MeanKind::Arithmetic};
       alone->begin(sweep);
       forgetful->begin(sweep);
       forgetful->positions_replaced();

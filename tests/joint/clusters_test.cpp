@@ -18,7 +18,7 @@ using namespace testing;
 
 /// A run that stands where DMO ends, or near it.
 dmoscope::Run after_dmo(const std::shared_ptr<const InputMesh>& mesh, std::uint64_t iterations) {
-  dmoscope::Run run = make_run(mesh, {});
+  dmoscope::Run run = make_run(mesh, {.layers = LayerRule::Free});
   Progress progress;
   run.until_converged({.patience = 20, .max_iterations = iterations}, progress);
   return run;

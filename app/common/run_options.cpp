@@ -88,9 +88,10 @@ void add_run_options(CLI::App& subcommand, RunOptions& options) {
       ->type_name("SIZE")
       ->needs(combine);
   subcommand
-      .add_option("--then", options.then,
-                  "After the minimum has converged: joint (joint moves, which raise the minimum further), mean (raise the harmonic mean without "
-                  "lowering the minimum; or arithmetic-mean, geometric-mean, inverse-square-mean), or both")
+      .add_option(
+          "--then", options.then,
+          "After the minimum has converged: joint (joint moves, which raise the minimum further), mean (raise the harmonic mean without "
+          "lowering the minimum; or arithmetic-mean, geometric-mean, inverse-square-mean), or both")
       ->type_name("mean|joint|joint,mean");
   std::string recipes = "Method and phases under one name:";
   for (const Recipe& one : recipe_table())

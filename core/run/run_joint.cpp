@@ -73,8 +73,8 @@ void Run::untangle_jointly(Progress& progress) {
   record({.moment = {iteration}, .moved = last_moved_, .seconds = watch.seconds()});
 }
 
-/// Whether minimum_is_certified() may be asked. Where vertices slide it would hold them: a region knows no domain, nor the targets and fields
-/// of the whole mesh that a defined metric may ask for.
+/// Whether minimum_is_certified() may be asked. Where vertices slide it would hold them: a region knows no domain, nor the targets and
+/// fields of the whole mesh that a defined metric may ask for.
 bool Run::can_be_certified() const {
   const bool is_all = !method_info(parameters_.method).joint && !parameters_.then_joint && !parameters_.then_mean;
   return is_all && !parameters_.combination && !domain_ && is_built_in(parameters_.metric) && knows_joint_moves();

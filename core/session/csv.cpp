@@ -15,7 +15,8 @@ std::string number(double value) { return std::isfinite(value) ? fmt::format("{}
 
 std::string stats_label(const RunParameters& parameters) {
   const auto& p = parameters;
-  const std::string phases = fmt::format("{}{}", p.then_joint ? ":then-joint" : "", p.then_mean ? fmt::format(":then-{}", name(p.mean)) : "");
+  const std::string phases =
+      fmt::format("{}{}", p.then_joint ? ":then-joint" : "", p.then_mean ? fmt::format(":then-{}", name(p.mean)) : "");
   if (!p.combination) return fmt::format("{}:{}{}", p.method, info(p.metric).name, phases);
   const SizeFunction* size = p.combination->size();
   const std::string how = size != nullptr ? to_text(*size) : std::string();

@@ -72,8 +72,8 @@ TEST(CompositeObjective, TheMeanOfEastRisesAndItsMinimumStays) {
   REQUIRE_SHARED(east, "ocean/east.14");
   const Folder folder;
   const auto alone = smooth(east, folder / "alone.14", {"--iterations", "10", "--geographic", "off"});
-  const auto json =
-      smooth(east, folder / "out.14", {"--then", "arithmetic-mean", "--until-converged", "--stats", folder / "s.csv", "--geographic", "off"});
+  const auto json = smooth(east, folder / "out.14",
+                           {"--then", "arithmetic-mean", "--until-converged", "--stats", folder / "s.csv", "--geographic", "off"});
   EXPECT_NEAR(number(json["after"]["minimum"]), number(alone["after"]["minimum"]), 0.001);
   EXPECT_GE(number(json["after"]["mean"]), 0.953);
   ASSERT_TRUE(json["mean_since"].is_number());

@@ -16,7 +16,6 @@ namespace {
 
 using testing::input;
 
-
 Mesh extruded(const Mesh& flat, int cells) {
   Mesh mesh;
   const Index n = flat.vertex_count();

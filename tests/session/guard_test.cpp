@@ -17,10 +17,10 @@
 namespace dmoscope {
 namespace {
 
+using test::volume_grid;
 using testing::Cells;
 using testing::input;
 using testing::lattice;
-using test::volume_grid;
 
 dmoscope::Run make_run(const std::shared_ptr<const InputMesh>& mesh, RunParameters parameters) {
   return {mesh, std::move(parameters), std::make_shared<ThreadPool>(2), 0};

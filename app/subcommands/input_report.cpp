@@ -4,6 +4,7 @@
 
 #include "app/common/console.h"
 #include "core/base/error.h"
+#include "core/base/number_text.h"
 #include "core/mesh/vertex_words.h"
 #include "core/reference/edge_words.h"
 #include "core/reference/kind_facts.h"

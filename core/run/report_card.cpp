@@ -180,9 +180,10 @@ std::string CardFigure::short_phrase() const {
 
 std::string CardFigure::phrase() const {
   if (of.empty()) return short_phrase();
-  const bool follows = name.starts_with("below");
-  if (name == "least" || name == "mean") return fmt::format("{} {}{}", name, of, std::string_view(short_phrase()).substr(name.size()));
-  return follows ? fmt::format("{} {}", of, short_phrase()) : fmt::format("{} at {}", of, short_phrase());
+  const std::string values = short_phrase().substr(name.size());
+  if (name == "least") return fmt::format("least {}{}", of, values);
+  if (name == "mean") return fmt::format("mean of {}{}", of, values);
+  return name.starts_with("below") ? fmt::format("{} {}", of, short_phrase()) : fmt::format("{} at {}", of, short_phrase());
 }
 
 std::vector<const CardFigure*> ReportCard::worse() const {

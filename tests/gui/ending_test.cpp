@@ -136,13 +136,15 @@ TEST_F(Ending, WhatTheMeanLostIsSaidAndGotBackByOneClick) {
   const Statistics &input = ended.records.front().statistics, lost = ended.records[ended.moment.iteration].statistics;
   ASSERT_LT(lost.mean, input.mean) << "else this test shows nothing";
   ASSERT_FALSE(notice().empty());
-  EXPECT_THAT(notice().sentences[0], HasSubstr("Worse than the input: mean mean ratio"));
-  EXPECT_EQ(notice().figures.size(), 3U) << "by two metrics, and of the mesh";
-  EXPECT_EQ(notice().sentences[1], fmt::format("Minimum {} -> {}, mean {} -> {}.", four_digits(input.minimum), four_digits(lost.minimum),
-                                               four_digits(input.mean), four_digits(lost.mean)));
-  EXPECT_THAT(notice().sentences[2], HasSubstr("The mean fell from "));
+  EXPECT_THAT(notice().sentences[0], HasSubstr("Worse than the input: mean of mean ratio"));
+  ASSERT_EQ(notice().figures.size(), 5U) << "a head, and two rows a metric";
+  EXPECT_EQ(notice().figures[1].name, "mean ratio");
+  EXPECT_EQ(notice().figures[1].cells[3].text, fmt::format("{:.3f}", input.mean));
+  EXPECT_EQ(notice().figures[2].cells[3].text, fmt::format("{:.3f}", lost.mean));
+  EXPECT_EQ(notice().figures[2].cells[3].verdict, Verdict::Worse);
+  EXPECT_EQ(notice().figures[2].cells[0].text, fmt::format("{:.3f}", lost.minimum));
   ASSERT_LT(ended.moment.iteration + 1, ended.records.size()) << "it has gone back";
-  EXPECT_THAT(notice().sentences[3], HasSubstr("went on to iteration " + std::to_string(ended.records.size() - 1)));
+  EXPECT_THAT(notice().sentences[1], HasSubstr("went on to iteration " + std::to_string(ended.records.size() - 1)));
   good("click notice:raise-mean");
   ASSERT_EQ(session()->runs.size(), 2U);
   EXPECT_TRUE(run().parameters.then_mean);

@@ -11,11 +11,33 @@
 namespace dmoscope::ui {
 namespace {
 
+std::vector<FigureRow> rows_of(const ReportCard& card) {
+  std::vector<FigureRow> rows{{}};
+  const auto text = [](const CardFigure& figure, double value) {
+    return figure.name.starts_with("below") ? fmt::format("{:.0f}", value) : fmt::format("{:.3f}", value);
+  };
+  for (std::size_t i = 0; i < card.figures.size();) {
+    const std::string& of = card.figures[i].of;
+    FigureRow before{of, {}}, now{"now", {}};
+    for (; i < card.figures.size() && card.figures[i].of == of; ++i) {
+      const CardFigure& figure = card.figures[i];
+      if (of.empty()) continue;  // what is worse of the mesh itself stands in the sentence
+      if (rows.size() == 1) rows[0].cells.push_back({figure.name.starts_with("below") ? "<" + figure.name.substr(6) : figure.name});
+      before.cells.push_back({text(figure, figure.before)});
+      now.cells.push_back({text(figure, figure.after), figure.verdict});
+    }
+    if (of.empty()) continue;
+    rows.push_back(std::move(before));
+    rows.push_back(std::move(now));
+  }
+  return rows;
+}
+
 /// Says what is worse than in the input, with a button for each option that would have kept it.
 void tell_card(Notice& notice, const ReportCard& card) {
   if (card.verdict != Verdict::Worse) return;
   notice.sentences.push_back(card.sentence(false) + ".");
-  notice.figures = card.lines();
+  notice.figures = rows_of(card);
   std::vector<std::string> offered;
   for (const CardFigure* figure : card.worse()) {
     const std::string& command = figure->kept_by;
@@ -65,8 +87,11 @@ void tell_worse(Notice& notice, const RunView& run) {
 void tell_mean_given_up(Notice& notice, const RunView& run) {
   const std::string fell = mean_given_up(run.parameters, run.records.whole(), run.moment.iteration);
   if (fell.empty()) return;
-  notice.sentences.push_back(as_sentence(course_text(run.records.whole(), run.moment.iteration)));
-  notice.sentences.push_back(as_sentence(fell));
+  const bool said = run.ending && run.ending->card.verdict == Verdict::Worse;
+  if (!said) {
+    notice.sentences.push_back(as_sentence(course_text(run.records.whole(), run.moment.iteration)));
+    notice.sentences.push_back(as_sentence(fell));
+  }
   if (run.ended)
     notice.sentences.push_back(
         fmt::format("The run went on to iteration {} and is back at {}, the best one: from there on the minimum rose "

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/run/report_card.h"
 #include "core/view/view.h"
 #include "ui/commands/view_commands.h"
 
@@ -16,10 +17,20 @@ struct Offer {
   std::string tooltip;
 };
 
+/// The report card's figures by one metric: in the input, and now.
+struct FigureRow {
+  struct Cell {
+    std::string text;
+    Verdict verdict = Verdict::Same;
+  };
+  std::string name;  // "mean ratio", "now"; of the head none
+  std::vector<Cell> cells;
+};
+
 struct Notice {
   std::string key;  // the end that it is about; the same as more becomes known of it
   std::vector<std::string> sentences;
-  std::vector<std::string> figures;  // of the report card, a line each: where something is worse
+  std::vector<FigureRow> figures;  // a head and two rows a metric: where something is worse
   std::vector<Offer> offers;
   [[nodiscard]] bool empty() const noexcept { return sentences.empty(); }
 };

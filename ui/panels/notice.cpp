@@ -32,6 +32,46 @@ ButtonRows in_rows(const std::vector<std::string>& labels, float room, float gap
   return rows;
 }
 
+/// A table of the report card's figures: how wide its columns are.
+struct FigureTable {
+  std::vector<float> widths;
+  float width = 0, row = 0, height = 0;
+  FigureTable(const std::vector<FigureRow>& rows, float between) : row(ImGui::GetTextLineHeightWithSpacing()) {
+    const auto widen = [this](std::size_t column, const std::string& text) {
+      if (widths.size() <= column) widths.resize(column + 1);
+      widths[column] = std::max(widths[column], ImGui::CalcTextSize(text.c_str()).x);
+    };
+    for (const FigureRow& each : rows) {
+      widen(0, each.name);
+      for (std::size_t i = 0; i < each.cells.size(); ++i) widen(i + 1, each.cells[i].text);
+    }
+    for (float& each : widths) width += each += between;
+    height = row * static_cast<float>(rows.size());
+  }
+};
+
+/// Numbers stand flush right; those that are worse than in the input are marked.
+void draw_figures(PanelContext& context, const std::vector<FigureRow>& rows, const FigureTable& table, ImVec2 at) {
+  const auto write = [&](const std::string& text, float x, float y, const render::Rgb& ink) {
+    ImGui::SetCursorScreenPos({x, y});
+    ImGui::PushStyleColor(ImGuiCol_Text, colour_vector(ink));
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopStyleColor();
+  };
+  for (const FigureRow& each : rows) {
+    const bool is_now = each.name == "now";
+    write(each.name, at.x, at.y, context.palette.dim);
+    float right = at.x + table.widths[0];
+    for (std::size_t i = 0; i < each.cells.size(); ++i) {
+      right += table.widths[i + 1];
+      const bool is_worse = each.cells[i].verdict == Verdict::Worse;
+      const auto& ink = is_worse ? context.palette.warning : is_now ? context.palette.text : context.palette.dim;
+      write(each.cells[i].text, right - ImGui::CalcTextSize(each.cells[i].text.c_str()).x, at.y, ink);
+    }
+    at.y += table.row;
+  }
+}
+
 }  // namespace
 
 void draw_notice(PanelContext& context, const Rect& rect) {
@@ -47,12 +87,13 @@ void draw_notice(PanelContext& context, const Rect& rect) {
   float wanted = -gap;  // no wider than what is in it
   for (const std::string& label : labels) wanted += button_width(label) + gap;
   for (const std::string& sentence : notice.sentences) wanted = std::max(wanted, ImGui::CalcTextSize(sentence.c_str()).x + 1);
-  room = std::min(room, wanted);
+  const FigureTable table(notice.figures, context.px(10));
+  room = std::min(room, std::max(wanted, table.width));
   const float width = room + around;
   const ButtonRows rows = in_rows(labels, room, gap);
   float text = 0;
-  for (const auto* lines : {&notice.sentences, &notice.figures})
-    for (const std::string& line : *lines) text += ImGui::CalcTextSize(line.c_str(), nullptr, false, room).y + gap;
+  for (const std::string& line : notice.sentences) text += ImGui::CalcTextSize(line.c_str(), nullptr, false, room).y + gap;
+  if (!notice.figures.empty()) text += table.height + gap;
   const float height = text + rows.height + 2 * pad;
   // Beside the title of the one viewport where there is room, else below the titles.
   const bool beside = context.state.panes.one() && rect.w - width > 16 * em;
@@ -78,9 +119,10 @@ void draw_notice(PanelContext& context, const Rect& rect) {
     y += ImGui::CalcTextSize(line.c_str(), nullptr, false, room).y + gap;
   };
   for (const std::string& sentence : notice.sentences) write(sentence);
-  ImGui::PushStyleColor(ImGuiCol_Text, colour_vector(context.palette.dim));
-  for (const std::string& line : notice.figures) write(line);
-  ImGui::PopStyleColor();
+  if (!notice.figures.empty()) {
+    draw_figures(context, notice.figures, table, {left, y});
+    y += table.height + gap;
+  }
   ImGui::BeginDisabled(context.activity.busy);
   for (std::size_t k = 0; k < notice.offers.size(); ++k) {
     const Offer& offer = notice.offers[k];

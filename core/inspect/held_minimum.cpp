@@ -89,7 +89,9 @@ class Look {
         found.untried.push_back(what);
       }
     };
-    attempt(kMoreIterations, 0.0, [&] { found.unchanged = std::max(found.quality, after(conditions(), q_.task.domain)); });
+    found.unchanged = found.quality;
+    if (!q_.certified)
+      attempt(kMoreIterations, 0.0, [&] { found.unchanged = std::max(found.quality, after(conditions(), q_.task.domain)); });
     double best = found.unchanged;
     if (!all.empty()) attempt("switches that could free it", 0.1, [&] { try_switches(found, all, best); });
     const bool stays = std::ranges::all_of(found.vertices, [](const HeldVertex& one) { return is_fixed(one.by); });
@@ -171,7 +173,7 @@ class Look {
     if (same && is_gain(best, cluster->after)) {
       if (!q_.joint_phase.empty())
         take(found, {"then", q_.joint_phase, Holding::Neighbours}, cluster->after);
-      else if (!found.change)
+      else if (!found.change && !q_.certified)
         found.unchanged = cluster->after;
       best = cluster->after;
     }

@@ -127,6 +127,7 @@ struct HeldQuestion {
   std::string joint_phase{};         // what "then" must be told for them; empty: the run has them
   std::size_t joint_at_most{};       // see joint_hold
   bool joint_where_it_rises = true;  // are joint moves tried, too, where more iterations raise the minimum?
+  bool certified = false;            // the run ended so: more iterations raise nothing, and are not tried
   bool whole = true;                 // is what frees the element tried on the whole mesh?
 };
 

@@ -72,6 +72,7 @@ std::optional<HeldMinimum> what_holds(const Run& run, ThreadPool* pool, Progress
   constexpr std::size_t kMostInThePlane = 4000, kMostInVolumes = 500;
   if (look.at_rest || !question.joint_phase.empty()) question.joint_at_most = run.input().is_volume() ? kMostInVolumes : kMostInThePlane;
   question.joint_where_it_rises = look.at_rest;
+  question.certified = run.last_outcome() && run.last_outcome()->reason == StopReason::Certified;
   question.whole = !look.at_rest;
   return held_minimum(question, pool, progress, look.go_on);
 }

@@ -121,14 +121,17 @@ class Finder {
 
  private:
   void begin_stack() { stack_.clear(); }
+  /// Keeps the steady part of the stack, from the wall on.
   void add_to_stack(Index element, const Extent& extent) {
-    if (stack_.empty()) first_ = last_ = extent, steady_ = true, ++layers_.stacks;
+    const bool is_first = height_[element] == 1;
+    if (is_first) first_ = last_ = extent, steady_ = true, ++layers_.stacks;
     steady_ = steady_ && extent.height <= kSteps * last_.height && extent.height >= kEven * last_.height;
+    if (!steady_) return;
     last_ = extent;
     stack_.push_back(element);
   }
   void end_stack() {
-    if (!steady_ || stack_.size() < kLayers || first_.width < kFlat * first_.height || last_.height < kGrown * first_.height) return;
+    if (stack_.size() < kLayers || first_.width < kFlat * first_.height || last_.height < kGrown * first_.height) return;
     for (const Index element : stack_) pronounced_[element] = 1;
   }
 
@@ -219,9 +222,9 @@ class Finder {
   std::vector<std::uint16_t> height_;  // by element; 0: in no stack
   std::vector<std::uint8_t> base_;     // by element: the side that it stands on
   std::vector<std::uint8_t> pronounced_;
-  std::vector<Index> stack_;   // the one that is climbed, from the wall on
+  std::vector<Index> stack_;   // the steady part of the one that is climbed, from the wall on
   Extent first_, last_;        // of its elements
-  bool steady_ = true;         // does no layer of it differ much from the one beneath?
+  bool steady_ = true;         // has no layer of it so far differed much from the one beneath?
   std::vector<Index> across_;  // by element and edge
   BoundaryLayers layers_;
 };

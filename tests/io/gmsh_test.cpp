@@ -51,6 +51,34 @@ TEST(Gmsh, NamesWithoutADimensionAreOfWhateverHasTheNumber) {
   }
 }
 
+/// Two squares side by side whose left and right ends are one, in either version; the transformation is passed over.
+TEST(Gmsh, PeriodicVerticesArePaired) {
+  const std::string version2 =
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n6\n1 0 0 0\n2 1 0 0\n3 2 0 0\n4 2 1 0\n5 1 1 0\n6 0 1 0\n$EndNodes\n"
+      "$Elements\n2\n1 3 2 1 1 1 2 5 6\n2 3 2 1 1 2 3 4 5\n$EndElements\n";
+  const std::string affine = "Affine 1 0 0 2 0 1 0 0 0 0 1 0 0 0 0 1\n";
+  for (const std::string& with : {std::string(), affine}) {
+    const Mesh mesh = read_bytes("a.msh", version2 + "$Periodic\n1\n1 2 4\n" + with + "2\n3 1\n4 6\n$EndPeriodic\n");
+    ASSERT_EQ(mesh.periodic.size(), 2U);
+    EXPECT_THAT(mesh.periodic[0], ElementsAre(2, 0));
+    EXPECT_THAT(mesh.periodic[1], ElementsAre(3, 5));
+  }
+  const Mesh mesh = read_bytes("b.msh",
+                               "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 1 0\n1 0 0 0 2 1 0 0 0\n$EndEntities\n"
+                               "$Nodes\n1 6 1 6\n2 1 0 6\n1\n2\n3\n4\n5\n6\n0 0 0\n1 0 0\n2 0 0\n2 1 0\n1 1 0\n0 1 0\n$EndNodes\n"
+                               "$Elements\n1 2 1 2\n2 1 3 2\n1 1 2 5 6\n2 2 3 4 5\n$EndElements\n"
+                               "$Periodic\n1\n1 2 4\n16 1 0 0 2 0 1 0 0 0 0 1 0 0 0 0 1\n2\n3 1\n4 6\n$EndPeriodic\n");
+  ASSERT_EQ(mesh.periodic.size(), 2U);
+  EXPECT_THAT(mesh.periodic[1], ElementsAre(3, 5));
+  try {
+    (void)read_bytes("c.msh", version2 + "$Periodic\n1\n1 2 4\n1\n3 9\n$EndPeriodic\n");
+    FAIL() << "there is no node 9";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("pairs node 3 with 9"));
+    EXPECT_THAT(error.what(), HasSubstr(":22"));
+  }
+}
+
 /// As Gmsh writes it: two partitions of one surface, with a line between them that is no line of the mesh.
 TEST(Gmsh, PartitionsArePutTogether) {
   const std::string text = dmoscope::testing::gmsh_4_partitioned();

@@ -132,6 +132,7 @@ class GmshReader {
   }
   void link_2() {
     for (const char* what : {"a dimension", "an entity", "its master"}) (void)words().integer(what);
+    (void)words().rest_of_line();
     if (words().peek_word() == "Affine") (void)words().rest_of_line();
     const std::size_t pairs = words().count("the number of pairs of nodes", 4.0);
     for (std::size_t k = 0; k < pairs; ++k) {

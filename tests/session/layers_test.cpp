@@ -1,0 +1,82 @@
+// Boundary layers that somebody has made stay unless told otherwise.
+
+#include <algorithm>
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include "core/base/same_bits.h"
+#include "core/run/run.h"
+#include "tests/support/meshes.h"
+
+namespace dmoscope {
+namespace {
+
+using testing::add;
+using testing::input;
+
+/// Layers of heights 0.01 growth^k on a wall, as many as there are; above them squares whose vertices are displaced.
+Mesh with_layers(Index layers, double growth, double first) {
+  Mesh mesh;
+  constexpr Index kAlong = 8, kAbove = 5;
+  constexpr double kWidth = 0.2;
+  testing::Random random(3);
+  double y = 0.0, height = first;
+  for (Index j = 0; j <= layers + kAbove; ++j) {
+    for (Index i = 0; i <= kAlong; ++i) {
+      const bool moves = j > layers && j < layers + kAbove && i > 0 && i < kAlong;
+      const bool leans = j > 0 && j <= layers && i > 0 && i < kAlong;
+      const double dx = moves ? random(-0.08, 0.08) : leans ? random(-0.02, 0.02) : 0.0, dy = moves ? random(-0.08, 0.08) : 0.0;
+      mesh.positions.push_back({kWidth * static_cast<double>(i) + dx, y + dy, 0.0});
+    }
+    y += j < layers ? height : kWidth;
+    height *= growth;
+  }
+  for (Index j = 0; j < layers + kAbove; ++j)
+    for (Index i = 0; i < kAlong; ++i) {
+      const Index a = j * (kAlong + 1) + i;
+      add(mesh, {a, a + 1, a + kAlong + 2, a + kAlong + 1});
+    }
+  return mesh;
+}
+
+dmoscope::Run smoothed(const std::shared_ptr<const InputMesh>& mesh, LayerRule rule) {
+  RunParameters parameters{.layers = rule};
+  parameters.boundary = BoundaryRule::Slide;
+  dmoscope::Run run(mesh, parameters, std::make_shared<ThreadPool>(1), 0);
+  Progress progress;
+  run.iterate(20, progress);
+  return run;
+}
+
+TEST(Layers, StayUnlessTheyAreLetGo) {
+  const auto mesh = input(with_layers(5, 1.5, 0.01));
+  ASSERT_EQ(mesh->layers.size(), 6U * 9U) << "the vertices of five layers of eight elements";
+  const dmoscope::Run kept = smoothed(mesh, LayerRule::Keep), free = smoothed(mesh, LayerRule::Free);
+  const auto stays = [&](const dmoscope::Run& run) {
+    return std::ranges::all_of(mesh->layers, [&](Index v) { return run.positions()[v] == mesh->mesh.positions[v]; });
+  };
+  EXPECT_TRUE(stays(kept));
+  EXPECT_FALSE(stays(free));
+  EXPECT_FALSE(same_bits(kept.positions(), mesh->mesh.positions)) << "the rest moves";
+  const Index inside = 9 + 4;  // the first row above the wall
+  EXPECT_EQ(kept.why_fixed(inside), "it lies in a boundary layer, which is kept");
+}
+
+TEST(Layers, AreNotWhatIsMerelyStretched) {
+  EXPECT_TRUE(input(with_layers(5, 1.0, 0.03))->layers.empty()) << "they do not grow";
+  EXPECT_TRUE(input(with_layers(5, 1.5, 0.1))->layers.empty()) << "the first is only twice as wide as high";
+  EXPECT_TRUE(input(with_layers(2, 2.0, 0.01))->layers.empty()) << "two";
+}
+
+TEST(Layers, OfInvertedElementsAreFree) {
+  Mesh mesh = with_layers(5, 1.5, 0.01);
+  const Index v = 9 + 4;
+  mesh.positions[v].y = 0.5;  // above what lies above it
+  const auto tangled = input(std::move(mesh));
+  EXPECT_LT(tangled->layers.size(), 6U * 9U);
+  EXPECT_FALSE(std::ranges::binary_search(tangled->layers, v));
+}
+
+}  // namespace
+}  // namespace dmoscope

@@ -85,6 +85,11 @@ void for_neighbours(const InputMesh& input, const Visit& visit) {
       if (other != kNoIndex && e < other) visit(e, other);
 }
 
+/// Inverted elements, before and after.
+struct InvertedBeforeAndAfter {
+  std::uint64_t before = 0, after = 0;
+};
+
 class Card {
  public:
   Card(const InputMesh& input, std::span<const Vec3> before, std::span<const Vec3> after, Metric raised, bool raises_mean, ThreadPool* pool)
@@ -109,11 +114,8 @@ class Card {
       add(fmt::format("below {}", kBounds[i]), was.below[i], is.below[i], opposite(compare(was.below[i], is.below[i], few)), kMean);
   }
 
-  void add_mesh() {
-    const auto inverted = [&](std::span<const Vec3> positions) {
-      return static_cast<double>(count_inverted(input_.quality_context(), positions).all);
-    };
-    add("inverted", inverted(before_), inverted(after_), 0.0, "");
+  void add_mesh(InvertedBeforeAndAfter inverted) {
+    add("inverted", static_cast<double>(inverted.before), static_cast<double>(inverted.after), 0.0, "");
     const std::vector<double> was = measures(input_, before_), is = measures(input_, after_);
     const auto growth = [&](const std::vector<double>& sizes) {
       double most = 1.0;
@@ -231,15 +233,25 @@ std::string ReportCard::sentence(bool as_options) const {
   return fmt::format("Worse than the input: {}", fmt::join(parts, "; "));
 }
 
-ReportCard report_card(const InputMesh& input, std::span<const Vec3> before, std::span<const Vec3> after, std::span<const Metric> raised,
-                       bool raises_mean, ThreadPool* pool) {
+namespace {
+
+ReportCard make_card(const InputMesh& input, std::span<const Vec3> before, std::span<const Vec3> after, std::span<const Metric> raised,
+                     bool raises_mean, InvertedBeforeAndAfter inverted, ThreadPool* pool) {
   Card card(input, before, after, raised.front(), raises_mean, pool);
   const bool aimed = std::ranges::any_of(raised, [](Metric metric) { return !target_of(metric).is_ideal(); });
   for (const Metric metric : raised) card.add_metric(metric, true);
   for (const Metric metric : {Metric::MeanRatio, Metric::ScaledJacobian})
     if (std::ranges::find(raised, metric) == raised.end()) card.add_metric(metric, !aimed);
-  card.add_mesh();
+  card.add_mesh(inverted);
   return card.finish();
+}
+
+}  // namespace
+
+ReportCard report_card(const InputMesh& input, std::span<const Vec3> before, std::span<const Vec3> after, std::span<const Metric> raised,
+                       bool raises_mean, ThreadPool* pool) {
+  const auto inverted = [&](std::span<const Vec3> positions) { return count_inverted(input.quality_context(), positions).all; };
+  return make_card(input, before, after, raised, raises_mean, {inverted(before), inverted(after)}, pool);
 }
 
 ReportCard report_card(const Run& run, ThreadPool* pool) {
@@ -247,7 +259,8 @@ ReportCard report_card(const Run& run, ThreadPool* pool) {
   std::vector<Metric> raised{p.metric};
   const auto* second = p.combination ? std::get_if<Metric>(&p.combination->second) : nullptr;
   if (second != nullptr) raised.push_back(*second);
-  return report_card(run.input(), run.input().mesh.positions, run.positions(), raised, p.then_mean.has_value(), pool);
+  const InvertedBeforeAndAfter inverted{run.history().records().front().statistics.inverted, run.statistics().inverted};
+  return make_card(run.input(), run.input().mesh.positions, run.positions(), raised, p.then_mean.has_value(), inverted, pool);
 }
 
 }  // namespace dmoscope

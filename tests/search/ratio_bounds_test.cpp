@@ -128,35 +128,35 @@ void for_places(const Case& parameter, MeanKind kind, F f) {
 }
 
 TEST_P(RatioBounds, LeaveHopeForWhatAPlaceReaches) {
-  for (const auto& [kind, exponent] : kKinds) {
+  for (const Kind& each : kKinds) {
     int sound = 0;
-    for_places(GetParam(), kind, [&](const auto& star, Bounds& bounds, Vec3 centre, Vec3 place) {
+    for_places(GetParam(), each.kind, [&](const auto& star, Bounds& bounds, Vec3 centre, Vec3 place) {
       const Worth worth = worth_at(star, place);
       if (!(worth.least > 0.0)) return;
       ++sound;
-      bounds.set_needs(worth.least, worth.mean(exponent));
-      EXPECT_TRUE(hopes(bounds, place - centre)) << name(kind);
+      bounds.set_needs(worth.least, worth.mean(each.exponent));
+      EXPECT_TRUE(hopes(bounds, place - centre)) << name(each.kind);
       bounds.set_needs(worth.least, 0.0);
-      EXPECT_TRUE(hopes(bounds, place - centre)) << name(kind);
+      EXPECT_TRUE(hopes(bounds, place - centre)) << name(each.kind);
     });
     EXPECT_GT(sound, 1000);
   }
 }
 
 TEST_P(CloseRatioBounds, LeaveNoneForMuchMore) {
-  for (const auto& [kind, exponent] : kKinds) {
+  for (const Kind& each : kKinds) {
     int tried = 0, by_least = 0, by_mean = 0;
-    for_places(GetParam(), kind, [&](const auto& star, Bounds& bounds, Vec3 centre, Vec3 place) {
+    for_places(GetParam(), each.kind, [&](const auto& star, Bounds& bounds, Vec3 centre, Vec3 place) {
       const Worth worth = worth_at(star, place);
       if (!(worth.least > 0.01)) return;
       ++tried;
       bounds.set_needs(1.001 * worth.least, 0.0);
       by_least += hopes(bounds, place - centre) ? 0 : 1;
-      bounds.set_needs(0.0, worth.mean(exponent) + 0.02);
+      bounds.set_needs(0.0, worth.mean(each.exponent) + 0.02);
       by_mean += hopes(bounds, place - centre) ? 0 : 1;
     });
-    EXPECT_GT(by_least, tried * 95 / 100) << name(kind);
-    EXPECT_GT(by_mean, tried / 2) << name(kind);
+    EXPECT_GT(by_least, tried * 95 / 100) << name(each.kind);
+    EXPECT_GT(by_mean, tried / 2) << name(each.kind);
   }
 }
 
@@ -195,7 +195,8 @@ TEST(PlanarRatioBounds, LeaveHopeForWhatAPlaceReachesAndNoneForMore) {
   std::array<int, kKinds.size()> tried{}, by_mean{};
   for (int trial = 0; trial < 900; ++trial) {
     const auto which = static_cast<std::size_t>(trial / 300);
-    const auto& [kind, exponent] = kKinds[which];
+    const MeanKind kind = kKinds[which].kind;
+    const double exponent = kKinds[which].exponent;
     const Star<double> star = planar_star(random, trial % 2 == 0 ? 1.0 : 0.05);
     composite::RatioBounds<Plane, D, F> bounds;
     bounds.take(lists_of(star), kind, nullptr);

@@ -1,5 +1,5 @@
 #pragma once
-// What prepare_input() and load_input() share.
+// Prepares a mesh that was read or made: orients, examines and indexes it; used by prepare_input() and load_input().
 
 #include <filesystem>
 #include <memory>

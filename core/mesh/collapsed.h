@@ -35,8 +35,8 @@ template <class Vertex>
   return pattern;
 }
 
-/// What the faces that are left make: the kind whose faces they are, the same way round. None where no corner is there twice, and where
-/// they make none: opposite corners of a face that are one, a hexahedron of seven corners.
+/// The kind whose faces are those that are left of an element with a corner twice, the same way round. None where no corner is there
+/// twice, and where the faces make no kind: opposite corners of a face that are one, a hexahedron of seven corners.
 [[nodiscard]] std::optional<SimplerElement> simpler_element(ElementKind kind, const CornerPattern& pattern);
 
 /// How many elements of each kind became another.

@@ -39,7 +39,7 @@ enum class Likeness { None, Range, Said };
 
 /// Maps the mesh, whose positions are in degrees.
 void map_to_mercator(Mesh& mesh);
-/// Where a file has a vertex that is at `position`; the file's own bits where it has not moved.
+/// The coordinates, as the file has them, of a vertex at `position`; the file's own bits where it has not moved.
 [[nodiscard]] Vec3 place_in_file(const Mesh& mesh, Index vertex, Vec3 position);
 /// A place on the map as the file's coordinates, and the other way round; of a mesh that was not mapped the place itself.
 [[nodiscard]] Vec3 in_file(const Mesh& mesh, Vec3 place);

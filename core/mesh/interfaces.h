@@ -55,8 +55,8 @@ class Interfaces {
   /// "1,024 vertices on 2 interfaces between groups and 12 on lines stay (--interfaces free moves them)"; empty where nothing is held or
   /// passed over. `way_out`: what the person here can say, "--interfaces free".
   [[nodiscard]] std::string sentence(std::string_view way_out) const;
-  /// Of each of the cell data that may mean materials and hold nothing by their name: "cell data "X" has 3 values: --materials X keeps
-  /// their interfaces"; and of those that a person named to no effect. `way_in`: what the person here says before the name.
+  /// A sentence for each of the cell data that may mean materials and hold nothing by their name: "cell data "X" has 3 values: --materials
+  /// X keeps their interfaces"; and of those that a person named to no effect. `way_in`: what the person here says before the name.
   [[nodiscard]] std::vector<std::string> offers(std::string_view way_in) const;
 
  private:

@@ -12,59 +12,12 @@
 #include <gtest/gtest.h>
 
 #include "dmoscope/dmoscope.h"
+#include "tests/library/arrays.h"
 
 namespace {
 
 using ::testing::HasSubstr;
-
-struct Arrays {
-  std::vector<double> positions;
-  std::vector<dmo::CellKind> kinds;
-  std::vector<dmo::Index> offsets{0}, connectivity;
-
-  void add(dmo::CellKind kind, const std::vector<dmo::Index>& corners) {
-    kinds.push_back(kind);
-    connectivity.insert(connectivity.end(), corners.begin(), corners.end());
-    offsets.push_back(static_cast<dmo::Index>(connectivity.size()));
-  }
-  [[nodiscard]] dmo::Cells cells() const { return {kinds.size(), kinds.data(), offsets.data(), connectivity.data()}; }
-  [[nodiscard]] dmo::Mesh mesh() const { return {positions.data(), positions.size() / 3, cells()}; }
-};
-
-/// n x n squares, some of them cut into triangles, every inner vertex a third of a cell out of place.
-Arrays sheet(dmo::Index n) {
-  Arrays arrays;
-  for (dmo::Index j = 0; j <= n; ++j)
-    for (dmo::Index i = 0; i <= n; ++i) {
-      const bool inside = i > 0 && i < n && j > 0 && j < n;
-      const double turn = 1.7 * i + 2.9 * j;
-      arrays.positions.insert(arrays.positions.end(),
-                              {i + (inside ? 0.33 * std::cos(turn) : 0.0), j + (inside ? 0.33 * std::sin(turn) : 0.0), 5.0});
-    }
-  for (dmo::Index j = 0; j < n; ++j)
-    for (dmo::Index i = 0; i < n; ++i) {
-      const dmo::Index a = i + (n + 1) * j, b = a + 1, c = b + n + 1, d = a + n + 1;
-      if ((i + j) % 3 == 0) {
-        arrays.add(dmo::CellKind::Quadrilateral, {a, b, c, d});
-      } else {
-        arrays.add(dmo::CellKind::Triangle, {a, b, c});
-        arrays.add(dmo::CellKind::Triangle, {a, c, d});
-      }
-    }
-  return arrays;
-}
-
-/// A cube's corners, its middle near one of them, and six pyramids around that; a wedge on top, in VTK's order.
-Arrays solids() {
-  Arrays arrays;
-  arrays.positions = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1, 0.2, 0.3, 0.25, 0.5, 0, 2, 0.5, 1, 2};
-  using K = dmo::CellKind;
-  for (const std::vector<dmo::Index>& face :
-       {std::vector<dmo::Index>{0, 1, 2, 3, 8}, {4, 7, 6, 5, 8}, {0, 4, 5, 1, 8}, {1, 5, 6, 2, 8}, {2, 6, 7, 3, 8}, {3, 7, 4, 0, 8}})
-    arrays.add(K::Pyramid, face);
-  arrays.add(K::Wedge, {4, 5, 9, 7, 6, 10});
-  return arrays;
-}
+using namespace dmoscope_test;
 
 TEST(Library, ArraysComeBackAsTheyWentIn) {
   for (const Arrays& arrays : {sheet(6), solids()}) {
@@ -110,18 +63,6 @@ TEST(Library, NullArraysAreRefusedByName) {
     EXPECT_THAT(told(arrays.positions.data(), cells), HasSubstr(std::string(name) + " is null"));
   }
   EXPECT_THROW((void)arrays.mesh().with_positions(nullptr), dmo::InputError);
-}
-
-/// Two materials, and data of other shapes.
-dmo::Mesh sheet_with_data(const Arrays& arrays) {
-  std::vector<double> material, wind;
-  for (std::size_t c = 0; c < arrays.kinds.size(); ++c) material.push_back(c < arrays.kinds.size() / 2 ? 1.0 : 2.0);
-  for (std::size_t v = 0; v < arrays.positions.size() / 3; ++v) wind.insert(wind.end(), {0.5, static_cast<double>(v), -1.0});
-  return {arrays.positions.data(),
-          arrays.positions.size() / 3,
-          arrays.cells(),
-          {{.name = "material", .values = std::move(material), .components = 1, .whole = true}},
-          {{.name = "wind", .values = std::move(wind), .components = 3, .whole = false}}};
 }
 
 TEST(Library, DataComeBackAsTheyWentIn) {
@@ -449,89 +390,6 @@ TEST(Library, WrongArraysAreRefusedByName) {
   arrays = sheet(2);
   EXPECT_THROW((void)dmo::Mesh(arrays.positions.data(), arrays.positions.size() / 3, arrays.cells(), {{"material", {1.0, 2.0}}}),
                dmo::InputError);
-}
-
-TEST(Library, FilesAreReadAndWritten) {
-  const std::string path = ::testing::TempDir() + "/library_test.vtk", wrong = ::testing::TempDir() + "/library_test_wrong.off";
-  const dmo::Mesh mesh = solids().mesh();
-  EXPECT_TRUE(mesh.write(path).empty());
-  const dmo::Mesh again = dmo::Mesh::read(path);
-  EXPECT_EQ(std::memcmp(again.positions(), mesh.positions(), 3 * mesh.vertex_count() * sizeof(double)), 0);
-  EXPECT_EQ(std::vector(again.cells().connectivity, again.cells().connectivity + 36),
-            std::vector(mesh.cells().connectivity, mesh.cells().connectivity + 36));
-  EXPECT_THROW(mesh.write(::testing::TempDir() + "/no/such/folder.vtk"), dmo::OutputError);
-  EXPECT_THROW(mesh.write(path + ".nothing"), dmo::UsageError);
-  std::ofstream(wrong) << "OFF\n3 1 0\n0 0 0\n1 0 0\n0 one 0\n3 0 1 2\n";
-  try {
-    (void)dmo::Mesh::read(wrong);
-    ADD_FAILURE();
-  } catch (const dmo::InputError& error) {
-    EXPECT_EQ(error.file(), wrong);
-    EXPECT_EQ(error.line(), 5U);
-  }
-}
-
-/// Triangles whose coordinates every format holds exactly: multiples of 1/64.
-Arrays coarse_sheet(dmo::Index n) {
-  const Arrays from = sheet(n);
-  Arrays arrays;
-  for (std::size_t i = 0; i < from.positions.size(); ++i)
-    arrays.positions.push_back(i % 3 == 2 ? 0.0 : std::round(from.positions[i] * 64) / 64);
-  for (std::size_t c = 0; c < from.kinds.size(); ++c) {
-    const dmo::Index* at = from.connectivity.data() + from.offsets[c];
-    arrays.add(dmo::CellKind::Triangle, {at[0], at[1], at[2]});
-    if (from.kinds[c] == dmo::CellKind::Quadrilateral) arrays.add(dmo::CellKind::Triangle, {at[0], at[2], at[3]});
-  }
-  return arrays;
-}
-
-TEST(Library, NewPlacesAreWrittenInTheFilesOwnFormat) {
-  const Arrays arrays = coarse_sheet(8);
-  const std::string folder = ::testing::TempDir() + "/library_places";
-  for (const std::string extension :
-       {".off", ".obj", ".ply", ".stl", ".vtk", ".vtu", ".xdmf", ".14", ".su2", ".msh", ".mesh", ".node", ".inp", ".2dm", ".bdf"}) {
-    SCOPED_TRACE(extension);
-    (void)sheet_with_data(arrays).write(folder + extension);
-    const dmo::Mesh read = dmo::Mesh::read(folder + extension);
-    const std::size_t bytes = 3 * read.vertex_count() * sizeof(double);
-    std::vector<double> places(read.positions(), read.positions() + 3 * read.vertex_count());
-    for (std::size_t i = 0; i < places.size(); ++i) places[i] = i % 3 == 2 ? 0.0 : 2.0 * places[i] + 0.5;
-    places[3 * 30] = read.positions()[3 * 30];  // one that stays
-    const dmo::Mesh moved = read.with_positions(places.data());
-    const dmo::Smoothed smoothed = dmo::smooth(moved);
-    EXPECT_NE(std::memcmp(smoothed.mesh.positions(), places.data(), bytes), 0);
-    for (const dmo::Mesh& mesh :
-         {moved, smoothed.mesh, dmo::Mesh::from_bytes(moved.to_bytes()), smoothed.mesh.with_positions(places.data())}) {
-      const std::vector<std::string> told = mesh.write(folder + "_new" + extension);
-      const dmo::Mesh written = dmo::Mesh::read(folder + "_new" + extension);
-      ASSERT_EQ(written.vertex_count(), read.vertex_count());
-      const bool rounded = !told.empty() && told[0].find("rounded") != std::string::npos;  // only by formats with few digits
-      std::size_t wrong = 0;
-      for (std::size_t i = 0; i < places.size(); ++i)
-        wrong += std::abs(written.positions()[i] - mesh.positions()[i]) <= (rounded ? 1e-5 : 0.0) ? 0 : 1;
-      EXPECT_EQ(wrong, 0U);
-      EXPECT_TRUE(!rounded || extension == ".bdf");
-      ASSERT_EQ(written.cell_data().size(), read.cell_data().size());
-      for (std::size_t k = 0; k < read.cell_data().size(); ++k) EXPECT_EQ(written.cell_data()[k].values, read.cell_data()[k].values);
-      ASSERT_EQ(written.point_data().size(), read.point_data().size());
-      ASSERT_EQ(written.cell_groups().size(), read.cell_groups().size());
-      for (std::size_t k = 0; k < read.cell_groups().size(); ++k) EXPECT_EQ(written.cell_groups()[k].cells, read.cell_groups()[k].cells);
-    }
-  }
-}
-
-/// A CalculiX text named .msh is written as what it was.
-TEST(Library, NewPlacesAreWrittenUnderAnotherFormatsExtension) {
-  const std::string folder = ::testing::TempDir() + "/library_other";
-  (void)sheet_with_data(coarse_sheet(8)).write(folder + ".inp");
-  std::filesystem::rename(folder + ".inp", folder + ".msh");
-  const dmo::Mesh read = dmo::Mesh::read(folder + ".msh");
-  std::vector<double> places(read.positions(), read.positions() + 3 * read.vertex_count());
-  for (double& x : places) x = 2.0 * x;
-  (void)read.with_positions(places.data()).write(folder + "_new.msh");
-  const dmo::Mesh written = dmo::Mesh::read(folder + "_new.msh");
-  ASSERT_EQ(written.vertex_count(), read.vertex_count());
-  EXPECT_EQ(std::memcmp(written.positions(), places.data(), places.size() * sizeof(double)), 0);
 }
 
 TEST(Library, ATraceEndsWhereTheFirstVisitDoes) {

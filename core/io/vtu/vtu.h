@@ -21,7 +21,7 @@ namespace dmoscope {
 /// Makes a VTU file anew: appended raw data of double precision, zlib, 64-bit sizes; see FormatHandler::write.
 std::vector<std::string> write_vtu(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context);
 
-/// The same of a VTP file. Throws OutputError for volume elements.
+/// Makes a VTP file anew, encoded as write_vtu() does. Throws OutputError for volume elements.
 std::vector<std::string> write_vtp(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context);
 
 /// The type that write_vtu() gives a field: its own where that holds all its values exactly, else double; and VTU's word for it.

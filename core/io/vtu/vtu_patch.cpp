@@ -138,7 +138,7 @@ class VtuPatcher {
     if (static_cast<double>(static_cast<float>(value)) != value) ++rounded_;
   }
 
-  /// What comes behind arrays whose encoded size changed moves with them.
+  /// Adds to the offsets of appended arrays by how much the encoded sizes of those before them changed.
   void move_offsets() {
     const auto by_begin = [](const Replacement& a, const Replacement& b) { return a.begin < b.begin; };
     std::sort(replacements_.begin(), replacements_.end(), by_begin);

@@ -180,7 +180,7 @@ class VtuReader {
     end_piece(node, std::array<std::string_view, 1>{"Cells"});
   }
 
-  /// Of PolyData: lists of points, lines and polygons, whose data come in this order.
+  /// Reads a piece of PolyData: lists of points, lines and polygons, whose cell data come in this order.
   void poly_piece(pugi::xml_node node) {
     struct List {
       const char *name, *count;

@@ -138,7 +138,7 @@ TEST_F(Ending, WhatTheMeanLostIsSaidAndGotBackByOneClick) {
   ASSERT_FALSE(notice().empty());
   EXPECT_THAT(notice().sentences[0], HasSubstr("Worse than the input: mean of mean ratio"));
   ASSERT_EQ(notice().figures.size(), 5U) << "a head, and two rows a metric";
-  EXPECT_EQ(notice().figures[1].name, "mean ratio");
+  EXPECT_EQ(notice().figures[1].name, "mean ratio was");
   EXPECT_EQ(notice().figures[1].cells[3].text, fmt::format("{:.3f}", input.mean));
   EXPECT_EQ(notice().figures[2].cells[3].text, fmt::format("{:.3f}", lost.mean));
   EXPECT_EQ(notice().figures[2].cells[3].verdict, Verdict::Worse);

@@ -18,7 +18,7 @@ std::vector<FigureRow> rows_of(const ReportCard& card) {
   };
   for (std::size_t i = 0; i < card.figures.size();) {
     const std::string& of = card.figures[i].of;
-    FigureRow before{of, {}}, now{"now", {}};
+    FigureRow before{of + " was", {}}, now{"is now", {}};
     for (; i < card.figures.size() && card.figures[i].of == of; ++i) {
       const CardFigure& figure = card.figures[i];
       if (of.empty()) continue;  // what is worse of the mesh itself stands in the sentence

@@ -23,7 +23,7 @@ struct FigureRow {
     std::string text;
     Verdict verdict = Verdict::Same;
   };
-  std::string name;  // "mean ratio", "now"; of the head none
+  std::string name;  // "mean ratio was", "is now"; of the head none
   std::vector<Cell> cells;
 };
 

@@ -59,7 +59,7 @@ void draw_figures(PanelContext& context, const std::vector<FigureRow>& rows, con
     ImGui::PopStyleColor();
   };
   for (const FigureRow& each : rows) {
-    const bool is_now = each.name == "now";
+    const bool is_now = each.name == "is now";
     write(each.name, at.x, at.y, context.palette.dim);
     float right = at.x + table.widths[0];
     for (std::size_t i = 0; i < each.cells.size(); ++i) {
@@ -75,11 +75,12 @@ void draw_figures(PanelContext& context, const std::vector<FigureRow>& rows, con
 }  // namespace
 
 void draw_notice(PanelContext& context, const Rect& rect) {
-  const Notice notice = notice_of(context.session);
+  Notice notice = notice_of(context.session);
   const float em = context.em(), pad = context.px(10), gap = context.px(6), bar = context.px(4);
   if (notice.empty() || notice.key == context.state.dismissed_notice || rect.w < 16 * em || rect.h < 12 * em) return;
+  if (rect.h < 28 * em) notice.figures.clear();  // they would hide the mesh; the sentence says what is worse
   const float margin = context.px(8), around = 2 * pad + bar;
-  float room = std::min(rect.w - 2 * margin, 31 * em) - around;
+  float room = std::min(rect.w - 2 * margin, 34 * em) - around;
   std::vector<std::string> labels;
   for (const Offer& offer : notice.offers) labels.push_back(offer.label);
   const std::string hide = "Hide";

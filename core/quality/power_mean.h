@@ -11,7 +11,8 @@
 namespace dmoscope {
 
 /// The power means of exponents -1, 1, 0 and -2. The arithmetic one is indifferent to where quality comes from: it lets one element become
-/// bad if several others win a little. The harmonic one weighs an element by the inverse square of its quality: bad elements count most.
+/// bad if several others win a little. The harmonic one weighs an element by the inverse square of its quality: bad elements count most,
+/// and steps at .1, .2, .3 and .4 see to it that no gain is paid for by one more element below one of these.
 enum class MeanKind : std::uint8_t { Harmonic, Arithmetic, Geometric, InverseSquare };
 
 /// "mean" (the harmonic one, the usual), "arithmetic-mean", "geometric-mean" or "inverse-square-mean".
@@ -21,7 +22,7 @@ inline constexpr std::array kMeanKinds{MeanKind::Harmonic, MeanKind::Arithmetic,
 [[nodiscard]] MeanKind parse_mean_kind(std::string_view word);
 
 /// Adds up qualities and tells a rising function of their mean, above 0: the mean itself, of the geometric one the product of the sixteenth
-/// roots. R: a scalar or a pack, whose slots get the bits that scalars get.
+/// roots, of the harmonic one with its steps. R: a scalar or a pack, whose slots get the bits that scalars get.
 template <class R>
 class PowerMean {
  public:
@@ -35,7 +36,7 @@ class PowerMean {
       case MeanKind::Arithmetic:
         break;
       case MeanKind::Harmonic:
-        return R(1.0) / quality;
+        return R(1.0) / quality + steps(quality);
       case MeanKind::InverseSquare:
         return R(1.0) / (quality * quality);
       case MeanKind::Geometric:
@@ -63,6 +64,16 @@ class PowerMean {
   }
 
  private:
+  /// What bad elements add to their inverse. A lower step counts more than all higher ones of a star together, and any more than the
+  /// inverses of its sound elements can gain.
+  [[nodiscard]] static DMOSCOPE_ANYWHERE R steps(R quality) {
+    return step(quality, 0.4, 1e3) + step(quality, 0.3, 16e3) + step(quality, 0.2, 256e3) + step(quality, 0.1, 4096e3);
+  }
+  [[nodiscard]] static DMOSCOPE_ANYWHERE R step(R quality, double below, double adds) {
+    using scalar::select;
+    return select(quality < scalar::constant<R>(below), scalar::constant<R>(adds), R(0.0));
+  }
+
   MeanKind kind_;
   R total_;
 };

@@ -243,6 +243,29 @@ class DefinedStar {
     for (const Incidence& at : order_) mean.add(judge_.quality(at, positions_, vertex_, place(p)));
     return mean.value(static_cast<double>(order_.size()));
   }
+  /// As mean() at each of some offsets, for those where the least is neither inverted nor below `least`; -infinity for the others.
+  void means(std::span<const Offset> offsets, MeanKind kind, double least, double* out) const {
+    thread_local std::vector<Vec3> places;  // kept: a visit allocates nothing
+    thread_local std::vector<std::size_t> left;
+    thread_local std::vector<double> qualities;
+    thread_local std::vector<PowerMean<double>> means;
+    means.assign(offsets.size(), PowerMean<double>(kind));
+    left.clear(), places.clear();
+    for (std::size_t i = 0; i < offsets.size(); ++i) left.push_back(i), places.push_back(place(offsets[i]));
+    std::fill_n(out, offsets.size(), -std::numeric_limits<double>::infinity());
+    for (const Incidence& one : order_) {
+      qualities.resize(left.size());
+      judge_.qualities(one, positions_, vertex_, places, qualities.data());
+      std::size_t kept = 0;
+      for (std::size_t k = 0; k < left.size(); ++k) {
+        if (qualities[k] < least || !(jacobian(one, places[k]) > 0.0)) continue;
+        means[left[k]].add(qualities[k]);
+        left[kept] = left[k], places[kept++] = places[k];
+      }
+      left.resize(kept), places.resize(kept);
+    }
+    for (const std::size_t i : left) out[i] = means[i].value(static_cast<double>(order_.size()));
+  }
 
  private:
   /// The candidates of a level, and what is known of them by element; no places: none comes.

@@ -2,6 +2,7 @@
 
 #include "core/quality/power_mean.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -36,12 +37,27 @@ double by_definition(double exponent, const std::vector<double>& qualities) {
 
 TEST(PowerMean, IsWhatItsExponentSays) {
   const auto all = some_qualities();
+  std::vector<double> good = all;
+  std::erase_if(good, [](double quality) { return quality < 0.4; });
   EXPECT_NEAR(mean_of(MeanKind::Arithmetic, all), by_definition(1.0, all), 1e-14);
-  EXPECT_NEAR(mean_of(MeanKind::Harmonic, all), by_definition(-1.0, all), 1e-14);
+  EXPECT_NEAR(mean_of(MeanKind::Harmonic, good), by_definition(-1.0, good), 1e-14);
   EXPECT_NEAR(mean_of(MeanKind::InverseSquare, all), by_definition(-2.0, all), 1e-14);
   double logs = 0.0;
   for (const double quality : all) logs += std::log(quality);
   EXPECT_NEAR(16.0 * std::log(mean_of(MeanKind::Geometric, all)), logs, 1e-10);
+}
+
+TEST(PowerMean, TheHarmonicOneIsNotRaisedByOneMoreBadElement) {
+  for (const double level : {0.1, 0.2, 0.3, 0.4}) {
+    // One element falls below a level; all others, of which some are below higher levels, become ideal.
+    std::vector<double> from(12, level * 1.01), to(12, 1.0);
+    to[5] = level * 0.99;
+    EXPECT_EQ(std::ranges::count_if(from, [&](double quality) { return quality < level; }), 0);
+    EXPECT_LT(mean_of(MeanKind::Harmonic, to), mean_of(MeanKind::Harmonic, from)) << level;
+    EXPECT_GT(mean_of(MeanKind::Arithmetic, to), mean_of(MeanKind::Arithmetic, from)) << level;
+    from[5] = level * 0.99;
+    EXPECT_GT(mean_of(MeanKind::Harmonic, to), mean_of(MeanKind::Harmonic, from)) << level << ": it was below before";
+  }
 }
 
 TEST(PowerMean, OfManyBadElementsIsStillAbove0) {

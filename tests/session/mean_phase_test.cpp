@@ -330,10 +330,10 @@ TEST(MeanPhase, UntilConvergedDoesNotBeginItBeforeTheFirstHasConverged) {
   for (Told* told : {&alone, &hasty, &patient}) told->say("generate random 400");
   alone.say("until-converged best 60");
   const Statistics best = alone.session.active().statistics();
-  hasty.say("then mean 1");
+  hasty.say("then arithmetic-mean 1");
   hasty.say("run 150");
   ASSERT_LT(hasty.session.active().statistics().minimum, best.minimum - 0.01) << "else this test shows nothing";
-  patient.say("then mean 1");
+  patient.say("then arithmetic-mean 1");
   patient.say("until-converged 60");
   const dmoscope::Run& run = patient.session.active();
   ASSERT_TRUE(run.mean_since());

@@ -147,7 +147,8 @@ TEST(VisitByTwoAims, FindsTheBestInTheOrderOfTheTwoAims) {
   EXPECT_GT(below, 5);
 }
 
-/// The power mean of a star's mean ratios, by the kind's exponent.
+/// The power mean of a star's mean ratios, by the kind's exponent; of the harmonic one, before all else how few are below .1, then .2, .3
+/// and .4.
 SecondAim power_mean(MeanKind kind) {
   const double exponent = kind == MeanKind::Arithmetic      ? 1.0
                           : kind == MeanKind::Harmonic      ? -1.0
@@ -158,6 +159,8 @@ SecondAim power_mean(MeanKind kind) {
     for (const auto& triangle : star) {
       const double quality = Plain::mean_ratio(triangle);
       sum += exponent == 0.0 ? std::log(quality) : std::pow(quality, exponent);
+      if (exponent == -1.0)
+        for (int level = 1; level <= 4; ++level) sum += quality < level / 10.0 ? std::pow(100.0, 6 - level) : 0.0;
     }
     const double mean = sum / static_cast<double>(star.size());
     return exponent == 0.0 ? std::exp(mean) : std::pow(mean, 1.0 / exponent);

@@ -218,6 +218,19 @@ void StarScore<Frame>::least(const CandidateList& candidates, double enough, std
   }
 }
 
+/// By the mean of a metric that is defined by a formula or a target; of places that are not beyond the threshold, below all.
+template <class Frame>
+void StarScore<Frame>::worth_beyond(const CandidateList& candidates, std::vector<double>& out) const {
+  thread_local std::vector<Offset> offsets;  // kept: a visit allocates nothing
+  offsets.clear();
+  for (std::size_t i = 0; i < candidates.size(); ++i) offsets.push_back(candidates.get<Offset>(i));
+  out.resize(offsets.size());
+  const double least = std::max(composite_.threshold, std::numeric_limits<double>::min());
+  defined_.first->means(offsets, std::get<MeanOfStar>(composite_.second).kind, least, out.data());
+  for (double& worth : out)
+    if (worth > kAll) worth = composite_.threshold + positive(worth);
+}
+
 template <class Frame>
 std::size_t StarScore<Frame>::first_best(CandidateList& candidates, double& best) const {
   if (list_kernel_ != nullptr && !untangling_) {
@@ -230,11 +243,15 @@ std::size_t StarScore<Frame>::first_best(CandidateList& candidates, double& best
     }
   }
   thread_local std::vector<double> worth;  // kept: a visit allocates nothing
-  least(candidates, std::min(best, greatest_below_), worth);
+  const bool by_mean = composite_.raise_mean() && defined_.first && !untangling_ && best > composite_.threshold;
+  if (by_mean)
+    worth_beyond(candidates, worth);
+  else
+    least(candidates, std::min(best, greatest_below_), worth);
   std::size_t first = candidates.size();
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const auto p = candidates.get<Offset>(i);
-    worth[i] = guarded(p, with_second(p, worth[i]), best);
+    worth[i] = guarded(p, by_mean ? worth[i] : with_second(p, worth[i]), best);
     if (worth[i] > best) best = worth[i], first = i;
   }
   return first;

@@ -178,6 +178,7 @@ class StarScore {
   }
   [[nodiscard]] double least_of_guard(Offset p) const;
   void least(const CandidateList& candidates, double enough, std::vector<double>& out) const;
+  void worth_beyond(const CandidateList& candidates, std::vector<double>& out) const;
   void append(Metric metric, const DefinedStar<Frame>* defined, Offset p, std::vector<StarPiece<Frame>>& out) const;
   void append_second(Offset p, std::vector<StarPiece<Frame>>& out) const;
 

@@ -13,6 +13,7 @@
 #include "core/io/source_again.h"
 #include "core/io/vtk/vtk_order.h"
 #include "core/mesh/geographic.h"
+#include "core/mesh/thin.h"
 #include "library/mesh_data.h"
 #include "library/translate.h"
 
@@ -31,6 +32,15 @@ static_assert(static_cast<int>(CellKind::Triangle) == static_cast<int>(ElementKi
 namespace {
 
 [[noreturn]] void refuse(const std::string& what) { throw dmoscope::InputError(kNoFile, 0, what); }
+[[noreturn]] void refuse_thin(const std::string& why) { refuse(fmt::format("it cannot be taken for a mesh one cell thick: {}", why)); }
+
+/// Why the mesh cannot be taken for that of its front; empty: it can.
+std::string why_not_thin(const dmoscope::Mesh& mesh, dmoscope::Progress& progress) {
+  dmoscope::Mesh copy;
+  copy.positions = mesh.positions;
+  copy.elements = mesh.elements;
+  return take_front(copy, progress);
+}
 
 std::vector<Vec3> vectors(const double* positions, std::size_t vertices) {
   if (positions == nullptr && vertices > 0) refuse(fmt::format("positions is null, but there are {} vertices", vertices));
@@ -122,8 +132,9 @@ std::shared_ptr<const Mesh::Data> data_of(std::shared_ptr<const InputMesh> input
 
 std::size_t corner_count(CellKind kind) { return info(static_cast<ElementKind>(kind)).corners; }
 
-std::shared_ptr<const InputMesh> Mesh::Data::prepared(dmoscope::Progress& progress, bool mapped) const {
-  if (!moved && !mapped) return input;
+std::shared_ptr<const InputMesh> Mesh::Data::prepared(dmoscope::Progress& progress, bool to_be_judged) const {
+  const bool mapped = to_be_judged && in_degrees, of_front = to_be_judged && thin;
+  if (!moved && !mapped && !of_front) return input;
   dmoscope::Mesh mesh = with_fields(input->mesh, fields);
   if (moved) mesh.positions = *moved;
   if (mapped) map_to_mercator(mesh);
@@ -131,7 +142,14 @@ std::shared_ptr<const InputMesh> Mesh::Data::prepared(dmoscope::Progress& progre
   for (std::size_t e = 0; e < mesh.flipped.size(); ++e)
     if (mesh.flipped[e] != 0) mesh.elements.flip(static_cast<Index>(e));
   mesh.flipped.clear();
+  if (of_front)
+    if (const std::string why = take_front(mesh, progress); !why.empty()) refuse_thin(why);
   return prepare_input(std::move(mesh), input->path, Need::Smoothing, progress);
+}
+
+std::shared_ptr<const InputMesh> Mesh::Data::judge() const {
+  dmoscope::Progress unwatched;
+  return thin ? judged(unwatched) : input;
 }
 
 std::vector<Vec3> Mesh::Data::judged_positions() const {
@@ -175,6 +193,7 @@ Mesh moved_mesh(const Mesh& mesh, std::vector<Vec3> positions, std::vector<dmosc
   data->input = mesh.data()->input;
   data->as_read = mesh.data()->as_read;
   data->in_degrees = mesh.data()->in_degrees;
+  data->thin = mesh.data()->thin;
   data->moved = std::make_shared<const std::vector<Vec3>>(std::move(positions));
   data->fields = std::move(fields);
   return Mesh(std::shared_ptr<const Mesh::Data>(std::move(data)));
@@ -203,6 +222,7 @@ Mesh Mesh::read(const std::string& path, const Progress& progress) {
     auto data = std::make_shared<Data>();
     data->input = load_input(path, Need::Smoothing, {progress.state().progress, nullptr});
     data->in_degrees = looks_geographic(data->input->mesh) == dmoscope::Likeness::Said;
+    data->thin = why_not_thin(data->input->mesh, progress.state().progress).empty();
     return Mesh(std::shared_ptr<const Data>(std::move(data)));
   });
 }
@@ -219,6 +239,24 @@ Mesh Mesh::with_degrees(bool degrees) const {
     data->fields = data_->fields;
     data->as_read = data_->as_read;
     data->in_degrees = degrees;
+    data->thin = data_->thin;
+    return Mesh(std::shared_ptr<const Data>(std::move(data)));
+  });
+}
+
+bool Mesh::thin() const { return data_->thin; }
+
+Mesh Mesh::with_thin(bool thin) const {
+  return translated([&] {
+    dmoscope::Progress unwatched;
+    if (const std::string why = thin ? why_not_thin(data_->input->mesh, unwatched) : std::string(); !why.empty()) refuse_thin(why);
+    auto data = std::make_shared<Data>();
+    data->input = data_->input;
+    data->moved = data_->moved;
+    data->fields = data_->fields;
+    data->as_read = data_->as_read;
+    data->in_degrees = data_->in_degrees;
+    data->thin = thin;
     return Mesh(std::shared_ptr<const Data>(std::move(data)));
   });
 }
@@ -238,6 +276,7 @@ Mesh Mesh::with_materials(const std::vector<std::string>& names) const {
     data->input = dmoscope::with_materials(*data_->input, names);
     data->as_read = data_->as_read;
     data->moved = data_->moved;
+    data->thin = data_->thin;
     return Mesh(std::shared_ptr<const Data>(std::move(data)));
   });
 }
@@ -271,6 +310,7 @@ Mesh Mesh::with_positions(const double* positions, const Progress& progress) con
     data->input = moved.data()->prepared(progress.state().progress);
     data->as_read = data_->as_read;
     data->in_degrees = data_->in_degrees;
+    data->thin = data_->thin && why_not_thin(data->input->mesh, progress.state().progress).empty();
     if (!data->as_read && data_->input->mesh.source) data->as_read = {data_->input, &data_->input->mesh};
     return Mesh(std::shared_ptr<const Data>(std::move(data)));
   });

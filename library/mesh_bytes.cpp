@@ -46,7 +46,7 @@ struct MeshParts {
   std::vector<dmoscope::FieldValues> moved_fields;
   std::vector<Group> groups;
   std::vector<std::array<Index, 2>> periodic;
-  bool single_precision = false, in_degrees = false;
+  bool single_precision = false, in_degrees = false, thin = false;
   std::vector<SourceParts> source;  // one, or none
 };
 
@@ -77,7 +77,7 @@ void pass(Archive& archive, SourceParts& s) {
 template <class Archive>
 void pass(Archive& archive, MeshParts& m) {
   archive(m.name, m.title, m.path, m.positions, m.moved, m.as_read, m.kinds, m.offsets, m.connectivity, m.fields, m.fields_as_read,
-          m.moved_fields, m.groups, m.periodic, m.single_precision, m.in_degrees, m.source);
+          m.moved_fields, m.groups, m.periodic, m.single_precision, m.in_degrees, m.thin, m.source);
 }
 
 template <class T>
@@ -259,6 +259,7 @@ std::string Mesh::to_bytes() const {
                   .periodic = mesh.periodic,
                   .single_precision = mesh.single_precision,
                   .in_degrees = data_->in_degrees,
+                  .thin = data_->thin,
                   .source = {}};
   if (mesh.source) parts.source.push_back(parts_of(*mesh.source));
   Saver saver;
@@ -296,6 +297,7 @@ Mesh Mesh::from_bytes(std::string_view bytes, const Progress& progress) {
     for (const dmoscope::FieldValues& one : parts.moved_fields)
       if (one.field >= parts.fields.size() || one.values.size() != parts.fields[one.field].values.size()) refuse();
     data->in_degrees = parts.in_degrees;
+    data->thin = parts.thin;
     data->fields = std::move(parts.moved_fields);
     mesh.positions = std::move(parts.positions);
     mesh.fields = std::move(parts.fields);

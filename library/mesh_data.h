@@ -22,6 +22,7 @@ struct Mesh::Data {
   std::shared_ptr<const std::vector<dmoscope::Vec3>> moved;  // null: where `input` has them
   std::vector<dmoscope::FieldValues> fields;                 // nodal fields that have other numbers there than `input` has
   bool in_degrees = false;                                   // longitude and latitude: judged on the Earth
+  bool thin = false;                                         // one cell thick: judged as the 2-D mesh of its front (thin.h)
   std::shared_ptr<const dmoscope::Mesh> as_read;  // with the positions of the file that it was read from; null: as `input` has it
 
   [[nodiscard]] std::span<const dmoscope::Vec3> positions() const { return moved ? *moved : input->mesh.positions; }
@@ -31,10 +32,10 @@ struct Mesh::Data {
   [[nodiscard]] std::shared_ptr<const dmoscope::InputMesh> prepared(dmoscope::Progress& progress) const {
     return prepared(progress, false);
   }
-  /// The same as it is judged and smoothed: mapped where it is in degrees (geographic.h).
-  [[nodiscard]] std::shared_ptr<const dmoscope::InputMesh> judged(dmoscope::Progress& progress) const {
-    return prepared(progress, in_degrees);
-  }
+  /// The same as it is judged and smoothed: mapped where it is in degrees (geographic.h), the mesh of its front where it is thin.
+  [[nodiscard]] std::shared_ptr<const dmoscope::InputMesh> judged(dmoscope::Progress& progress) const { return prepared(progress, true); }
+  /// The mesh whose elements judge at judged_positions().
+  [[nodiscard]] std::shared_ptr<const dmoscope::InputMesh> judge() const;
   /// positions() as they are judged.
   [[nodiscard]] std::vector<dmoscope::Vec3> judged_positions() const;
 
@@ -46,7 +47,7 @@ struct Mesh::Data {
   [[nodiscard]] const Arrays& arrays() const;
 
  private:
-  [[nodiscard]] std::shared_ptr<const dmoscope::InputMesh> prepared(dmoscope::Progress& progress, bool mapped) const;
+  [[nodiscard]] std::shared_ptr<const dmoscope::InputMesh> prepared(dmoscope::Progress& progress, bool to_be_judged) const;
 
   mutable std::once_flag arrays_made_;
   mutable Arrays arrays_;

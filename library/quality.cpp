@@ -31,7 +31,7 @@ std::vector<double> quality(const Mesh& mesh, const std::string& metric, unsigne
     const dmoscope::Metric parsed = dmoscope::parse_metric(metric);
     dmoscope::ThreadPool pool(threads);
     std::vector<double> values(mesh.cell_count());
-    dmoscope::element_qualities(mesh.data()->input->quality_context(), mesh.data()->judged_positions(), parsed, &pool, values);
+    dmoscope::element_qualities(mesh.data()->judge()->quality_context(), mesh.data()->judged_positions(), parsed, &pool, values);
     return values;
   });
 }
@@ -39,7 +39,8 @@ std::vector<double> quality(const Mesh& mesh, const std::string& metric, unsigne
 Statistics statistics(const Mesh& mesh, const std::string& metric, unsigned threads) {
   return translated([&] {
     dmoscope::require_thread_count(threads);
-    const dmoscope::InputMesh& input = *mesh.data()->input;
+    const auto judge = mesh.data()->judge();
+    const dmoscope::InputMesh& input = *judge;
     const dmoscope::Metric parsed = dmoscope::parse_metric(metric);
     require_defined(parsed, input);
     dmoscope::ThreadPool pool(threads);

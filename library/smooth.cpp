@@ -10,6 +10,7 @@
 #include "core/run/ending.h"
 #include "core/run/run.h"
 #include "core/transfer/moved_fields.h"
+#include "core/transfer/thin_places.h"
 #include "library/mesh_data.h"
 #include "library/run_options.h"
 #include "library/statistics.h"
@@ -69,7 +70,9 @@ Smoothed smooth(const Mesh& mesh, const SmoothOptions& options) {
     if (const auto crossing = find_crossing_faces(run)) result.warnings.push_back(crossing->sentence());
     std::vector<dmoscope::Vec3> positions = places_in_file(input->mesh, run.positions());
     dmoscope::Progress unwatched;  // what was done until a cancel is kept whole
-    dmoscope::MovedFields fields = move_fields(*mesh.data()->input, request.parameters.fields, positions, pool.get(), unwatched);
+    if (input->mesh.thin) positions = places_with_back(*input, positions, pool.get(), unwatched);
+    dmoscope::MovedFields fields =
+        move_fields(input->mesh.thin ? *input : *mesh.data()->input, request.parameters.fields, positions, pool.get(), unwatched);
     result.fields = fields.sentence();
     result.mesh = moved_mesh(mesh, std::move(positions), std::move(fields.values));
     return result;

@@ -301,6 +301,8 @@ void define_mesh(py::module_& module) {
       .def_property_readonly("is_volume", &dmo::Mesh::is_volume)
       .def_property_readonly("in_degrees", &dmo::Mesh::in_degrees)
       .def("with_degrees", &dmo::Mesh::with_degrees)
+      .def_property_readonly("thin", &dmo::Mesh::thin)
+      .def("with_thin", &dmo::Mesh::with_thin)
       .def_property_readonly("is_surface", &dmo::Mesh::is_surface);
 }
 

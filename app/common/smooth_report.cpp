@@ -129,6 +129,7 @@ Json json_of(const SmoothReport& r) {
   if (p.interfaces == InterfaceRule::Slide) object["held_on_interfaces"] = r.on_interfaces - r.run.domain()->count_inside();
   object["sliding"] = r.run.domain() ? r.run.domain()->count() : 0;
   object["geographic"] = r.run.input().mesh.degrees != nullptr;
+  object["thin"] = r.run.input().mesh.thin != nullptr;
   object["iterations"] = r.outcome.iterations;
   object["stopped"] = reason_name(r.outcome.reason);
   object["last_rise"] = r.outcome.last_rise;

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "app/common/geographic_option.h"
 #include "app/common/judged_run.h"
 #include "app/common/memory_limit.h"
+#include "app/common/reading_options.h"
 #include "app/common/run_options.h"
 
 namespace dmoscope::app {
@@ -23,7 +23,7 @@ struct CompareOptions {
   Goal goal;
   std::uint64_t shuffles = 0;
   MemoryLimit memory;
-  GeographicOption geographic;
+  ReadingOptions reading;
   bool json = false;
 };
 

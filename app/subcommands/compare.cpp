@@ -77,7 +77,7 @@ int compare(const CompareOptions& options, const std::string& command_line) {
   Progress& progress = watch.progress();
   const auto pool = std::make_shared<ThreadPool>(options.run.threads);
   IoContext reading(progress, pool.get(), options.memory.bytes());
-  reading.geographic = options.geographic.choice();
+  options.reading.tell(reading);
   const auto input = load_input_on(options.file, options.surface, Need::Smoothing, reading, options.materials);
   std::vector<std::string> warnings = tell_findings(*input);
   const Kinds kinds = kinds_of(*input, plan.contenders.front().parameters, options.run.kinds, warnings);
@@ -148,7 +148,7 @@ void add_compare(CLI::App& app, Action& action, const std::string& command_line)
   subcommand->add_option("--report", options->report, "Write a page with tables, plots and pictures that needs nothing else")
       ->type_name("FILE.html");
   add_memory_option(*subcommand, options->memory);
-  add_geographic_option(*subcommand, options->geographic);
+  add_reading_options(*subcommand, options->reading);
   subcommand->add_flag("--json", options->json, "Print one JSON object and nothing else on standard output");
   subcommand->callback([options, goal, command_line = &command_line, &action] {
     options->goal = goal_of(*goal);

@@ -7,6 +7,7 @@
 #include "app/common/text.h"
 #include "app/subcommands/group_table.h"
 #include "app/subcommands/input_report.h"
+#include "core/mesh/thin.h"
 #include "core/target/boundary_layers.h"
 
 namespace dmoscope::app {
@@ -19,10 +20,9 @@ std::array<std::size_t, kElementKindCount> count_kinds(const Mesh& mesh) {
   return counts;
 }
 
-Json json_of(const InputMesh& input, const std::filesystem::path& file, const std::vector<std::string>& warnings) {
-  const Mesh& mesh = input.mesh;
+Json json_of(const InputMesh& input, const Mesh& mesh, const std::filesystem::path& file, const std::vector<std::string>& warnings) {
   const auto counts = count_kinds(mesh);
-  const BoundaryLayers layers = find_boundary_layers(mesh, input.geometry);
+  const BoundaryLayers layers = find_boundary_layers(input.mesh, input.geometry);
   Json kinds = Json::object();
   for (std::size_t k = 0; k < kElementKindCount; ++k)
     if (counts[k] > 0) kinds[std::string(kElementKinds[k].plural)] = counts[k];
@@ -34,6 +34,7 @@ Json json_of(const InputMesh& input, const std::filesystem::path& file, const st
           {"groups", json_of_groups(mesh)},
           {"data", json_of_fields(mesh)},
           {"boundary_layers", {{"elements", layers.elements.size()}, {"stacks", layers.stacks}, {"most", layers.most}}},
+          {"thin", input.mesh.thin != nullptr},
           {"held_on_interfaces", input.interfaces.count()},
           {"warnings", warnings}};
 }
@@ -44,10 +45,12 @@ void tell_mesh(const std::filesystem::path& file, bool json) {
   Watch watch;
   IoContext reading(watch.progress());
   reading.geographic = Geographic::Auto;
+  reading.thin = Thin::Auto;
   const auto input = load_input(file, Need::QualityOnly, reading);
-  const Mesh& mesh = input->mesh;
+  const Mesh cells = input->mesh.thin ? with_cells(input->mesh) : Mesh();
+  const Mesh& mesh = input->mesh.thin ? cells : input->mesh;  // as the file has it
   const std::vector<std::string> warnings = tell_findings(*input);
-  if (json) return print_json(json_of(*input, file, warnings));
+  if (json) return print_json(json_of(*input, mesh, file, warnings));
   std::string kinds;
   const auto counts = count_kinds(mesh);
   for (std::size_t k = 0; k < kElementKindCount; ++k) {
@@ -58,7 +61,7 @@ void tell_mesh(const std::filesystem::path& file, bool json) {
   if (!mesh.title.empty()) print("{}\n", mesh.title);
   print_groups(mesh, std::numeric_limits<std::size_t>::max());
   print_fields(mesh);
-  if (const BoundaryLayers layers = find_boundary_layers(mesh, input->geometry); !layers.empty())
+  if (const BoundaryLayers layers = find_boundary_layers(input->mesh, input->geometry); !layers.empty())
     print("\nboundary layers: {} in {}, up to {} high ({})\n", counted(layers.elements.size(), "element", "elements"),
           counted(layers.stacks, "stack", "stacks"), layers.most,
           input->layers.empty()

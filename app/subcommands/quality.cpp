@@ -14,11 +14,11 @@
 #include <fmt/format.h>
 
 #include "app/common/console.h"
-#include "app/common/geographic_option.h"
 #include "app/common/memory_limit.h"
 #include "app/common/option_checks.h"
 #include "app/common/output_checks.h"
 #include "app/common/quality_report.h"
+#include "app/common/reading_options.h"
 #include "app/common/surface_option.h"
 #include "app/common/text.h"
 #include "app/subcommands/group_table.h"
@@ -41,7 +41,7 @@ struct QualityOptions {
   std::string target;  // see parse_target(); empty: ideal elements
   std::size_t worst = 0;
   MemoryLimit memory;
-  GeographicOption geographic;
+  ReadingOptions reading;
   bool json = false;
 };
 
@@ -142,7 +142,7 @@ int quality(const QualityOptions& options) {
 
   Watch watch;
   IoContext reading(watch.progress(), nullptr, options.memory.bytes());
-  reading.geographic = options.geographic.choice();
+  options.reading.tell(reading);
   const auto input = load_input_on(options.input, options.surface, Need::QualityOnly, reading);
   const Mesh& mesh = input->mesh;
   std::vector<std::string> warnings = tell_findings(*input);
@@ -211,7 +211,7 @@ void add_quality(CLI::App& app, Action& action) {
       ->type_name("FILE.csv");
   add_surface_option(*subcommand, options->surface);
   add_memory_option(*subcommand, options->memory);
-  add_geographic_option(*subcommand, options->geographic);
+  add_reading_options(*subcommand, options->reading);
   subcommand->add_flag("--json", options->json, "Print one JSON object and nothing else on standard output");
   subcommand->callback([options, &action] {
     action = [options] { return within_memory(options->memory, options->input, [options] { return quality(*options); }); };

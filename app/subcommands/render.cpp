@@ -13,10 +13,10 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "app/common/geographic_option.h"
 #include "app/common/memory_limit.h"
 #include "app/common/option_checks.h"
 #include "app/common/output_checks.h"
+#include "app/common/reading_options.h"
 #include "app/common/text.h"
 #include "app/subcommands/subcommands.h"
 #include "core/base/error.h"
@@ -38,7 +38,7 @@ constexpr int kLargestSide = 16384;
 struct RenderOptions {
   std::filesystem::path input, output;
   MemoryLimit memory;
-  GeographicOption geographic;
+  ReadingOptions reading;
   std::string metric = "mean-ratio";
   std::string size = "1280x800";
   std::string colormap = "beacon";
@@ -177,7 +177,7 @@ int render(const RenderOptions& options) {
   require_sense(inside);
   Watch watch;
   IoContext reading(watch.progress(), nullptr, options.memory.bytes());
-  reading.geographic = options.geographic.choice();
+  options.reading.tell(reading);
   const int code = render_picture(options.input, options.output, look, inside, reading);
   if (code == 0) print("wrote {} ({} x {} pixels)\n", options.output.string(), width, height);
   return code;
@@ -233,7 +233,7 @@ void add_render(CLI::App& app, Action& action) {
       ->type_name("X,Y[,Z]");
   subcommand->add_flag("--transparent", options->transparent, "Leave the background transparent");
   add_memory_option(*subcommand, options->memory);
-  add_geographic_option(*subcommand, options->geographic);
+  add_reading_options(*subcommand, options->reading);
   add_inside(*subcommand, *options);
   subcommand->callback([options, &action] {
     action = [options] { return within_memory(options->memory, options->input, [options] { return render(*options); }); };

@@ -11,12 +11,12 @@
 
 #include "app/common/acceleration.h"
 #include "app/common/console.h"
-#include "app/common/geographic_option.h"
 #include "app/common/goal_options.h"
 #include "app/common/hints.h"
 #include "app/common/memory_limit.h"
 #include "app/common/output_checks.h"
 #include "app/common/provenance.h"
+#include "app/common/reading_options.h"
 #include "app/common/run_options.h"
 #include "app/common/smooth_report.h"
 #include "app/common/surface_option.h"
@@ -36,6 +36,7 @@
 #include "core/run/retry_on_cpu.h"
 #include "core/session/session.h"
 #include "core/transfer/moved_fields.h"
+#include "core/transfer/thin_places.h"
 
 namespace dmoscope::app {
 namespace {
@@ -48,7 +49,7 @@ struct SmoothOptions {
   std::string write = "best";
   CheckpointOptions checkpoints;
   MemoryLimit memory;
-  GeographicOption geographic;
+  ReadingOptions reading;
   bool json = false;
   bool provenance = false;
   bool strict = false;
@@ -70,13 +71,12 @@ void refuse_early(const SmoothOptions& options) {
 }
 
 /// The mesh and the statistics: none takes its place before both are on the disk. Returns what the mesh's format could not carry.
-std::vector<std::string> write_results(const SmoothOptions& options, const Run& run, const MovedFields& fields,
-                                       const std::optional<Provenance>& provenance, const IoContext& context) {
+std::vector<std::string> write_results(const SmoothOptions& options, const Run& run, std::span<const Vec3> places,
+                                       const MovedFields& fields, const std::optional<Provenance>& provenance, const IoContext& context) {
   AtomicFiles others;
   if (!options.stats.empty()) others.add(options.stats, stats_of(run));
   const std::string comment = options.provenance ? comment_of(*provenance) : std::string();
-  std::vector<std::string> sentences =
-      write_commented_mesh(options.output, run.input().mesh, {run.positions(), fields.values}, context, comment);
+  std::vector<std::string> sentences = write_commented_mesh(options.output, run.input().mesh, {places, fields.values}, context, comment);
   others.commit();
   return sentences;
 }
@@ -124,7 +124,7 @@ int smooth(const SmoothOptions& options) {
   });
   const auto pool = session.pool();
   IoContext reading(progress, pool.get(), options.memory.bytes());
-  reading.geographic = options.geographic.choice();
+  options.reading.tell(reading);
   const auto input = load_input_on(options.input, options.surface, Need::Smoothing, reading, options.materials);
   std::vector<std::string> warnings = tell_findings(*input);
   parameters.fixed = vertices_to_fix(input->mesh, options.run.fix);
@@ -166,7 +166,8 @@ int smooth(const SmoothOptions& options) {
   if (options.json || options.provenance) provenance = provenance_of(input->mesh, options.command_line);
   progress.begin("taking fields anew");
   MovedFields fields = move_fields(*input, run.parameters().fields, run.positions(), pool.get(), progress);
-  for (std::string& sentence : write_results(options, run, fields, provenance, {progress, pool.get()})) {
+  const std::vector<Vec3> places = places_with_back(*input, run.positions(), pool.get(), progress);
+  for (std::string& sentence : write_results(options, run, places, fields, provenance, {progress, pool.get()})) {
     complain(fmt::format("{}: {}", options.output.string(), sentence));
     warnings.push_back(std::move(sentence));
   }
@@ -221,7 +222,7 @@ void add_smooth(CLI::App& app, Action& action, const std::string& command_line) 
   subcommand->add_option("--stats", options->stats, "Write the statistics of every iteration; row 0 is the input")->type_name("FILE.csv");
   add_checkpoint_options(*subcommand, options->checkpoints);
   add_memory_option(*subcommand, options->memory);
-  add_geographic_option(*subcommand, options->geographic);
+  add_reading_options(*subcommand, options->reading);
   subcommand->add_flag(
       "--provenance", options->provenance,
       "Say in a comment of the mesh written what made it: the input's hash, version, options; where the format has comments");

@@ -13,6 +13,7 @@
 #include "core/session/original_copy.h"
 #include "core/session/state_file.h"
 #include "core/transfer/moved_fields.h"
+#include "core/transfer/thin_places.h"
 
 namespace dmoscope {
 
@@ -71,7 +72,8 @@ void write_active(CommandContext& context, const std::string& file, const std::s
   const Run& run = context.session.active();
   const MovedFields fields =
       move_fields(run.input(), run.parameters().fields, run.positions(), context.session.pool().get(), context.progress);
-  std::vector<std::string> notes = write_mesh(file, run.input().mesh, {run.positions(), fields.values}, context.progress);
+  const std::vector<Vec3> places = places_with_back(run.input(), run.positions(), context.session.pool().get(), context.progress);
+  std::vector<std::string> notes = write_mesh(file, run.input().mesh, {places, fields.values}, context.progress);
   context.session.note_exported(file);
   tell(context, said);
   if (const std::string sentence = fields.sentence(); !sentence.empty()) tell(context, fmt::format("fields: {}", sentence));

@@ -17,6 +17,7 @@
 #include "core/mesh/edges.h"
 #include "core/mesh/orientation.h"
 #include "core/mesh/seam.h"
+#include "core/mesh/thin.h"
 #include "core/mesh/volume.h"
 
 namespace dmoscope {
@@ -27,7 +28,7 @@ bool is_planar(const Mesh& mesh, Index e) { return info(mesh.elements.kind(e)).d
 MeshReport examine(const Mesh& mesh, const Geometry& geometry, const Topology& topology, const EdgeSurvey& edges, Progress& progress) {
   MeshReport report;
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
-    if (topology.star(v).empty()) report.unused_vertices.push_back(v);
+    if (topology.star(v).empty() && on_front(mesh, v) == v) report.unused_vertices.push_back(v);
   }
   report.duplicate_elements = edges.duplicates;
   find_bad_elements(mesh, geometry, report, progress);

@@ -13,6 +13,7 @@
 #include "core/mesh/generate.h"
 #include "core/mesh/geographic.h"
 #include "core/mesh/materials.h"
+#include "core/mesh/thin.h"
 
 namespace dmoscope {
 namespace {
@@ -34,6 +35,17 @@ std::vector<std::string> take_degrees(Mesh& mesh, const std::filesystem::path& p
       "its coordinates are degrees of longitude and latitude, and it is judged on the Earth (--geographic off takes them as they stand)"};
 }
 
+/// Takes a mesh one cell thick for that of its front; returns what a person should know of it.
+std::vector<std::string> take_thin(Mesh& mesh, const std::filesystem::path& path, const IoContext& context) {
+  if (context.thin == Thin::Off) return {};
+  if (const std::string why = take_front(mesh, context.progress); !why.empty()) {
+    if (context.thin == Thin::Auto) return {};
+    throw InputError(path.string(), 0, fmt::format("it cannot be taken for a mesh one cell thick (--thin on): {}", why));
+  }
+  return {
+      "it is one cell thick, and judged and smoothed as the 2-D mesh of its front, which the back follows (--thin off takes its cells)"};
+}
+
 }  // namespace
 
 std::shared_ptr<const InputMesh> load_input(const std::filesystem::path& path, Need need, const IoContext& context,
@@ -42,6 +54,7 @@ std::shared_ptr<const InputMesh> load_input(const std::filesystem::path& path, N
     Mesh mesh = read_mesh(path, context);
     name_materials(mesh, materials);
     std::vector<std::string> notes = take_degrees(mesh, path, context.geographic);
+    for (std::string& note : take_thin(mesh, path, context)) notes.push_back(std::move(note));
     return prepare(std::move(mesh), path, need, context.progress, {}, std::move(notes));
   } catch (const std::bad_alloc&) {
     throw InputError(path.string(), 0, "not enough memory for this mesh");

@@ -212,6 +212,7 @@ std::vector<std::string> write_commented_mesh(const std::filesystem::path& path,
     in_degrees.degrees = nullptr;
     return write_commented_mesh(path, in_degrees, {places_in_file(mesh, moved.positions), moved.fields}, context, comment);
   }
+  if (mesh.thin) return write_commented_mesh(path, with_cells(mesh), moved, context, comment);
   Progress& progress = context.progress;
   progress.begin("writing " + path.filename().string());
   const std::string extension = mesh_extension(path);

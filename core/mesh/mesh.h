@@ -16,6 +16,7 @@
 
 namespace dmoscope {
 
+struct ThinMesh;   // thin.h: the cells of a mesh of front faces
 class SourceFile;  // core/io/reading/source_file.h: the bytes a mesh was read from, with the place of every coordinate
 
 enum class ElementKind : std::uint8_t { Triangle, Quadrilateral, Tetrahedron, Hexahedron, Wedge, Pyramid };
@@ -155,6 +156,8 @@ struct Mesh {
   bool single_precision = false;
   /// Where the file has the vertices, in longitude and latitude, of a mesh that was mapped (geographic.h); null: where they are.
   std::shared_ptr<const std::vector<Vec3>> degrees{};
+  /// The cells of a mesh that was taken for that of its front (thin.h); null: the elements are the file's own.
+  std::shared_ptr<const ThinMesh> thin{};
   /// What the file was; writing the same format patches only the coordinates that changed. May be null.
   std::shared_ptr<const SourceFile> source;
 

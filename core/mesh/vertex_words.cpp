@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/base/number_in.h"
 #include "core/mesh/group_facts.h"
+#include "core/mesh/thin.h"
 
 namespace dmoscope {
 namespace {
@@ -259,6 +260,7 @@ std::vector<Index> vertices_named(const Mesh& mesh, std::span<const std::string>
     const auto some = vertices_named(mesh, word);
     all.insert(all.end(), some.begin(), some.end());
   }
+  for (Index& v : all) v = on_front(mesh, v);
   std::ranges::sort(all);
   all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;

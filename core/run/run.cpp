@@ -7,6 +7,7 @@
 #include "core/base/memory.h"
 #include "core/base/stopwatch.h"
 #include "core/input/mesh_share.h"
+#include "core/mesh/thin.h"
 #include "core/quality/metric_phrase.h"
 #include "core/reference/domain.h"
 #include "core/run/run_task.h"
@@ -22,7 +23,7 @@ std::vector<std::uint8_t> fixed_vertices(const InputMesh& input, const RunParame
   std::vector<std::uint8_t> fixed = standing_vertices(input, parameters.standing(), domain);
   for (const Index v : parameters.fixed) {
     if (v >= fixed.size()) throw UsageError(fmt::format("fixed vertex {} does not exist: the mesh has {} vertices", v, fixed.size()));
-    fixed[v] = 1;
+    fixed[on_front(input.mesh, v)] = 1;
   }
   if (input.share) input.share->agree(fixed);
   return fixed;

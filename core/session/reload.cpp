@@ -30,6 +30,7 @@ std::string Session::reload(Progress& progress) {
   if (stale->path.empty()) throw UsageError("this mesh was made here: there is no file to read again");
   IoContext as_before = reading(progress);
   as_before.geographic = stale->mesh.degrees ? Geographic::On : Geographic::Off;
+  as_before.thin = stale->mesh.thin ? Thin::Auto : Thin::Off;
   auto fresh = load_input(stale->path, Need::Smoothing, as_before, said_materials(stale->mesh));
   if (stale->surface) fresh = slide_on(*fresh, stale->surface);
   return exchange(stale, fresh);

@@ -59,6 +59,7 @@ std::shared_ptr<const InputMesh> to_input(const Json& json, const std::filesyste
     source = path.string();
     IoContext as_saved = context;  // an older file says nothing: it was taken as it stands
     as_saved.geographic = json.value("geographic", false) ? Geographic::On : Geographic::Off;
+    as_saved.thin = json.value("thin", false) ? Thin::On : Thin::Off;
     input = load_input(path, Need::Smoothing, as_saved);
   }
   if (json.contains("single") && json.at("single") != input->mesh.single_precision)
@@ -114,6 +115,7 @@ StateJson input_json(const MeshStanding& mesh) {  // NOLINT(misc-no-recursion): 
   Json source{{"vertices", input.mesh.vertex_count()}, {"elements", input.mesh.elements.size()}, {"checksum", checksum(input.mesh)}};
   source["single"] = input.mesh.single_precision;
   if (input.mesh.degrees) source["geographic"] = true;
+  if (input.mesh.thin) source["thin"] = true;
   // To be able to say what it was where other vertices keep their place one day.
   for (const DataMark& mark : data_marks(input.mesh)) source["data"].push_back({mark.first, mark.second});
   if (!input.generator.empty()) {

@@ -70,10 +70,13 @@ class Session {
   void set_most_memory(std::uint64_t bytes) noexcept { most_memory_ = bytes; }
   /// Whether coordinates of meshes that are opened from now on are taken for degrees.
   void set_geographic(Geographic choice) noexcept { geographic_ = choice; }
+  /// Whether meshes one cell thick that are opened from now on are taken for those of their front.
+  void set_thin(Thin choice) noexcept { thin_ = choice; }
   /// How files are read for this session.
   [[nodiscard]] IoContext reading(Progress& progress) const {
     IoContext context(progress, nullptr, most_memory_);
     context.geographic = geographic_;
+    context.thin = thin_;
     return context;
   }
   [[nodiscard]] bool has_input() const noexcept { return input_ != nullptr; }
@@ -157,6 +160,7 @@ class Session {
   std::vector<std::pair<std::weak_ptr<const InputMesh>, std::filesystem::path>> originals_;  // see source_path()
   std::uint64_t most_memory_ = 0;
   Geographic geographic_ = Geographic::Auto;
+  Thin thin_ = Thin::Auto;
   std::uint64_t last_id_ = 0;  // of all runs there were
   UndoStack undo_;
   Holds holds_;

@@ -10,6 +10,7 @@
 #include "core/base/same_bits.h"
 #include "core/io/reading/binary_scalar.h"
 #include "core/mesh/geographic.h"
+#include "core/mesh/thin.h"
 #include "core/numeric/small_matrix.h"
 #include "core/target/target_table.h"
 #include "core/transfer/mesh_place.h"
@@ -103,6 +104,14 @@ class PlacedField {
   std::optional<int> tensors_;
 };
 
+/// The place of the back behind one of the front; none where the mesh has no back.
+template <std::size_t N>
+std::optional<MeshPlace<N>> place_behind(const Mesh& mesh, MeshPlace<N> place) {
+  if (!mesh.thin) return std::nullopt;
+  for (Index& corner : place.corners) corner = mesh.thin->back[corner];
+  return place;
+}
+
 template <std::size_t N>
 void take_all(std::span<PlacedField> fields, const InputMesh& input, std::span<const Vec3> positions, ThreadPool* pool,
               Progress& progress) {
@@ -116,6 +125,8 @@ void take_all(std::span<PlacedField> fields, const InputMesh& input, std::span<c
       const auto vertex = static_cast<Index>(v);
       const MeshPlace<N> place = search.at(vertex, place_in_file(mesh, vertex, positions[v]));
       for (PlacedField& field : fields) field.take(vertex, place);
+      if (const std::optional<MeshPlace<N>> behind = place_behind(mesh, place); behind && mesh.thin->back[v] != kNoIndex)
+        for (PlacedField& field : fields) field.take(mesh.thin->back[v], *behind);
     }
   });
 }

@@ -23,8 +23,9 @@ struct MovedFields {
 
 /// What the input has at the vertices' new places: linear in the triangle or tetrahedron that holds it, on a curved surface in the nearest
 /// one; outside of the mesh what it has at the nearest place. Metric tensors are interpolated by their logarithms, and stay positive
-/// definite. A vertex that has not moved keeps every bit; one without a value (not a number) gets none, and one keeps its own where a
-/// corner has none. Throws UsageError for rules of fields that are not there, Cancelled.
+/// definite. What the back of a mesh one cell thick (thin.h) has is taken from the back. A vertex that has not moved keeps every bit; one
+/// without a value (not a number) gets none, and one keeps its own where a corner has none. Throws UsageError for rules of fields that are
+/// not there, Cancelled.
 [[nodiscard]] MovedFields move_fields(const InputMesh& input, const FieldRules& rules, std::span<const Vec3> positions, ThreadPool* pool,
                                       Progress& progress);
 

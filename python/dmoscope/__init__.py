@@ -164,6 +164,15 @@ class Mesh:
         return Mesh._of(self._mesh.with_degrees(bool(degrees)))
 
     @property
+    def thin(self) -> bool:
+        """Is it a mesh of hexahedra and wedges one cell thick, judged and smoothed as the 2-D mesh of its front? with_thin() says so, or not."""
+        return self._mesh.thin
+
+    def with_thin(self, thin: bool = True) -> "Mesh":
+        """The mesh taken for the 2-D mesh of its front, which the back follows, or with its cells counting. Raises InputError for what is not one cell thick."""
+        return Mesh._of(self._mesh.with_thin(bool(thin)))
+
+    @property
     def is_volume(self) -> bool:
         return self._mesh.is_volume
 

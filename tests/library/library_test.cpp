@@ -355,6 +355,45 @@ TEST(Library, DegreesAreJudgedOnTheEarth) {
   EXPECT_TRUE(dmo::Mesh::from_bytes(smoothed.mesh.to_bytes()).in_degrees());
 }
 
+/// Four squares, one cell thick, whose middle is out of place.
+TEST(Library, OneCellThickIsSmoothedAsItsFront) {
+  const std::string file = (std::filesystem::temp_directory_path() / "dmoscope_library_thin.vtk").string();
+  {
+    std::ofstream stream(file);
+    stream << "# vtk DataFile Version 3.0\nthin\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 18 double\n";
+    for (int v = 0; v < 18; ++v) stream << (v % 9 == 4 ? 1.3 : v % 3) << ' ' << v % 9 / 3 << ' ' << (v < 9 ? 0.0 : 0.125) << '\n';
+    stream << "CELLS 4 36\n";
+    for (const int a : {0, 1, 3, 4}) {
+      stream << 8;
+      for (const int side : {0, 9})
+        for (const int v : {a, a + 1, a + 4, a + 3}) stream << ' ' << v + side;
+      stream << '\n';
+    }
+    stream << "CELL_TYPES 4\n12\n12\n12\n12\n";
+  }
+  const dmo::Mesh mesh = dmo::Mesh::read(file);
+  std::filesystem::remove(file);
+  EXPECT_TRUE(mesh.thin());
+  EXPECT_TRUE(mesh.is_volume());
+  const dmo::Smoothed smoothed = dmo::smooth(mesh);
+  const double* const at = smoothed.mesh.positions();
+  for (const int v : {4, 13}) {
+    EXPECT_NEAR(at[3 * v], 1.0, 0.01);
+    EXPECT_NEAR(at[3 * v + 1], 1.0, 0.01);
+  }
+  EXPECT_EQ(at[3 * 13], at[3 * 4]);
+  EXPECT_EQ(at[3 * 13 + 2], 0.125);
+  EXPECT_NEAR(dmo::statistics(smoothed.mesh).minimum, 1.0, 1e-3);
+  EXPECT_EQ(dmo::quality(smoothed.mesh).size(), 4U);
+  EXPECT_LT(dmo::statistics(smoothed.mesh.with_thin(false)).minimum, 0.5) << "eight times as wide as thick";
+  EXPECT_EQ(dmo::smooth(mesh.with_thin(false)).mesh.positions()[3 * 4], 1.3) << "all of its vertices are on the boundary";
+  EXPECT_TRUE(dmo::Mesh::from_bytes(smoothed.mesh.to_bytes()).thin());
+  EXPECT_THROW((void)sheet(3).mesh().with_thin(true), dmo::InputError);
+  std::vector<double> apart(at, at + 54);
+  apart[3 * 13] += 0.5;
+  EXPECT_FALSE(smoothed.mesh.with_positions(apart.data()).thin());
+}
+
 TEST(Library, WrongArraysAreRefusedByName) {
   const auto refused = [](const Arrays& arrays, const char* told) {
     try {

@@ -6,6 +6,7 @@
 #include "core/base/progress.h"
 #include "core/base/thread_pool.h"
 #include "core/mesh/geographic.h"
+#include "core/mesh/thin.h"
 
 namespace dmoscope {
 
@@ -17,6 +18,7 @@ struct IoContext {
   ThreadPool* pool;                         // null: the calling thread alone
   std::uint64_t most_memory;                // bytes that a file may unpack to; 0: see UnpackBudget
   Geographic geographic = Geographic::Off;  // whether coordinates are taken for degrees, by load_input()
+  Thin thin = Thin::Off;                    // whether a mesh one cell thick is taken for that of its front, by load_input()
   std::size_t pieces = 0;                   // into which a format that has several files cuts a mesh; 0: as it likes
 };
 

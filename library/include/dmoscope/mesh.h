@@ -91,6 +91,11 @@ class DMO_API Mesh {
   /// degrees.
   [[nodiscard]] bool in_degrees() const;
   [[nodiscard]] Mesh with_degrees(bool degrees) const;
+  /// Is this a mesh of hexahedra and wedges one cell thick, which is judged and smoothed as the 2-D mesh of its front? read() finds it out;
+  /// with_thin() says it, or that its cells count. Its positions and cells stay those of the file: the back follows the front. Throws
+  /// InputError for what is not one cell thick.
+  [[nodiscard]] bool thin() const;
+  [[nodiscard]] Mesh with_thin(bool thin) const;
   /// The same mesh with its vertices elsewhere: vertex_count() x 3, copied. Throws InputError as the constructor does.
   [[nodiscard]] Mesh with_positions(const double* positions, const Progress& progress = {}) const;
   /// The same mesh, in which the cell data of these names, one number a cell each, name materials whatever they are called; no names: those

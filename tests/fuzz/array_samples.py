@@ -161,6 +161,49 @@ def structured():
     f.close()
 
 
+def periodic(parent, translation):
+    all = node(node(parent, "Property", "GridConnectivityProperty_t"), "Periodic", "Periodic_t")
+    for name, values in [("RotationCenter", [0, 0]), ("RotationAngle", [0, 0]), ("Translation", translation)]:
+        node(all, name, "DataArray_t", "R4", numpy.array(values, dtype="f4"))
+
+
+def periodic_blocks():
+    """A zone of 2 x 1 squares and one of 1 x 1 whose second index runs downwards, a period of 3 from west to east, told from both sides."""
+    f, base = cgns("periodic.cgns", [2, 2])
+    west, east = [[1, 1], [1, 2]], [[2, 2], [2, 1]]
+    for name, other, size, shift, own, donor, period in [("Left", "Base/Right", 3, 0.0, west, east, 3), ("Right", "Left", 2, 2.0, east, west, -3)]:
+        zone = node(base, name, "Zone_t", "I4", numpy.array([[size, 2], [size - 1, 1], [0, 0]], dtype="i4"))
+        node(zone, "ZoneType", "ZoneType_t", "C1", "Structured")
+        y, x = numpy.mgrid[0:2, 0:size]
+        coordinates(zone, [x + shift, y * 1.0 if name == "Left" else 1.0 - y], "f8")
+        link = node(node(zone, "ZoneGridConnectivity", "ZoneGridConnectivity_t"), "around", "GridConnectivity1to1_t", "C1", other)
+        node(link, "PointRange", "IndexRange_t", "I4", numpy.array(own, dtype="i4"))
+        node(link, "PointRangeDonor", "IndexRange_t", "I4", numpy.array(donor, dtype="i4"))
+        node(link, "Transform", '"int[IndexDimension]"', "I4", numpy.array([1, -2], dtype="i4"))
+        periodic(link, [period, 0])
+    f.close()
+
+
+def periodic_lists():
+    """Two squares in an unstructured zone, whose east end is its west end; and lists of faces and of points that overlap, which say nothing."""
+    f, base = cgns("periodic_lists.cgns", [2, 2])
+    zone = node(base, "Zone", "Zone_t", "I4", numpy.array([[6], [2], [0]], dtype="i4"))
+    node(zone, "ZoneType", "ZoneType_t", "C1", "Unstructured")
+    y, x = numpy.mgrid[0:2, 0:3]
+    coordinates(zone, [x.ravel() * 1.0, y.ravel() * 1.0], "f8")
+    section(zone, "Squares", 7, 1, 2, [1, 2, 5, 4, 2, 3, 6, 5])
+    all = node(zone, "ZoneGridConnectivity", "ZoneGridConnectivity_t")
+    for name, kind, location, own, donor in [("around", "Abutting1to1", "Vertex", [1, 4], [3, 6]),
+                                             ("faces", "Abutting1to1", "FaceCenter", [1], [2]), ("over", "Overset", "Vertex", [2], [5])]:
+        link = node(all, name, "GridConnectivity_t", "C1", "Zone")
+        node(link, "GridConnectivityType", "GridConnectivityType_t", "C1", kind)
+        node(link, "GridLocation", "GridLocation_t", "C1", location)
+        node(link, "PointList", "IndexArray_t", "I4", numpy.array([own], dtype="i4"))
+        node(link, "PointListDonor", "IndexArray_t", "I4", numpy.array([donor], dtype="i4"))
+        periodic(link, [2, 0])
+    f.close()
+
+
 def linked():
     f, base = cgns("linked.cgns", [3, 3])
     base["Zone"] = h5py.ExternalLink("solids.cgns", "/Base/Zone")
@@ -187,9 +230,11 @@ exodus("plane4.e", "NETCDF4", [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1.5, 0)], [(
        [(4, "top", [1, 1], [1, 3])], zlib=True)
 unstructured()
 structured()
+periodic_blocks()
+periodic_lists()
 linked()
 numbers_of_xdmf()
-for name in ("solids.cgns", "zones.cgns"):
+for name in ("solids.cgns", "zones.cgns", "periodic.cgns", "periodic_lists.cgns"):
     words = subprocess.run(["cgnscheck", path(name)], capture_output=True, text=True).stdout
     problems = [line for line in words.splitlines() if re.match(r"(ERROR|error|FATAL)", line.strip())]
     print(name, "cgnscheck:", problems or "no errors", file=sys.stderr)
@@ -229,6 +274,8 @@ for name, file, what in [
         ("exodus_netcdf4", "plane4.e", "netCDF-4, packed: a shell"),
         ("cgns_solids", "solids.cgns", "the same solids as exodus_solids, in an unstructured zone"),
         ("cgns_zones", "zones.cgns", "two structured zones of the plane that share an edge: floats, and packed doubles"),
+        ("cgns_periodic", "periodic.cgns", "two structured zones of the plane that share an edge, and the ends of which are one"),
+        ("cgns_periodic_lists", "periodic_lists.cgns", "an unstructured zone of the plane whose ends are one, by a list of points"),
         ("cgns_linked", "linked.cgns", "a zone that is a link into another file"),
         ("xdmf_numbers", "numbers.h5", "HDF5: what XDMF files refer to")]:
     text = base64.b64encode(open(path(file), "rb").read()).decode()

@@ -456,6 +456,8 @@ inline std::vector<Sample> samples() {
     all.push_back({"netcdf4", "exodus", exodus_netcdf4()});
     all.push_back({"solids", "cgns", cgns_solids()});
     all.push_back({"zones", "cgns", cgns_zones()});
+    all.push_back({"periodic", "cgns", cgns_periodic()});
+    all.push_back({"periodic_lists", "cgns", cgns_periodic_lists()});
   }
   if (format_by_extension(".vtu") != nullptr) {  // not in every build
     all.push_back({"structured", "vtu", vts_ascii()});

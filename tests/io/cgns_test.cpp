@@ -65,6 +65,20 @@ TEST(Cgns, StructuredZonesAreJoinedWhereTheyTouch) {
   EXPECT_THAT(mesh.source->notes(), Contains(HasSubstr("2 zones were read as one mesh; 2 points")));
 }
 
+TEST(Cgns, PointsThatAConnectionSaysAreOneArePaired) {
+  const Mesh blocks = read_bytes("a.cgns", testing::cgns_periodic());
+  expect_consistent(blocks);
+  ASSERT_EQ(blocks.positions.size(), 8U);
+  ASSERT_EQ(blocks.periodic.size(), 2U) << "both zones tell them";
+  for (const auto& [one, other] : blocks.periodic) {
+    EXPECT_EQ(blocks.positions[one].x, 0.0);
+    EXPECT_EQ(blocks.positions[other], blocks.positions[one] + (Vec3{3, 0, 0}));
+  }
+  EXPECT_THAT(blocks.periodic[0], ElementsAre(0, 7)) << "the second index of the right zone runs downwards";
+  EXPECT_THAT(read_bytes("a.cgns", testing::cgns_periodic_lists()).periodic, ElementsAre(ElementsAre(0, 2), ElementsAre(3, 5)));
+  EXPECT_THAT(read_bytes("a.cgns", testing::cgns_zones()).periodic, ElementsAre());
+}
+
 TEST(Cgns, WrittenAgainItHoldsTheSameWithOtherPositions) {
   for (const std::string& bytes : {testing::cgns_solids(), testing::cgns_zones()}) {
     const Mesh mesh = read_bytes("a.cgns", bytes);
@@ -106,6 +120,16 @@ std::string whole_numbers(std::initializer_list<std::int32_t> numbers) {
   std::string bytes;
   for (const std::int32_t number : numbers) bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
   return bytes;
+}
+
+TEST(Cgns, ConnectionsThatCannotBeAreRefused) {
+  const std::string blocks = testing::cgns_periodic(), lists = testing::cgns_periodic_lists();
+  expect_refused("a.cgns", with_bytes(blocks, whole_numbers({1, 1, 1, 2}), whole_numbers({1, 1, 1, 3})), 0,
+                 "\"/Base/Left/ZoneGridConnectivity/around\": PointRange leaves the zone \"Left\"");
+  expect_refused("a.cgns", with_bytes(blocks, whole_numbers({2, 2, 2, 1}), whole_numbers({2, 1, 2, 1})), 0, "it leaves the zone \"Right\"");
+  expect_refused("a.cgns", with_bytes(blocks, whole_numbers({1, -2}), whole_numbers({1, -1})), 0, "its Transform is none");
+  expect_refused("a.cgns", with_bytes(blocks, "Base/Right", "Base/Wrong"), 0, "the zone \"Base/Wrong\", which is not there");
+  expect_refused("a.cgns", with_bytes(lists, whole_numbers({1, 4}), whole_numbers({1, 7})), 0, "it leaves the zone \"Zone\"");
 }
 
 TEST(Cgns, Refused) {

@@ -4,6 +4,7 @@
 // Read through HDF5's library alone: a CGNS file is a tree of HDF5 groups, each with a label that says what it is, and with its numbers in
 // an array " data".
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -94,6 +95,10 @@ struct CgnsCells {
 };
 /// Throws InputError, Cancelled.
 [[nodiscard]] CgnsCells read_cgns_cells(const CgnsTree& tree, const CgnsPoints& points, SourceFile& source, Progress& progress);
+
+/// Vertices that connections of zones say are one, point by point, and that are not the same already: each pair once, the lower number
+/// first. Throws InputError.
+[[nodiscard]] std::vector<std::array<Index, 2>> read_cgns_pairs(const CgnsTree& tree, const CgnsPoints& points);
 
 /// See FormatHandler.
 [[nodiscard]] Mesh read_cgns(SourceFile& source, const IoContext& context);

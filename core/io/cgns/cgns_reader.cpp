@@ -61,6 +61,7 @@ class CgnsReader {
     element_of_cells(cells);
     for (std::size_t z = 0; z < points.zones.size(); ++z) solutions(points, z);
     for (Field& field : fields_) mesh_.fields.push_back(std::move(field));
+    mesh_.periodic = read_cgns_pairs(tree_, points);
     say(points);
     return std::move(mesh_);
   }

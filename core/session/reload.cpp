@@ -38,7 +38,9 @@ std::string Session::reload(Progress& progress) {
 
 std::string Session::slide_on_surface(const std::filesystem::path& path, Progress& progress) {
   const std::shared_ptr<const InputMesh> stale = input();
-  const auto surface = path.empty() ? nullptr : load_input(path, Need::QualityOnly, reading(progress));
+  IoContext of_all = reading(progress);
+  of_all.thin = Thin::Off;  // the boundary of all of its cells counts
+  const auto surface = path.empty() ? nullptr : load_input(path, Need::QualityOnly, of_all);
   std::string note = replace_in_runs(stale, slide_on(*stale, surface));
   if (surface) note_read(surface->path);
   return note;

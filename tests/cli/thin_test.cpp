@@ -367,6 +367,14 @@ TEST(ThinOnTheCommandLine, SessionsComeBackAsTheyWere) {
   EXPECT_EQ(read_file(folder / "d.vtk"), read_file(solid));
 }
 
+TEST(ThinOnTheCommandLine, OnAnotherSurfaceItsCellsCount) {
+  const Folder folder;
+  const std::string solid = folder.file("solid.vtk", solid_vtk(mixed_sheet(), as_it_is, behind_by(0.1)));
+  const auto json = smooth(solid, folder / "out.vtk", {"--surface", solid, "--boundary", "slide", "--hints", "off"});
+  EXPECT_EQ(json["thin"], false);
+  EXPECT_EQ(run({"script", folder.file("one.txt", "thin off\nopen " + solid + "\nthin auto\nsurface " + solid + "\n")}).code, 0);
+}
+
 TEST(ThinOnTheCommandLine, PicturesAreOfTheFront) {
   const Folder folder;
   const std::string solid = folder.file("solid.vtk", solid_vtk(mixed_sheet(), as_it_is, behind_by(0.1)));

@@ -65,6 +65,7 @@ JudgedRun run_judged(std::string name, std::shared_ptr<const InputMesh> input, R
   done.parameters = run.parameters();
   done.backend_reason = run.backend_reason();
   done.free = run.visits_per_iteration();
+  done.card = report_card(run, pool);
   done.row = row_of(run, judge, pool);
   done.row.title = done.name;
   count_all(done.row, run);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/common/hints.h"
+#include "core/run/report_card.h"
 #include "core/run/run.h"
 #include "core/view/run_table.h"
 
@@ -28,6 +29,7 @@ struct JudgedRun {
   Statistics after;            // by the judge, where the run stands: until converged, at its best iteration (see Run::end_at_best)
   Outcome outcome;
   std::string held;  // of a run that moved vertices jointly, with hints: what holds its minimum, without a point; else empty
+  ReportCard card;
   std::vector<IterationRecord> records;  // their statistics are the judge's; the first is the input
   std::vector<double> qualities;         // of all elements by the judge, ascending
   std::vector<Vec3> positions;

@@ -69,7 +69,9 @@ Json json_of(const HeldMinimum& held) {
   return object;
 }
 
-Json json_of(const ReportCard& card) {
+}  // namespace
+
+Json card_json(const ReportCard& card) {
   Json figures = Json::array();
   for (const CardFigure& figure : card.figures)
     figures.push_back({{"of", figure.of.empty() ? Json(nullptr) : Json(figure.of)},
@@ -80,6 +82,8 @@ Json json_of(const ReportCard& card) {
                        {"kept_by", figure.kept_by.empty() ? Json(nullptr) : Json(figure.kept_by)}});
   return {{"verdict", name(card.verdict)}, {"sentence", card.sentence(true)}, {"figures", std::move(figures)}};
 }
+
+namespace {
 
 bool on_cpu(const Run& run) { return run.backend() == Backend::Cpu; }
 
@@ -143,7 +147,7 @@ Json json_of(const SmoothReport& r) {
                                {"elements", json_of_inverted(r.left->all)}};
   object["crossing_faces"] = nullptr;
   if (r.crossing) object["crossing_faces"] = {{"before", r.crossing->before}, {"after", r.crossing->after}};
-  object["report_card"] = r.card ? json_of(*r.card) : Json(nullptr);
+  object["report_card"] = r.card ? card_json(*r.card) : Json(nullptr);
   object["held_by"] = r.held ? json_of(*r.held) : Json(nullptr);
   std::vector<std::string> carried = r.fields.whole;
   carried.insert(carried.end(), r.fields.carried.begin(), r.fields.carried.end());

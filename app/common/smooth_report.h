@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/common/provenance.h"
+#include "app/common/quality_report.h"
 #include "core/inspect/held_minimum.h"
 #include "core/inspect/joint_hold.h"
 #include "core/run/crossing_faces.h"
@@ -46,6 +47,8 @@ struct SmoothReport {
     return seconds > 0.0 ? visits / seconds : 0.0;
   }
 };
+
+[[nodiscard]] Json card_json(const ReportCard& card);
 
 /// Prints it, for a person or as JSON, and complains where the run has not converged as was asked.
 void print_report(const SmoothReport& report, bool as_json);

@@ -9,6 +9,7 @@
 
 #include "app/common/machine.h"
 #include "app/common/quality_report.h"
+#include "app/common/smooth_report.h"
 #include "app/pages/page.h"
 #include "core/session/csv.h"
 
@@ -36,6 +37,42 @@ std::vector<std::string> endings(const Comparison& comparison) {
     if (run->outcome.best || run->outcome.phases != RunPhases{})
       lines.push_back(fmt::format("{}: {}{}{}", run->name, run->outcome.sentence(), run->held.empty() ? "" : ". ", run->held));
   return lines;
+}
+
+/// A line a run: what it made of the mesh as a whole.
+std::vector<std::string> verdicts(const Comparison& comparison) {
+  std::vector<std::string> lines;
+  for (const JudgedRun& run : comparison.runs) lines.push_back(fmt::format("{}: {}", run.name, run.card.sentence(true)));
+  return lines;
+}
+
+/// Every figure of the runs' report cards, a column a run; what is worse than in the input is marked.
+void add_cards(Page& page, const Comparison& comparison) {
+  std::vector<std::string> head{"figure", "input"};
+  std::vector<const CardFigure*> figures;  // those of all cards
+  const auto same = [](const CardFigure& a) { return [&a](const CardFigure* b) { return a.of == b->of && a.name == b->name; }; };
+  for (const JudgedRun& run : comparison.runs) {
+    head.push_back(run.name);
+    for (const CardFigure& figure : run.card.figures)
+      if (std::ranges::none_of(figures, same(figure))) figures.push_back(&figure);
+  }
+  std::vector<std::vector<PageCell>> rows;
+  for (const CardFigure* figure : figures) {
+    const std::string name = figure->of.empty() ? figure->name : fmt::format("{}: {}", figure->of, figure->name);
+    auto& row = rows.emplace_back(std::vector<PageCell>{{name, name}, number_cell(brief(figure->before), figure->before)});
+    for (const JudgedRun& run : comparison.runs) {
+      const auto at = std::ranges::find_if(run.card.figures, [&](const CardFigure& one) { return same(one)(figure); });
+      if (at == run.card.figures.end()) {
+        row.push_back({});
+        continue;
+      }
+      row.push_back(number_cell(brief(at->after), at->after));
+      if (at->verdict == Verdict::Worse) row.back().style = "bad";
+    }
+  }
+  page.heading("Against the input");
+  for (const std::string& line : verdicts(comparison)) page.paragraph(line + ".");
+  page.table(head, {}, rows);
 }
 
 /// Of the input and the runs those with elements that only their inside inverts, and where.
@@ -85,7 +122,8 @@ Json json_of(const JudgedRun& run) {
               {"judged_iteration", run.outcome.best.value_or(run.outcome.ended)},
               {"converged", run.outcome.reason != StopReason::IterationLimit},
               {"outcome", run.outcome.sentence()},
-              {"held_by", run.held.empty() ? Json(nullptr) : Json(run.held)}};
+              {"held_by", run.held.empty() ? Json(nullptr) : Json(run.held)},
+              {"report_card", card_json(run.card)}};
   for (const RunColumn& column : run_columns()) {
     if (column.is_word() || object.contains(column.name)) continue;
     const double value = std::get<double>(cell(run.row, column));
@@ -234,7 +272,8 @@ std::string text_of(const Comparison& comparison) {
   text += text_table(head, rows, alignment);
   std::vector<std::string> lines = inverted_inside(comparison);
   std::ranges::move(endings(comparison), std::back_inserter(lines));
-  if (!lines.empty()) text += '\n';
+  std::ranges::move(verdicts(comparison), std::back_inserter(lines));
+  text += '\n';
   for (const std::string& line : lines) text += line + '\n';
   if (!comparison.orders.empty())
     text += fmt::format("\n{}, the natural one included:\n", counted(comparison.orders.front().orders, "order", "orders"));
@@ -311,6 +350,7 @@ std::string html_of(const Comparison& comparison, const ComparisonFacts& facts, 
   page.plot(draw(mean_plot(comparison)));
   page.heading("Sorted qualities");
   page.plot(draw(sorted_plot(comparison)));
+  add_cards(page, comparison);
   add_orders(page, comparison);
   add_pictures(page, comparison, progress);
   add_settings(page, comparison, facts);

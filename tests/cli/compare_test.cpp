@@ -72,6 +72,45 @@ TEST(Compare, RowsAreThoseOfSmoothJudgedByOneMetric) {
   }
 }
 
+TEST(Compare, EachRunIsJudgedAsAWhole) {
+  const Folder folder;
+  const std::string in = sample("annulus.off");
+  const std::vector<std::string> how{in, "--run", "dmo", "--run", "laplace", "--iterations", "4"};
+  const Json all = compare_json(how);
+  for (const auto& [row, method] : {std::pair{0, "dmo"}, {1, "laplace"}}) {
+    const std::vector<double> before = smoothed(in, {"--iterations", "0"}, "mean-ratio");
+    const std::vector<double> after = smoothed(in, {"--method", method, "--iterations", "4"}, "mean-ratio");
+    const Json& card = all["runs"][static_cast<std::size_t>(row)]["report_card"];
+    std::size_t known = 0;
+    for (const Json& figure : card["figures"]) {
+      const std::string name = figure["name"];
+      if (figure["of"] != "mean ratio" || (name != "least" && name != "mean" && name != "below 0.3")) continue;
+      const auto of = [&](const std::vector<double>& all_of) {
+        if (name == "least") return all_of.front();
+        return name == "mean" ? mean(all_of) : static_cast<double>(std::ranges::count_if(all_of, [](double q) { return q < 0.3; }));
+      };
+      EXPECT_NEAR(figure["before"], of(before), 1e-9) << method << name;
+      EXPECT_NEAR(figure["after"], of(after), 1e-9) << method << name;
+      ++known;
+    }
+    EXPECT_EQ(known, 3U) << card;
+  }
+  std::vector<std::string> with_report = how;
+  with_report.insert(with_report.end(), {"--report", folder / "report.html"});
+  const Output told = compare(with_report);
+  ASSERT_EQ(told.code, 0) << told.err;
+  const std::string page = read_file(folder / "report.html");
+  EXPECT_EQ(markup_fault(page), "");
+  for (const auto& [row, method] : {std::pair{0, "dmo"}, {1, "laplace"}}) {
+    const Json& card = all["runs"][static_cast<std::size_t>(row)]["report_card"];
+    EXPECT_THAT(told.out, HasSubstr(fmt::format("{}:mean-ratio: {}\n", method, card["sentence"].get<std::string>())));
+    for (const Json& figure : card["figures"])
+      if (figure["verdict"] == "worse") {
+        EXPECT_THAT(page, HasSubstr(fmt::format("\"number bad\" data-key=\"{}\"", figure["after"].get<double>())));
+      }
+  }
+}
+
 TEST(Compare, TheJudgeIsTheFirstRunsMetricUnlessNamed) {
   EXPECT_EQ(compare_json({sample("annulus.off"), "--run", "dmo:max-angle", "--run", "dmo", "--iterations", "1"})["judged_by"], "max-angle");
   EXPECT_EQ(compare_json({sample("annulus.off"), "--run", "dmo", "--metric", "min-angle", "--iterations", "1"})["runs"][0]["metric"],

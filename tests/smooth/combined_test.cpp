@@ -213,6 +213,7 @@ void expect_gains_as_promised(const CompositeObjective& composite, const SecondA
     struct At {
       double jacobian, first, second;
       int inverted = 0;
+      double flattest = INFINITY;  // the least size of a quality
     };
     const auto look = [&](Vec3 p) {
       const Point at{p.x, p.y};
@@ -223,10 +224,13 @@ void expect_gains_as_promised(const CompositeObjective& composite, const SecondA
         const double quality = Plain::mean_ratio(triangle);
         found.first = std::min(found.first, quality);
         found.inverted += quality <= 0.0 ? 1 : 0;
+        found.flattest = std::min(found.flattest, std::abs(quality));
       }
       return found;
     };
     const At before = look(here), after = look(there);
+    // Of flatter elements the harmonic mean counts the inverse, whatever else becomes bad.
+    if (std::min(before.flattest, after.flattest) < 2e-3) continue;
     const auto beyond = [&](double q) { return composite.raise_mean() ? q > 0.0 && q >= composite.threshold : q > composite.threshold; };
     const bool rises = after.second > before.second;
     bool expected = after.jacobian > 0.0 && (beyond(before.first) ? beyond(after.first) && rises : after.first > before.first);

@@ -29,6 +29,7 @@ void draw_entry(PanelContext& context, const Action& action) {
     context.send(std::string(action.command));
   }
   context.items.record_last(fmt::format("menu:{}", action.id));
+  if (!action.about.empty()) next_item_tooltip(std::string(action.about));
 }
 
 /// Actions that share a menu of their own within another one, by how their ids begin.
@@ -123,6 +124,10 @@ void draw_toolbar(PanelContext& context, const Rect& rect) {
   constexpr const char *kRun = "▶ Run", *kPause = "❚❚ Pause";
   action_button(context, "run-pause", busy ? kPause : kRun, context.session.input != nullptr, widest_button({kRun, kPause}));
   ImGui::SameLine();
+  if (rect.w > 56 * context.em()) {
+    action_button(context, "make-good", "Make it good");
+    ImGui::SameLine();
+  }
   action_button(context, "step-iteration", "Step");
   ImGui::SameLine();
   action_button(context, "back-iteration", "Back");

@@ -151,6 +151,7 @@ bool action_button(PanelContext& context, std::string_view id, const char* label
   if (!possible) ImGui::EndDisabled();
   std::string tip(action->title);
   if (!action->key.empty()) tip += "   " + std::string(action->key);
+  if (!action->about.empty()) tip += "\n" + std::string(action->about);
   next_item_tooltip(tip);
   if (pressed) context.send(std::string(action->command));
   return pressed;

@@ -52,7 +52,10 @@ constexpr std::array kActions{
 
     Action{"run-pause", "Run", "Run / pause", "Space", "run-pause", Needs::Mesh},
     Action{"run-10", "Run", "Run 10 iterations", "Shift+N", "run 10", Needs::MeshAndIdle},
-    Action{"make-good", "Run", "Make it good", "Shift+U", "make-good", Needs::MeshAndIdle},
+    Action{
+        "make-good", "Run", "Make it good", "Shift+U", "make-good", Needs::MeshAndIdle, false,
+        "All that there is, until it has converged: DMO, then joint moves until the minimum is within 0.3 % of what can be reached, then "
+        "the best mean that keeps it. The run before is kept."},
     Action{"until-converged", "Run", "Until converged", "U", "until-converged best", Needs::MeshAndIdle},
     Action{"cancel", "Run", "Cancel", "Shift+Escape", "cancel", Needs::Work},
     Action{"step-iteration", "Run", "Next iteration", "N", "step iteration", Needs::MeshAndIdle, true},

@@ -20,7 +20,8 @@ struct Action {
   std::string_view key;      // "N", empty when it has none
   std::string_view command;  // one line of the command language
   Needs needs = Needs::Nothing;
-  bool separator = false;  // a line above it in the menu
+  bool separator = false;    // a line above it in the menu
+  std::string_view about{};  // what it does, where the title does not say it: for tooltips
 };
 
 /// All actions, in the order of the menus.

@@ -56,14 +56,15 @@ Json json_of(const HeldMinimum& held) {
               {"vertices", std::move(vertices)},
               {"unchanged", json_number(held.unchanged)},
               {"switch", nullptr},
-              {"would_raise_to", nullptr},
-              {"on_whole_mesh", nullptr},
+              {"gives_up", nullptr},
+              {"tried", nullptr},
               {"not_looked_at", held.untried},
               {"sentence", held.sentence(true)}};
   if (held.change) {
     object["switch"] = held.options();
-    object["would_raise_to"] = json_number(held.changed);
-    if (held.whole) object["on_whole_mesh"] = json_number(*held.whole);
+    if (const std::string given_up = held.gives_up(); !given_up.empty()) object["gives_up"] = given_up;
+    if (const auto& trial = held.trial)
+      object["tried"] = {{"from", json_number(trial->before)}, {"to", json_number(trial->after)}, {"iterations", trial->iterations}};
   }
   object["certificate"] = held.joint ? json_of(*held.joint) : Json(nullptr);
   return object;

@@ -34,6 +34,7 @@
 #include "core/run/hints.h"
 #include "core/run/recipe.h"
 #include "core/run/retry_on_cpu.h"
+#include "core/run/trial.h"
 #include "core/session/session.h"
 #include "core/transfer/moved_fields.h"
 #include "core/transfer/thin_places.h"
@@ -90,8 +91,9 @@ void require_at_goal(const Run& run, const Outcome& outcome) {
 
 /// Says which method gets further where elements stay inverted, and what holds the minimum.
 template <class Warn>
-std::optional<HeldMinimum> look_for_hints(const Run& run, bool inverted, const HintBudget& budget, const std::shared_ptr<ThreadPool>& pool,
-                                          Progress& progress, const Warn& warn) {
+std::optional<HeldMinimum> look_for_hints(const Run& run, bool inverted, Hints hints, double seconds,
+                                          const std::shared_ptr<ThreadPool>& pool, Progress& progress, const Warn& warn) {
+  const HintBudget budget = budget_of(hints, seconds), with_trial = trial_budget_of(hints, seconds);
   std::optional<HeldMinimum> held;
   const auto find_method = [&] {
     progress.begin("looking for a method that gets further");
@@ -103,8 +105,19 @@ std::optional<HeldMinimum> look_for_hints(const Run& run, bool inverted, const H
     progress.begin("looking for what holds the minimum");
     held = what_holds(run, pool.get(), progress, {.go_on = [&] { return budget.left(); }});
   };
+  const auto find_trial = [&] {
+    // Its beginning takes about as long as some iterations.
+    const double iteration = seconds / static_cast<double>(std::max<std::uint64_t>(1, run.history().records().size() - 1));
+    if (!held || !held->change || !with_trial.has(3 * iteration)) return;
+    progress.begin("trying what would free the minimum");
+    TrialBudget trial;
+    trial.time_left = [&] { return with_trial.left(); };
+    const auto now = run.positions();
+    held->trial = try_switch(run, *held, {std::make_shared<const std::vector<Vec3>>(now.begin(), now.end())}, trial, pool, progress);
+  };
   if (inverted) look_afterwards("whether another method gets further", find_method, warn);
   look_afterwards("what holds the minimum", find_hold, warn);
+  look_afterwards("what would free the minimum", find_trial, warn);
   return held;
 }
 
@@ -176,7 +189,7 @@ int smooth(const SmoothOptions& options) {
   const std::optional<CrossingFaces> crossing = find_crossing_faces(run);
   if (crossing) warn(crossing->sentence());
   std::optional<HeldMinimum> held;
-  if (hints != Hints::Off) held = look_for_hints(run, left.has_value(), budget_of(hints, seconds), pool, progress, warn);
+  if (hints != Hints::Off) held = look_for_hints(run, left.has_value(), hints, seconds, pool, progress, warn);
   const SmoothReport result{.input = options.input,
                             .output = options.output,
                             .until_converged = options.goal.until_converged,

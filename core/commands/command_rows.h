@@ -39,7 +39,8 @@ void tell_interfaces(CommandContext& context);
 /// Says who slides in the active run, if anybody does.
 void tell_sliding(CommandContext& context);
 
-/// Changes the active run's parameters; says so when that made a new run beside the old one.
+/// Changes the active run's parameters; says so when that made a new run beside the old one. From the best state of the active run where
+/// the context says so, and then no more.
 void change_run(CommandContext& context, const std::function<void(RunParameters&)>& edit);
 
 /// The vertices that words such as "7" or "10-20" name, in their order. Throws WrongArguments, and UsageError for one that does not exist.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <map>
+#include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -77,12 +79,21 @@ void tell_interfaces(CommandContext& context) {
 }
 
 void change_run(CommandContext& context, const std::function<void(RunParameters&)>& edit) {
-  RunParameters parameters = context.session.active().parameters();
+  Session& session = context.session;
+  RunParameters parameters = session.active().parameters();
   edit(parameters);
-  const std::size_t before = context.session.run_count();
-  const std::size_t index = context.session.change(std::move(parameters));
-  if (context.session.run_count() > before)
-    tell(context, fmt::format("started run {}: {}, from the input; the run before is kept", index + 1, context.session.active().title()));
+  const std::size_t before = session.run_count(), parent = session.active_index();
+  std::string from = "the input";
+  if (std::exchange(context.continues, false)) {
+    const std::uint64_t best = session.continue_with(std::move(parameters), context.progress);
+    if (best > 0) from = fmt::format("iteration {} of run {}, its best", best, parent + 1);
+  } else {
+    session.change(std::move(parameters));
+  }
+  const Run& now = session.active();
+  if (from == "the input" && now.begin()) from = fmt::format("where run {} began", parent + 1);
+  if (session.run_count() > before)
+    tell(context, fmt::format("started run {}: {}, from {}; the run before is kept", session.active_index() + 1, now.title(), from));
 }
 
 std::vector<Index> to_vertices(Arguments words, const Mesh& mesh) {

@@ -90,11 +90,32 @@ void make_good(CommandContext& context, Arguments arguments) {
   }
   until_converged(context, std::array<std::string, 1>{"best"});
 }
+/// Those that change parameters, of which each goes by change_run().
+const CommandRow* row_that_changes(const std::string& name) {
+  for (const std::span<const CommandRow> rows : {parameter_commands(), kind_commands(), objective_commands()})
+    for (const CommandRow& row : rows)
+      if (row.info.name == name && row.action.reach == CommandReach::Session) return &row;
+  return nullptr;
+}
+void continue_with(CommandContext& context, Arguments arguments) {
+  const CommandRow* row = row_that_changes(arguments[0]);
+  if (row == nullptr) throw WrongArguments(fmt::format("'{}' changes no parameter of a run", arguments[0]));
+  const Arguments words = arguments.subspan(1);
+  require(words, row->action.least, row->action.most);
+  context.continues = true;
+  try {
+    row->action.handler(context, words);
+  } catch (...) {
+    context.continues = false;
+    throw;
+  }
+  context.continues = false;
+}
 void best(CommandContext& context, Arguments) {
   Run& active = context.session.active();
   const std::uint64_t iteration = best_iteration(active);
   active.seek({iteration}, context.progress);
-  tell(context, iteration == 0 ? "the input itself is the best" : fmt::format("the best iteration is {}", iteration));
+  tell(context, iteration == 0 ? "the start is the best" : fmt::format("the best iteration is {}", iteration));
 }
 /// Those among `vertices` that may move; tells of the others, which stay where they are.
 std::vector<Index> free_among(CommandContext& context, const Run& run, const std::vector<Index>& vertices) {
@@ -151,6 +172,11 @@ std::span<const CommandRow> stepping_commands() {
         "Follows a recipe until it has converged: best (recommended), minimum, mean or paper. As a new run beside the active one, where "
         "that has moved otherwise."},
        {0, 1, make_good}},
+      {{"continue-with", "continue-with COMMAND...",
+        "Changes parameters by their command (continue-with boundary slide) as a new run beside the active one, which goes on from the "
+        "best "
+        "state that this one reached: its minimum never falls."},
+       {1, kAnyWords, continue_with}},
       {{"visit", "visit VERTEX|A-B...", "Visits these vertices now, out of their turn."}, {1, kAnyWords, visit, true, kPaths}},
       {{"seek", "seek ITERATION [VISITS [EDITS]]", "Goes to any iteration, or into its midst."}, {1, 3, seek, true, kPaths}},
       {{"look-at", "look-at ITERATION [VISITS [EDITS]]", "Goes there as seek does, but for a look: undo knows nothing of it."},

@@ -1,6 +1,7 @@
 #include "core/engine/engine.h"
 
 #include <algorithm>
+#include <future>
 #include <utility>
 
 #include <fmt/format.h>
@@ -342,11 +343,22 @@ void Engine::rest(const std::stop_token& stop) {
   try {
     if (frames_.work_at_rest(session_, watched(), go_on)) publish(FrameDetail::Whole);
     if (long_work_ && frames_.work_long_at_rest(session_, go_on)) publish(FrameDetail::Whole);
+    if (long_work_ && go_on() && try_at_rest(go_on)) publish(FrameDetail::Whole);
   } catch (const Error& error) {
     say({Message::Kind::Warning, error.what(), 0});
   } catch (const std::bad_alloc&) {
     say({Message::Kind::Warning, "not enough memory to compare the runs", 0});
   }
+}
+
+/// On a thread that gives way to all others, for which this one waits: nobody has asked for it.
+bool Engine::try_at_rest(const std::function<bool()>& go_on) {
+  const auto attempt = [&] {
+    ThreadPool alone(1);
+    dmoscope::give_way(alone);
+    return frames_.try_at_rest(session_, go_on);
+  };
+  return std::async(std::launch::async, attempt).get();
 }
 
 void Engine::publish(FrameDetail detail) {

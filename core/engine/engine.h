@@ -97,6 +97,7 @@ class Engine {
   void publish_if_due();
   void publish_at_rest();
   void rest(const std::stop_token& stop);
+  [[nodiscard]] bool try_at_rest(const std::function<bool()>& go_on);
   [[nodiscard]] bool wait_for_work(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
   void autosave_at_rest(std::unique_lock<std::mutex>& lock, const std::stop_token& stop, bool now);
   [[nodiscard]] std::vector<Watch> watched() const;

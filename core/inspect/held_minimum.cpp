@@ -102,8 +102,6 @@ class Look {
     if (q_.joint && (found.change || !is_moot)) attempt("joint moves", 0.5, [&] { try_joint(found, best); });
     if (!found.change && !found.rises() && !all.empty()) attempt("two switches together", 0.7, [&] { try_pairs(found, all); });
     if (found.change) std::erase_if(found.in_vain, [&](const HoldSwitch& one) { return one.frees == found.change->frees; });
-    if (q_.whole && found.change && found.change->frees != Holding::Neighbours)
-      attempt("the whole mesh with it", 0.8, [&] { try_whole(found); });
     settle(found);
     return found;
   }
@@ -178,12 +176,6 @@ class Look {
       best = cluster->after;
     }
     found.joint = std::make_shared<const JointCluster>(std::move(*cluster));
-  }
-  /// Whether the whole mesh gains from what frees the element.
-  void try_whole(HeldMinimum& found) const {
-    std::vector<HoldSwitch> changes{*found.change};
-    if (found.also) changes.push_back(*found.also);
-    found.whole = after_switches(changes, Of::Whole);
   }
   [[nodiscard]] std::span<const Index> corners() const { return mesh_.elements.corners(element_); }
   [[nodiscard]] double quality_of(PositionView positions, Index e) const {
@@ -340,15 +332,14 @@ class Look {
     if (change.name == "unfix") std::erase_if(then.by_hand, is_corner);
     if (change.name == "combine") then.combination->threshold = change.number;
   }
-  enum class Of : std::uint8_t { Around, Whole };
   /// The least quality of what is judged, after switches.
-  [[nodiscard]] double after_switches(std::span<const HoldSwitch> changes, Of what = Of::Around) const {
+  [[nodiscard]] double after_switches(std::span<const HoldSwitch> changes) const {
     Conditions then = conditions();
     for (const HoldSwitch& change : changes) apply(change, then);
-    if (then.rule == q_.rule) return after(then, q_.task.domain, what);
+    if (then.rule == q_.rule) return after(then, q_.task.domain);
     if (!last_domain_ || last_domain_->first != then.rule)
       last_domain_.emplace(then.rule, q_.domains ? q_.domains(then.rule) : domain_for(input_, then.rule));
-    return after(then, last_domain_->second, what);
+    return after(then, last_domain_->second);
   }
   [[nodiscard]] SmoothingTask task_of(const Conditions& then, std::shared_ptr<const Domain> domain) const {
     SmoothingTask task = q_.task;
@@ -360,50 +351,29 @@ class Look {
     task.max_deviation = then.max_deviation * input_.geometry.size;
     return task;
   }
-  /// After some visits around the element, or of the whole mesh: there it is enough to have seen a gain when the look has to end.
-  [[nodiscard]] double after(const Conditions& then, std::shared_ptr<const Domain> domain, Of what = Of::Around) const {
-    const bool whole = what == Of::Whole;
+  /// After some visits around the element.
+  [[nodiscard]] double after(const Conditions& then, std::shared_ptr<const Domain> domain) const {
     std::vector<std::uint8_t> fixed = standing_vertices(input_, then.rule, domain.get());
     for (const Index v : then.by_hand) fixed[v] = 1;
-    std::vector<Index> free;
-    if (whole)
-      for (Index v = 0; v < fixed.size(); ++v) free.push_back(v);
-    else
-      free = visited_;
+    std::vector<Index> free = visited_;
     std::erase_if(free, [&fixed](Index v) { return fixed[v] != 0; });
     SmoothingTask task = task_of(then, std::move(domain));
     task.colouring = std::make_shared<const Colouring>(colour_vertices(mesh_, input_.topology, free));
     std::vector<Vec3> positions(q_.positions.begin(), q_.positions.end());
     const auto smoother = make_smoother(task);
     smoother->positions_replaced();
-    const auto least = [&] {
-      smoother->store(positions, nullptr);
-      if (whole) {  // worse is only what nothing moves
-        const Statistics all = compute_statistics(input_.quality_context(), positions, task.metric, fixed, pool_);
-        return all.minimum < quality_of(q_.positions, element_) ? all.movable_minimum : all.minimum;
-      }
-      double worst = std::numeric_limits<double>::infinity();
-      for (const Index e : judged_)
-        if (const double quality = quality_of(positions, e); !std::isnan(quality)) worst = std::min(worst, quality);
-      return worst;
-    };
-    try {
-      visit(*smoother, task.colouring->order.size(), positions, whole ? pool_ : nullptr);
-    } catch (const Cancelled&) {
-      if (!whole || !is_gain(quality_of(q_.positions, element_), least())) throw;
-    }
-    return least();
+    visit(*smoother, task.colouring->order.size(), positions);
+    smoother->store(positions, nullptr);
+    double worst = std::numeric_limits<double>::infinity();
+    for (const Index e : judged_)
+      if (const double quality = quality_of(positions, e); !std::isnan(quality)) worst = std::min(worst, quality);
+    return worst;
   }
-  void visit(Smoother& smoother, std::uint64_t count, std::span<Vec3> positions, ThreadPool* pool) const {
-    constexpr std::uint64_t kBlock = 65536;  // vertices between two questions whether to go on
+  void visit(Smoother& smoother, std::uint64_t count, std::span<Vec3> positions) const {
     for (int round = 0; round < kRounds; ++round) {
       smoother.begin({.iteration = static_cast<std::uint64_t>(round), .untangling = q_.untangling});
-      std::uint64_t moved = 0;
-      for (std::uint64_t first = 0; first < count; first += kBlock) {
-        asking_.check();
-        moved += smoother.visit(first, std::min(kBlock, count - first), positions, pool);
-      }
-      if (moved == 0) return;
+      asking_.check();
+      if (smoother.visit(0, count, positions, nullptr) == 0) return;
     }
   }
 

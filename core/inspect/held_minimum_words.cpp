@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
@@ -44,6 +46,42 @@ std::string HoldSwitch::option() const {
   return name == "auto-corner" ? fmt::format("--corner without {}", value) : fmt::format("--{} {}", name, value);
 }
 
+std::string HoldSwitch::gives_up() const {
+  if (name == "boundary") return "the fixed boundary";
+  if (name == "interfaces") return "fixed interfaces";
+  if (name == "corner-angle") return fmt::format("corners under {}°", value);
+  if (name == "feature-angle") return fmt::format("features under {}°", value);
+  if (name == "auto-corner") return fmt::format("corners by hand: {}", value);
+  if (name == "unfix") return fmt::format("fixed vertices: {}", value);
+  if (name == "max-deviation") return "nearness to the input";
+  if (name == "combine") return "the second aim, partly";
+  return {};
+}
+
+namespace {
+
+/// With four significant digits and no larger.
+std::string four_digits_down(double value) {
+  std::string text = four_digits(value);
+  if (std::isfinite(value) && std::stod(text) > value) {
+    const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 3.0);
+    text = four_digits(std::stod(text) - unit);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string SwitchTrial::figures() const {
+  return fmt::format("{} -> {} in {} iteration{}", four_digits(before), four_digits_down(after), iterations, iterations == 1 ? "" : "s");
+}
+
+std::string SwitchTrial::sentence() const {
+  const std::string where = from ? fmt::format(" from iteration {} on", *from) : std::string();
+  if (gains()) return fmt::format("tried{}: {}", where, figures());
+  return fmt::format("tried{} in {} iteration{}: no gain", where, iterations, iterations == 1 ? "" : "s");
+}
+
 std::vector<std::string> HeldMinimum::commands() const {
   std::vector<std::string> all;
   if (change) all.push_back(change->command());
@@ -51,10 +89,25 @@ std::vector<std::string> HeldMinimum::commands() const {
   return all;
 }
 
+std::vector<std::string> HeldMinimum::advice() const {
+  std::vector<std::string> lines = commands();
+  if (lines.empty()) return lines;
+  lines.front() = "continue-with " + lines.front();  // the others change what that has made
+  lines.emplace_back("until-converged best");
+  return lines;
+}
+
 std::string HeldMinimum::options() const {
   std::string text = change ? change->option() : "";
   if (also) text += ' ' + also->option();
   return text;
+}
+
+std::string HeldMinimum::gives_up() const {
+  std::string text = change ? change->gives_up() : "";
+  const std::string more = also ? also->gives_up() : "";
+  if (!text.empty() && !more.empty()) text += "; ";
+  return text + more;
 }
 
 bool HeldMinimum::rises() const noexcept { return is_gain(quality, unchanged); }
@@ -74,7 +127,7 @@ std::string_view HeldMinimum::brief() const noexcept {
 
 std::string HeldMinimum::outlook() const {
   if (change) return {};
-  if (rises()) return fmt::format("more iterations: about {:.2g}", unchanged);
+  if (rises()) return "more iterations raise it";
   if (certified() && is_fixed(by)) return fmt::format("no joint move gains, either: {} hold it", holders(*joint).size());
   if (certified())
     return fmt::format("certified: {}",
@@ -115,10 +168,8 @@ std::string HeldMinimum::sentence(bool as_option) const {
     if (is_of_another())
       text +=
           fmt::format(" Of those that moves can change, element {} at {} is the worst.", joint->worst_element, four_digits(joint->before));
-    if (joint->beyond && is_gain(joint->before, joint->after))
-      return text + fmt::format(" Joint moves raise {}: from {:.2g} to {:.2g}.", joint->aim, joint->before, joint->after);
-    text += is_of_another() && is_gain(joint->before, joint->after) ? fmt::format(" Joint moves raise it to about {:.2g}.", joint->after)
-                                                                    : ' ' + certificate_sentence(*joint);
+    if (joint->beyond && is_gain(joint->before, joint->after)) return text + fmt::format(" Joint moves raise {}.", joint->aim);
+    text += is_of_another() && is_gain(joint->before, joint->after) ? " Joint moves raise it." : ' ' + certificate_sentence(*joint);
   }
   if (untried.empty()) return text;
   return text + fmt::format(" Not looked at further: {}{}.", fmt::join(untried, ", "), as_option ? " (--hints full does)" : "");
@@ -134,23 +185,21 @@ std::string HeldMinimum::hold_sentence(bool as_option) const {
   if (!all_tried && !change && !rises() && is_fixed(by))
     return text + fmt::format(". Held by {}: {}.", phrase(by), shares()) + tried(as_option);
   if (!all_tried && untried.front() == kMoreIterations) return text + ". Its vertices can move.";
-  if (!change && rises()) return text + fmt::format(", and nothing holds it: more iterations raise it to about {:.2g} here.", unchanged);
+  if (!change && rises()) return text + ", and nothing holds it: more iterations raise it.";
   if (!change && !is_fixed(by))
     return text + (unchanged > quality ? ". Nothing holds it: more iterations raise it slowly." : ". It is at a local optimum.") +
            tried(as_option);
   text += fmt::format(". It is held by {} ({})", phrase(by), shares());
   if (!change) return text + '.' + tried(as_option);
-  return text + ": " + gain(as_option) + (rises() ? fmt::format(", more iterations alone to {:.2g}.", unchanged) : ".");
+  return text + ": " + gain(as_option) + (rises() ? ". More iterations alone raise it, too." : ".");
 }
 
-/// Says how far the change raises the minimum, on the whole mesh where that was tried.
+/// Says what the change gives up, and what came of it on the whole mesh where that was tried.
 std::string HeldMinimum::gain(bool as_option) const {
   const std::string with = as_option ? options() : fmt::format("{}", fmt::join(commands(), " with "));
-  if (whole && is_gain(quality, *whole))
-    return fmt::format("{} would raise it from {:.2g} to about {:.2g} at least (tried on the whole mesh, from here on)", with, quality,
-                       *whole);
-  const std::string text = fmt::format("{} would raise it locally from {:.2g} to about {:.2g}", with, quality, changed);
-  return whole ? text + fmt::format(", but some iterations of the whole mesh leave its minimum at {}", four_digits(*whole)) : text;
+  const std::string given_up = gives_up();
+  return fmt::format("{} would free it{}; {}", with, given_up.empty() ? "" : fmt::format(" (giving up {})", given_up),
+                     trial ? trial->sentence() : "on the whole mesh that was not tried");
 }
 
 }  // namespace dmoscope

@@ -54,7 +54,7 @@ std::optional<LeftInverted> find_left_inverted(const Run& run) {
 std::uint64_t best_iteration(const Run& run) { return best_iteration(run.parameters(), run.history().records()); }
 
 std::string iteration_name(std::uint64_t iteration) {
-  return iteration == 0 ? std::string("the input itself") : fmt::format("iteration {}", iteration);
+  return iteration == 0 ? std::string("the start") : fmt::format("iteration {}", iteration);
 }
 
 std::string worse_than_best(const RunParameters& parameters, std::uint64_t best, std::uint64_t last) {

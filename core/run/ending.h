@@ -35,7 +35,7 @@ struct LeftInverted {
 /// What is said of the methods that do not optimise, wherever they are chosen or told of.
 inline constexpr std::string_view kMayMakeWorse = "may make elements worse";
 
-/// "the input itself" of 0, else "iteration 12"
+/// "the start" of 0, else "iteration 12"
 [[nodiscard]] std::string iteration_name(std::uint64_t iteration);
 
 /// "laplace may make elements worse: the best it passed through is iteration 2, not iteration 202"; empty of a method that optimises, and

@@ -34,7 +34,7 @@ UntanglingLook untangling_hint(const Run& run, std::shared_ptr<ThreadPool> pool,
       parameters.then_mean.reset();
       parameters.backend = Backend::Cpu;
       if (!why_no_run(run.shared_input(), parameters).empty()) continue;
-      Run other(run.shared_input(), std::move(parameters), pool, 0);
+      Run other(run.shared_input(), std::move(parameters), pool, 0, {}, run.begin());
       other.set_observer([&](const Run&) { check(); });
       for (std::uint64_t i = 1; i <= iterations && fewest > 0; ++i) {
         const Progress::Part part(progress, i - 1, iterations);
@@ -73,7 +73,6 @@ std::optional<HeldMinimum> what_holds(const Run& run, ThreadPool* pool, Progress
   if (look.at_rest || !question.joint_phase.empty()) question.joint_at_most = run.input().is_volume() ? kMostInVolumes : kMostInThePlane;
   question.joint_where_it_rises = look.at_rest;
   question.certified = run.last_outcome() && run.last_outcome()->reason == StopReason::Certified;
-  question.whole = !look.at_rest;
   return held_minimum(question, pool, progress, look.go_on);
 }
 

@@ -32,6 +32,7 @@ class HintBudget {
   }
 
   [[nodiscard]] bool left() const { return !clock_ || clock_() < end_; }
+  [[nodiscard]] bool has(double seconds) const { return !clock_ || clock_() + seconds <= end_; }
   /// Half of what is left of it.
   [[nodiscard]] HintBudget half() const { return clock_ ? HintBudget(0.5 * (end_ - clock_()), clock_) : HintBudget(); }
 
@@ -68,7 +69,7 @@ struct HoldLook {
   bool at_rest = false;           // nobody has asked: it is not to take long, and holders are drawn
 };
 
-/// Of the metric that the run optimises, see held_minimum(). Brings the positions. Throws DeviceError.
+/// What holds the minimum of the metric that the run optimises, see held_minimum(). Brings the positions. Throws DeviceError.
 [[nodiscard]] std::optional<HeldMinimum> what_holds(const Run& run, ThreadPool* pool, Progress& progress, const HoldLook& look = {});
 
 }  // namespace dmoscope

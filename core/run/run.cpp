@@ -1,6 +1,7 @@
 #include "core/run/run.h"
 
 #include <cmath>
+#include <cstring>
 
 #include <fmt/format.h>
 
@@ -68,6 +69,15 @@ std::optional<Guard> find_guard(const InputMesh& input, const RunParameters& p, 
   return Guard{p.guard->metric, of_input.movable_minimum};
 }
 
+void require_fixed_in_place(const InputMesh& input, std::span<const std::uint8_t> fixed, const BeginPositions& begin) {
+  if (!begin) return;
+  const std::vector<Vec3>& places = input.mesh.positions;
+  if (begin->size() != places.size()) throw UsageError(fmt::format("a run begins with {} vertices, not {}", begin->size(), places.size()));
+  for (Index v = 0; v < places.size(); ++v)
+    if (fixed[v] != 0 && std::memcmp(&(*begin)[v], &places[v], sizeof(Vec3)) != 0)
+      throw UsageError(fmt::format("vertex {} is fixed, but has moved", v));
+}
+
 std::vector<Vec3> working_copy(std::span<const Vec3> positions) {
   std::vector<Vec3> copy;
   reserve_large(copy, positions.size());
@@ -78,9 +88,10 @@ std::vector<Vec3> working_copy(std::span<const Vec3> positions) {
 }  // namespace
 
 Run::Run(std::shared_ptr<const InputMesh> input, RunParameters parameters, std::shared_ptr<ThreadPool> pool, std::size_t history_bytes,
-         Acceleration acceleration)
+         Acceleration acceleration, BeginPositions begin)
     : input_(std::move(input)),
       parameters_(std::move(parameters)),
+      begin_(std::move(begin)),
       pool_(std::move(pool)),
       acceleration_(std::move(acceleration)),
       domain_(domain_for(*input_, parameters_.standing())),
@@ -90,11 +101,14 @@ Run::Run(std::shared_ptr<const InputMesh> input, RunParameters parameters, std::
       size_(make_size_field(input_, parameters_.combination)),
       guard_(find_guard(*input_, parameters_, immovable_, pool_.get())),
       executor_(choose_executor(parameters_.backend, acceleration_, task())),
-      positions_(working_copy(input_->mesh.positions)),
+      positions_(working_copy(begin_ ? *begin_ : input_->mesh.positions)),
       blocks_(block_plan()),
       history_(history_bytes),
       first_phase_(parameters_) {
-  history_.record_input({.statistics = statistics(), .second = second_minimum()}, {input_, &input_->mesh.positions});
+  require_fixed_in_place(*input_, fixed(), begin_);
+  if (begin_ && executor_.smoother) executor_.smoother->positions_replaced();  // it has taken the input's
+  history_.record_input({.statistics = statistics(), .second = second_minimum()},
+                        begin_ ? begin_ : BeginPositions(input_, &input_->mesh.positions));
 }
 
 Run::~Run() = default;
@@ -106,7 +120,7 @@ std::string Run::title() const {
   const RunParameters& p = parameters_;
   std::string title = fmt::format("{} · {}", p.method, p.combination ? phrase(p.metric, *p.combination) : metric_phrase(p.metric));
   title += then_text(p);
-  return title + other_than_usual(p, input_->is_surface());
+  return title + other_than_usual(p, input_->is_surface()) + (begin_ ? ", continued" : "");
 }
 
 std::string Run::backend_sentence() const {

@@ -73,12 +73,17 @@ struct RunSnapshot {
   JointPath joint{};
 };
 
+/// Where the vertices of a run that continues another one begin; null: as in the input.
+using BeginPositions = std::shared_ptr<const std::vector<Vec3>>;
+
 class Run {
  public:
   /// Throws UsageError for parameters out of range, an unknown method, a metric not defined for the mesh, or a backend that cannot do it;
-  /// DeviceError when the backend asked for by name fails.
+  /// DeviceError when the backend asked for by name fails. `begin`: where the vertices stand in iteration 0; null: as in the input, to
+  /// which reference, fixed vertices and guard belong in any case. Throws UsageError where a fixed vertex does not begin where the input
+  /// has it.
   Run(std::shared_ptr<const InputMesh> input, RunParameters parameters, std::shared_ptr<ThreadPool> pool, std::size_t history_bytes,
-      Acceleration acceleration = {});
+      Acceleration acceleration = {}, BeginPositions begin = nullptr);
   ~Run();
   Run(Run&&) noexcept;
   Run& operator=(Run&&) noexcept;
@@ -93,6 +98,7 @@ class Run {
   [[nodiscard]] const InputMesh& input() const noexcept { return *input_; }
   [[nodiscard]] const std::shared_ptr<const InputMesh>& shared_input() const noexcept { return input_; }
   [[nodiscard]] const RunParameters& parameters() const noexcept { return parameters_; }
+  [[nodiscard]] const BeginPositions& begin() const noexcept { return begin_; }
   /// Its name; where it has none, what it does: "dmo · mean ratio, grid 12".
   [[nodiscard]] std::string title() const;
   [[nodiscard]] RunPhases phases() const;
@@ -166,7 +172,7 @@ class Run {
   /// is forgotten. Throws UsageError, with nothing done, for a vertex that is fixed or does not exist. On Cancelled nothing is done.
   std::uint64_t visit_vertices(std::span<const Index> vertices, Progress& progress);
   [[nodiscard]] const Edits& edits() const noexcept { return edits_; }
-  /// Back to the input, and the edits are forgotten.
+  /// Back to the input, or where else it began, and the edits are forgotten.
   void reset(Progress& progress);
   [[nodiscard]] RunSnapshot point() const;
   /// Goes to where this run stood, whatever became of its path since then. On Cancelled the run stands at an exact moment of that path.
@@ -250,6 +256,7 @@ class Run {
   std::string given_name_;
   std::shared_ptr<const InputMesh> input_;
   RunParameters parameters_;
+  BeginPositions begin_;
   std::shared_ptr<ThreadPool> pool_;
   Acceleration acceleration_;
   std::shared_ptr<const Domain> domain_;  // where vertices slide; null: none does

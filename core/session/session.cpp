@@ -43,9 +43,9 @@ void Session::open(Mesh mesh, Progress& progress) { replace_input(prepare_input(
 
 void Session::generate(const std::string& words, Progress& progress) { replace_input(generate_input(words, progress)); }
 
-std::shared_ptr<Run> Session::make_run(std::shared_ptr<const InputMesh> input, RunParameters parameters) const {
+std::shared_ptr<Run> Session::make_run(std::shared_ptr<const InputMesh> input, RunParameters parameters, BeginPositions begin) const {
   const std::size_t history = history_for(*input, history_bytes_);
-  auto run = std::make_shared<Run>(std::move(input), std::move(parameters), pool_, history, acceleration_);
+  auto run = std::make_shared<Run>(std::move(input), std::move(parameters), pool_, history, acceleration_, std::move(begin));
   run->set_observer(observer_);
   return run;
 }
@@ -171,9 +171,11 @@ void Session::select(std::size_t index) {
   activate(index);
 }
 
-std::size_t Session::add_run(RunParameters parameters) {
-  runs_.push_back(make_run(input(), std::move(parameters)));
-  runs_.back()->set_id(++last_id_);
+std::size_t Session::add_run(RunParameters parameters) { return add(make_run(input(), std::move(parameters))); }
+
+std::size_t Session::add(std::shared_ptr<Run> run) {
+  run->set_id(++last_id_);
+  runs_.push_back(std::move(run));
   activate(runs_.size() - 1);
   share_history();
   return active_;
@@ -190,19 +192,6 @@ void Session::remove_run(std::size_t index) {
 void Session::rename_run(std::size_t index, std::string name) {
   require_run_name(name);
   run(index).set_given_name(std::move(name));
-}
-
-std::size_t Session::change(RunParameters parameters) {
-  const Run& current = active();
-  const bool untouched = current.moment() == Moment{} && current.history().records().size() == 1 && current.edits().all().empty();
-  if (!untouched) return add_run(std::move(parameters));
-  const std::uint64_t id = current.id();
-  const std::string name = current.given_name();
-  runs_[active_] = make_run(input_, std::move(parameters));
-  runs_[active_]->set_id(id);
-  runs_[active_]->set_given_name(name);
-  share_history();
-  return active_;
 }
 
 void Session::show(Metric metric) {

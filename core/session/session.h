@@ -37,7 +37,8 @@ class Session {
   /// The same with these runs, at least one, and their meshes.
   void replace(std::vector<std::shared_ptr<Run>> runs, std::size_t active, Metric shown);
   /// A run with this session's threads and devices, which is none of its runs.
-  [[nodiscard]] std::shared_ptr<Run> make_run(std::shared_ptr<const InputMesh> input, RunParameters parameters) const;
+  [[nodiscard]] std::shared_ptr<Run> make_run(std::shared_ptr<const InputMesh> input, RunParameters parameters,
+                                              BeginPositions begin = nullptr) const;
   /// JSON that whoever shows the session saved with it, to be shown again; and how often there was some.
   void restore_view(std::string json);
   [[nodiscard]] const std::string& restored_view() const noexcept { return restored_view_; }
@@ -102,8 +103,12 @@ class Session {
   /// Calls a run so in titles, legends and tables; empty: by what it does, as before. Throws UsageError, see require_run_name.
   void rename_run(std::size_t index, std::string name);
   /// Gives the active run other parameters: in place while it has not moved from the input, else as a new run beside it, so that
-  /// nothing is lost. Returns the index of the run that has them.
+  /// nothing is lost. That begins where the active run began. Returns the index of the run that has them.
   std::size_t change(RunParameters parameters);
+  /// The same as a new run that begins with the best state of the active one, at the end of that iteration (see BestState), which is
+  /// returned; the active run stays. One that has not moved gets the parameters in place. Throws UsageError where vertices that have moved
+  /// would be held more firmly than before.
+  std::uint64_t continue_with(RunParameters parameters, Progress& progress);
 
   [[nodiscard]] SessionPoint point() const;
   /// Remembers what a command did since `before`, for undo.
@@ -134,6 +139,8 @@ class Session {
 
  private:
   [[nodiscard]] std::shared_ptr<Run> first_run(const std::shared_ptr<const InputMesh>& input) const;
+  std::size_t add(std::shared_ptr<Run> run);
+  std::size_t put(std::shared_ptr<Run> run);
   void replace_input(std::shared_ptr<const InputMesh> input);
   [[nodiscard]] std::string replace_in_runs(const std::shared_ptr<const InputMesh>& stale, const std::shared_ptr<const InputMesh>& fresh);
   [[nodiscard]] std::string exchange(const std::shared_ptr<const InputMesh>& stale, const std::shared_ptr<const InputMesh>& fresh);

@@ -37,7 +37,8 @@ RunStanding without_positions(const Run& run, std::span<const MeshStanding> mesh
           mesh,
           {},
           {},
-          run.joint_standing()};
+          run.joint_standing(),
+          run.begin()};
 }
 
 std::optional<SessionStanding> standing_of(Session& session, const IterationStarts& starts, const std::function<bool()>& go_on) {

@@ -26,6 +26,7 @@ struct RunStanding {
   std::span<const Vec3> start;                   // positions at the end of iteration moment.iteration; empty at the input
   std::shared_ptr<const void> owner;             // of these
   std::shared_ptr<const JointStanding> joint{};  // see Run::joint_standing
+  BeginPositions begin{};                        // see Run::begin
 };
 
 struct MeshStanding {

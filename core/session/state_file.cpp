@@ -29,8 +29,16 @@ namespace {
 using Json = StateJson;
 
 constexpr std::string_view kSessionFormat = "dmoscope session";
-constexpr int kVersion = 3;  // 1: without checksums but that of the mesh; 3: several meshes
+constexpr int kVersion = 4;  // 1: without checksums but that of the mesh; 4: runs that begin elsewhere than at the input
+constexpr int kVersionOfSeveralMeshes = 3;
 constexpr int kVersionOfOneMesh = 2;
+
+/// The least version that can say all of it, so that programs of before read what they can.
+int version_for(const SessionStanding& session) {
+  const auto elsewhere = [](const RunStanding& run) { return run.begin != nullptr; };
+  if (std::ranges::any_of(session.runs, elsewhere)) return kVersion;
+  return session.meshes.size() > 1 ? kVersionOfSeveralMeshes : kVersionOfOneMesh;
+}
 
 /// One checksum for each part of an object, to tell which part is damaged. Taken from the part's compact JSON, so that the file's layout
 /// does not matter.
@@ -248,6 +256,7 @@ Json json_of(const RunStanding& run, const InputMesh& input, bool several) {
   for (const IterationRecord& record : run.records) records.push_back(json_of(record));
   Json json{{"parameters", json_of(run.parameters)}, {"moment", json_of(run.moment)}, {"edits", edits}, {"records", records}};
   if (!run.name.empty()) json["name"] = run.name;
+  if (run.begin) json["begin"] = pack_positions(*run.begin);
   if (run.moment.iteration > 0) json["positions"] = pack_positions(run.start);
   if (run.joint) json["joint"] = joint_json(run.joint->state);
   json["standing"] = standing_mark(input, run.parameters.standing());
@@ -271,10 +280,18 @@ void require_same_data(const Json& json, const Run& run, const std::vector<DataM
                                  run.size_field()->function().field));
 }
 
+std::vector<Vec3> to_positions(const Json& json, const InputMesh& input) {
+  auto unpacked = unpack_positions(json.get_ref<const std::string&>(), input.mesh.positions.size());
+  if (!unpacked) throw UsageError("the positions of a run are damaged");
+  return std::move(*unpacked);
+}
+
 /// A run as it is described, on a mesh.
 std::shared_ptr<Run> to_run(const Json& json, const Session& session, const std::shared_ptr<const InputMesh>& input,
                             const std::vector<DataMark>& data, Progress& progress) {
-  auto run = session.make_run(input, to_parameters(json.at("parameters")));
+  BeginPositions begin;
+  if (json.contains("begin")) begin = std::make_shared<const std::vector<Vec3>>(to_positions(json.at("begin"), *input));
+  auto run = session.make_run(input, to_parameters(json.at("parameters")), std::move(begin));
   require_same_data(json, *run, data);
   RunSnapshot point;
   point.moment = to_moment(json.at("moment"));
@@ -287,9 +304,7 @@ std::shared_ptr<Run> to_run(const Json& json, const Session& session, const std:
   point.records = SharedVector<IterationRecord>(std::make_shared<const std::vector<IterationRecord>>(std::move(records)));
   std::vector<Vec3> positions;
   if (point.moment.iteration > 0) {
-    auto unpacked = unpack_positions(json.at("positions").get_ref<const std::string&>(), input->mesh.positions.size());
-    if (!unpacked) throw UsageError("the positions of a run are damaged");
-    positions = std::move(*unpacked);
+    positions = to_positions(json.at("positions"), *input);
     for (Index v = 0; v < positions.size(); ++v)
       if (run->fixed()[v] != 0 && std::memcmp(&positions[v], &input->mesh.positions[v], sizeof(Vec3)) != 0)
         throw UsageError(fmt::format("vertex {} is fixed, but has moved", v));
@@ -374,7 +389,7 @@ void save_state(const std::filesystem::path& path, Session& session, const std::
 
 void write_state(const std::filesystem::path& path, const SessionStanding& session, const std::string& view, Progress& progress) {
   const bool several = session.meshes.size() > 1;
-  Json json{{"format", kSessionFormat}, {"version", several ? kVersion : kVersionOfOneMesh}};
+  Json json{{"format", kSessionFormat}, {"version", version_for(session)}};
   if (several) {
     for (const MeshStanding& mesh : session.meshes) json["inputs"].push_back(input_json(mesh));
   } else {

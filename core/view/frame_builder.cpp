@@ -252,6 +252,10 @@ bool FrameBuilder::work_long_at_rest(Session& session, const std::function<bool(
   return session.holds().find_at_rest(session, go_on) || hint;
 }
 
+bool FrameBuilder::try_at_rest(Session& session, const std::function<bool()>& go_on) {
+  return session.has_input() && session.holds().try_at_rest(session, go_on);
+}
+
 void FrameBuilder::add_meshes(Session& session, SessionView& view) {
   for (const auto& input : session.inputs())
     view.meshes.push_back({input, facts_of(session, input).serial, summaries_.of_input(session, input)});

@@ -31,6 +31,8 @@ class FrameBuilder {
   bool work_at_rest(Session& session, std::span<const Watch> watched, const std::function<bool()>& go_on);
   /// The same of what takes seconds and comes after all else.
   bool work_long_at_rest(Session& session, const std::function<bool()>& go_on);
+  /// The same of what comes last of all: trials of what could be done.
+  bool try_at_rest(Session& session, const std::function<bool()>& go_on);
 
  private:
   /// What a frame is of: as long as it is the same, so is the frame.

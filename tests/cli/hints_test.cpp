@@ -68,6 +68,38 @@ TEST(Hints, ChangeNeitherTheMeshNorTheExitCodeOfAnyMix) {
   EXPECT_GT(ran, 12);
 }
 
+/// Whoever smooths what was written with the option added gets what was said of it.
+TEST(Hints, WhatWasTriedIsReachedByTheOption) {
+  const Folder folder;
+  int kept = 0;
+  for (const std::string kind : {"coast", "annulus", "quads", "mixed", "random", "tetrahedra", "screw", "biased"}) {
+    SCOPED_TRACE(kind);
+    const std::string in = folder / (kind + ".vtk"), out = folder / (kind + "-out.vtk"), next = folder / (kind + "-next.vtk");
+    ASSERT_EQ(run({"generate", kind, "-o", in, "--size", "400"}).code, 0);
+    const auto first = json_of(run({"smooth", in, "-o", out, "--until-converged", "--hints", "full", "--json"}));
+    const auto& held = first["held_by"];
+    const std::string sentence = held["sentence"].get<std::string>();
+    EXPECT_THAT(sentence, Not(HasSubstr("about"))) << "no number but one that was tried";
+    if (held["switch"].is_null()) continue;
+    if (held["tried"].is_null()) {
+      EXPECT_THAT(sentence, HasSubstr("on the whole mesh that was not tried"));
+      continue;
+    }
+    EXPECT_EQ(held["tried"]["from"], first["after"]["minimum"]);
+    EXPECT_LE(held["tried"]["iterations"], 1000);
+    Words words{"smooth", out, "-o", next, "--until-converged", "--json"};
+    for (const std::string& word : split(held["switch"].get<std::string>(), ' ')) words.push_back(word);
+    const auto second = json_of(run(words));
+    EXPECT_GE(second["after"]["minimum"].get<double>(), held["tried"]["to"].get<double>()) << sentence;
+    EXPECT_GE(second["after"]["minimum"], first["after"]["minimum"]) << sentence;
+    if (held["tried"]["to"].get<double>() > held["tried"]["from"].get<double>() + 1e-4) {
+      ++kept;
+      EXPECT_THAT(sentence, HasSubstr("tried: "));
+    }
+  }
+  EXPECT_GT(kept, 2);
+}
+
 TEST(Hints, ATangledMeshThatSlidesHasItsSummary) {
   const Folder folder;
   const Output said = run(

@@ -1,5 +1,6 @@
 // The list of runs: numbers, names, eyes, and a place that stays as high as it is.
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 

@@ -2,11 +2,14 @@
 
 #include "core/run/hints.h"
 
+#include <cmath>
+
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/run/run_task.h"
+#include "core/run/trial.h"
 #include "tests/support/meshes.h"
 #include "tests/support/volume_grids.h"
 
@@ -189,19 +192,82 @@ TEST(HintsAfterARun, WhatGainsInOnePlaceIsNoPromiseForTheMesh) {
     const auto mesh = input(squares({{vertex_at(3, 0), -0.9}, {other, two ? -0.66 : 0.0}}));
     const dmoscope::Run run = run_of(mesh, p, 60);
     const HeldMinimum held = held_of(run);
-    ASSERT_TRUE(held.change && held.whole) << held.sentence();
+    ASSERT_TRUE(held.change) << held.sentence();
     ASSERT_EQ(held.change->command(), "boundary slide");
+    EXPECT_GT(held.changed, held.quality + 0.2);
+    const auto now = run.positions();
+    const auto here = std::make_shared<const std::vector<Vec3>>(now.begin(), now.end());
+    const auto pool = std::make_shared<ThreadPool>(1);
+    Progress progress;
+    HeldMinimum tried = held;
+    tried.trial = try_switch(run, held, {here}, {}, pool, progress);
+    ASSERT_TRUE(tried.trial);
+    EXPECT_DOUBLE_EQ(tried.trial->before, run.statistics().minimum);
+    EXPECT_EQ(tried.trial->after > held.changed - 0.1, !two) << "another element keeps the minimum";
+    EXPECT_TRUE(tried.has_advice());
+    EXPECT_THAT(tried.sentence(true),
+                HasSubstr("--boundary slide would free it (giving up the fixed boundary); tried: " + tried.trial->figures()));
     RunParameters sliding = p;
     sliding.boundary = BoundaryRule::Slide;
-    const double minimum = run_of(mesh, sliding, 60).statistics().minimum;
-    EXPECT_NEAR(*held.whole, minimum, 0.05);
-    EXPECT_GT(held.changed, held.quality + 0.2);
-    const std::string said = held.sentence(true);
-    EXPECT_EQ(said.find("locally") != std::string::npos, two) << said;
-    EXPECT_EQ(said.find("at least (tried on the whole mesh, from here on)") != std::string::npos, !two) << said;
-    if (two) {
-      EXPECT_THAT(said, HasSubstr("but some iterations of the whole mesh leave its minimum at "));
-    }
+    dmoscope::Run followed(mesh, sliding, pool, 0, {}, here);
+    followed.iterate(60, progress);
+    EXPECT_GE(followed.statistics().minimum, tried.trial->after);
+    EXPECT_GE(followed.statistics().minimum, run.statistics().minimum);
+  }
+}
+
+TEST(ATrial, LeavesTheRunAndEndsWhenItIsTold) {
+  const auto mesh = input(squares({{vertex_at(3, 0), -0.9}}));
+  const dmoscope::Run run = run_of(mesh, {}, 60);
+  const HeldMinimum held = held_of(run);
+  ASSERT_TRUE(held.change);
+  const std::vector<Vec3> before(run.positions().begin(), run.positions().end());
+  const auto pool = std::make_shared<ThreadPool>(1);
+  Progress progress;
+  const auto attempt = [&](TrialBudget budget) {
+    return try_switch(run, held, {std::make_shared<const std::vector<Vec3>>(before)}, budget, pool, progress);
+  };
+  const auto whole = attempt({});
+  ASSERT_TRUE(whole && whole->gains());
+  EXPECT_LE(whole->iterations, 20U);
+  TrialBudget budget;
+  budget.iterations = 2;
+  ASSERT_TRUE(attempt(budget));
+  EXPECT_EQ(attempt(budget)->iterations, 2U);
+  EXPECT_LE(attempt(budget)->after, whole->after);
+  budget = {};
+  budget.visits = 3 * run_of(mesh, {.boundary = BoundaryRule::Slide}, 0).visits_per_iteration();
+  EXPECT_EQ(attempt(budget)->iterations, 3U);
+  budget.visits = 10;
+  EXPECT_FALSE(attempt(budget)) << "no room for one iteration";
+  budget = {};
+  budget.go_on = yes(7);
+  EXPECT_FALSE(attempt(budget)) << "given up";
+  budget = {};
+  budget.time_left = yes(7);
+  const auto shorter = attempt(budget);
+  ASSERT_TRUE(shorter) << "what was done by then";
+  EXPECT_LT(shorter->iterations, whole->iterations);
+  budget.time_left = yes(0);
+  EXPECT_FALSE(attempt(budget));
+  EXPECT_EQ(before, std::vector<Vec3>(run.positions().begin(), run.positions().end()));
+  EXPECT_EQ(run.moment(), (Moment{60}));
+}
+
+TEST(ATrial, SaysNoMoreThanItReached) {
+  const auto figures = [](double before, double after) { return SwitchTrial{before, after, 20}.figures(); };
+  EXPECT_EQ(figures(0.80351, 0.80629), "0.8035 -> 0.8062 in 20 iterations");
+  EXPECT_EQ(figures(0.0, 0.99999), "0.000 -> 0.9999 in 20 iterations");
+  EXPECT_EQ(figures(-0.5, -0.12341), "-0.5000 -> -0.1235 in 20 iterations");
+  EXPECT_EQ((SwitchTrial{0.5, 0.50009, 1}.sentence()), "tried in 1 iteration: no gain");
+  EXPECT_EQ((SwitchTrial{0.5, 0.6, 1, 12}.sentence()), "tried from iteration 12 on: 0.5000 -> 0.6000 in 1 iteration");
+  EXPECT_FALSE((SwitchTrial{0.5, 0.6, 20, {}, 0.6}.gains())) << "as much without it";
+  testing::Random random(3);
+  for (int i = 0; i < 1000; ++i) {
+    const double after = random(-1.0, 1.0) * std::pow(10.0, random(-6.0, 0.0));
+    const std::string text = figures(0.0, after);
+    EXPECT_LE(std::stod(text.substr(text.find("-> ") + 3)), after) << text;
+    EXPECT_NEAR(std::stod(text.substr(text.find("-> ") + 3)), after, 2e-3 * std::abs(after)) << text;
   }
 }
 

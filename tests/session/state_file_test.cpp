@@ -329,7 +329,7 @@ TEST_F(StateFile, RefusesWhatCannotHaveBeen) {
   EXPECT_THAT(refused("/runs/0/edits/0/at", Json{2, 0, 1}), HasSubstr("cannot be"));
   EXPECT_THAT(refused("/runs/0/edits/0/vertices", Json{1000000}), HasSubstr("1000000"));
   EXPECT_THAT(refused("/runs/0/positions", "AAAA"), HasSubstr("damaged"));
-  EXPECT_THAT(refused("/version", 4), HasSubstr("version 4"));
+  EXPECT_THAT(refused("/version", 5), HasSubstr("version 5"));
   EXPECT_THAT(refused("/active", 1), HasSubstr("run 1 is active"));
   std::vector<Vec3> moved(session_.input()->mesh.positions);
   for (Vec3& p : moved) p.x += 1.0;

@@ -45,7 +45,7 @@ void tell_card(Notice& notice, const ReportCard& card) {
     if (has_button) continue;  // the mean has its own offer
     offered.push_back(command);
     notice.offers.push_back({fmt::format("notice:keep-{}", offered.size()), "Keep: " + command, command,
-                             "a new run beside this one, which keeps it; Run starts it"});
+                             "a new run beside this one, which keeps it: for that the minimum may rise less; Run starts it"});
   }
 }
 

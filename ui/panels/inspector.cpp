@@ -68,30 +68,32 @@ void draw_mesh(PanelContext& context, const Frame& frame) {
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr Statistics kNotKnownYet{kUnknown, kUnknown, kUnknown, kUnknown};
 
-/// A click does what would free the worst element.
+void empty_lines(const PanelContext& context, int count) {
+  for (int i = 0; i < count; ++i) dim_text(context, " ", false);
+}
+
+/// A click does what would free the worst element. A number stands beside it only once it was tried, and below it what it gives up.
 void draw_switch(PanelContext& context, const RunView& run, const HeldMinimum& held) {
-  const std::string gain = fmt::format("→ {:.2g}", held.changed);
-  const float right = ImGui::GetWindowContentRegionMax().x, room = ImGui::GetContentRegionAvail().x;
-  const float frame = 2 * ImGui::GetStyle().FramePadding.x,
-              gain_width = std::max(ImGui::CalcTextSize(gain.c_str()).x, ImGui::CalcTextSize("→ 0.0000").x);
-  const std::string label = fit_text(fmt::format("{}", fmt::join(held.commands(), ", ")), room - frame - gain_width - context.px(8));
-  const bool begun = run.moment != Moment{} || run.edits > 0 || run.records.size() > 1;
+  const std::string tried =
+      held.trial ? fmt::format("tried: {}", held.trial->figures().substr(0, held.trial->figures().find(" in "))) : std::string(" ");
+  const float room = ImGui::GetContentRegionAvail().x;
   ImGui::BeginDisabled(context.activity.busy || !run.held.now);
-  // As wide whatever it says, so that nothing moves under the hand.
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ImGui::GetStyle().FramePadding.x, 0});
-  if (ImGui::Button(label.c_str(), {room - gain_width - context.px(8), 0}))
-    for (const std::string& command : held.commands()) context.send(command);
+  const std::string label = fit_text(fmt::format("{}", fmt::join(held.commands(), ", ")), room - 2 * ImGui::GetStyle().FramePadding.x);
+  if (ImGui::Button(label.c_str(), {room, 0}))
+    for (const std::string& line : held.advice()) context.send(line);
   ImGui::PopStyleVar();
   ImGui::EndDisabled();
   note_item(context, "held-by:switch",
-            held.sentence() + (begun ? "\nClick: a new run with it, beside this one." : "\nClick: this run gets it."));
-  ImGui::SameLine();
-  ImGui::SetCursorPosX(right - ImGui::CalcTextSize(gain.c_str()).x);
-  dim_text(context, gain, false);
-  next_item_tooltip("the least quality around the worst element, tried out there on a copy of the positions");
+            held.sentence() + "\nClick: goes on with it from the best state that this run reached, until converged; this run is kept.");
+  const std::string given_up = held.gives_up();
+  dim_text(context, tried, false);
+  next_item_tooltip(held.sentence());
+  dim_text(context, given_up.empty() ? " " : "gives up " + given_up);
+  next_item_tooltip(held.sentence());
 }
 
-/// What keeps the minimum from rising, and what would let it: two lines, whatever they say, so that nothing below moves.
+/// What keeps the minimum from rising, and what would let it: four lines, whatever they say, so that nothing below moves.
 void draw_hold(PanelContext& context, const RunView& run) {
   constexpr const char* kAbout = "what keeps the worst element as it is";
   const HeldMinimum* held = run.held.found.get();
@@ -107,24 +109,26 @@ void draw_hold(PanelContext& context, const RunView& run) {
     if (ImGui::SmallButton(kAsk)) context.send("held-by");
     ImGui::EndDisabled();
     note_item(context, "held-by:ask", "looks at the worst element and tries what would free it; of a large mesh that takes some seconds");
-    dim_text(context, " ");
+    empty_lines(context, 3);
     return;
   }
   const auto ink = run.held.now ? std::nullopt : std::optional(context.palette.dim);
   value_row(context, "held by", std::string(held->brief()), held->sentence(), ink, kAbout);
-  if (held->change) {
+  if (held->has_advice()) {
     draw_switch(context, run, *held);
     return;
   }
   const bool shows = run.hold() != nullptr && !run.hold()->active.empty();
   constexpr const char* kWhy = "why?";
   const float button = shows ? ImGui::CalcTextSize(kWhy).x + 2 * ImGui::GetStyle().FramePadding.x + ImGui::GetStyle().ItemSpacing.x : 0.0F;
-  dim_text(context, fit_text(held->outlook(), ImGui::GetContentRegionAvail().x - button), false);
+  const std::string outlook = held->trial ? fmt::format("{}: no gain", fmt::join(held->commands(), ", ")) : held->outlook();
+  dim_text(context, fit_text(outlook, ImGui::GetContentRegionAvail().x - button), false);
   next_item_tooltip(held->sentence());
-  if (!shows) return;
+  if (!shows) return empty_lines(context, 2);
   ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - button + ImGui::GetStyle().ItemSpacing.x);
   if (ImGui::SmallButton(kWhy)) context.send(context.state.holders ? "holders off" : "holders on");
   note_item(context, "held-by:why", "shows the elements that hold one another, their forces and the cluster around them (Alt+O)");
+  empty_lines(context, 2);
 }
 
 /// `run`: whose minimum it is; null: nobody's.

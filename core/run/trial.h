@@ -1,0 +1,37 @@
+#pragma once
+// Trials: what other parameters make of a run's minimum, found out by a short run on a copy.
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "core/inspect/held_minimum.h"
+#include "core/run/run.h"
+
+namespace dmoscope {
+
+/// What a switch does to parameters: the same as its command does.
+void apply_switch(const HoldSwitch& change, RunParameters& parameters);
+
+/// Where a trial begins.
+struct TrialBegin {
+  BeginPositions positions;             // null: where the run itself began
+  std::optional<std::uint64_t> from{};  // see SwitchTrial
+};
+
+/// How long a trial may take.
+struct TrialBudget {
+  std::uint64_t iterations = 20;      // of the phase that is tried
+  std::uint64_t visits = 2'000'000;   // in all; those of volumes count tenfold
+  std::function<bool()> go_on{};      // no: the trial is given up; empty: yes
+  std::function<bool()> time_left{};  // no: it ends with the iterations that it has done; empty: yes
+};
+
+/// Lets a copy of the run go on from there with the switches that `held` names, on the CPU, as `continue-with` would: the run itself does
+/// not move. Where more iterations raise the minimum anyway, `held.rises()`, that is tried as well, and only what switches add to it is a
+/// gain. None where there is no switch, a run cannot be so, or the budget has no room for one iteration, and where it was given up.
+[[nodiscard]] std::optional<SwitchTrial> try_switch(const Run& run, const HeldMinimum& held, const TrialBegin& begin,
+                                                    const TrialBudget& budget, std::shared_ptr<ThreadPool> pool, Progress& progress);
+
+}  // namespace dmoscope

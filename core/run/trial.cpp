@@ -39,7 +39,8 @@ class Trial {
     const bool waits = run_.parameters().then_joint.has_value();
     std::uint64_t in_phase = 0;
     try {
-      while (iterations() < most_ && in_phase < budget_.iterations) {
+      while (in_phase < budget_.iterations) {
+        if (iterations() >= most_) throw OutOfTime();
         check(progress);
         if (run_.step(StepUnit::Iteration, progress) == 0 && !next_phase_comes()) break;
         // Joint moves are tried once they have begun: until then the minimum that the method reaches stands still.
@@ -50,7 +51,7 @@ class Trial {
     }
     return iterations() > 0;
   }
-  /// Has it ended for want of time?
+  /// Has it ended for want of time or visits?
   [[nodiscard]] bool is_cut() const noexcept { return cut_; }
   [[nodiscard]] std::uint64_t iterations() const { return run_.history().records().size() - 1; }
   [[nodiscard]] SwitchTrial result() const {
@@ -112,6 +113,7 @@ std::optional<SwitchTrial> try_switch(const Run& run, const HeldMinimum& held, c
     if (!trial.go(progress) || trial.untangles_less()) return std::nullopt;
     SwitchTrial result = trial.result();
     result.from = begin.from;
+    if (trial.is_cut() && !result.gains()) return std::nullopt;  // it may gain later: joint moves perhaps have not begun
     if (!held.rises() || !result.gains()) return result;
     TrialBudget as_long = budget;
     as_long.iterations = result.iterations;

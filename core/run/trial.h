@@ -30,7 +30,8 @@ struct TrialBudget {
 
 /// Lets a copy of the run go on from there with the switches that `held` names, on the CPU, as `continue-with` would: the run itself does
 /// not move. Where more iterations raise the minimum anyway, `held.rises()`, that is tried as well, and only what switches add to it is a
-/// gain. None where there is no switch, a run cannot be so, or the budget has no room for one iteration, and where it was given up.
+/// gain. None where there is no switch, a run cannot be so, or the budget ends before there is an iteration or a gain, and where it was
+/// given up.
 [[nodiscard]] std::optional<SwitchTrial> try_switch(const Run& run, const HeldMinimum& held, const TrialBegin& begin,
                                                     const TrialBudget& budget, std::shared_ptr<ThreadPool> pool, Progress& progress);
 

@@ -180,6 +180,7 @@ void App::notice_new_input() {
   state_.pick_on_switch = {};
   if (change == MeshChange::Opened || (change == MeshChange::ReadAgain && !meshes_.same_ids())) {
     state_.inside = {};
+    state_.panels.plots_wait = true;
     state_.orbit.look_from(render::ViewPreset::Isometric);
   }
   if (change == MeshChange::Beside) show_beside();
@@ -259,10 +260,7 @@ void App::draw_panels(PanelContext& context) {
   const float menu = draw_menu(context);
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   state_.window_size = {static_cast<int>(screen.x), static_cast<int>(screen.y)};
-  Panels panels = state_.panels;
-  constexpr float kLowWindow = 46.0F;  // with nothing to plot yet, the start page needs the room more
-  if (!session_->input && screen.y < kLowWindow * context.em()) panels.bottom = false;
-  const Layout layout = compute_layout(panels, screen.x, screen.y, context.em(), menu);
+  const Layout layout = compute_layout(state_.panels, screen.x, screen.y, context.em(), menu, session_->input != nullptr);
   update_viewports(context, layout.viewport);
   draw_toolbar(context, layout.toolbar);
   draw_viewports(context, layout.viewport);

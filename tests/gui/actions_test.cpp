@@ -155,7 +155,9 @@ TEST(Theme, RunsHaveColoursOfTheirOwn) {
 TEST(Layout, PanelsCoverTheWindowWithoutOverlap) {
   for (const auto& [width, height, em] :
        {std::tuple{1280.0F, 800.0F, 15.0F}, {800.0F, 600.0F, 15.0F}, {2560.0F, 1600.0F, 30.0F}, {400.0F, 300.0F, 15.0F}}) {
-    const Layout layout = compute_layout({}, width, height, em, 24);
+    Panels panels;
+    panels.plots_wait = false;
+    const Layout layout = compute_layout(panels, width, height, em, 24);
     EXPECT_GE(layout.viewport.w, 0);
     EXPECT_GE(layout.viewport.h, 0);
     const float left = layout.folded ? layout.left_strip.w : layout.left.w, right = layout.folded ? layout.right_strip.w : layout.right.w;
@@ -168,7 +170,11 @@ TEST(Layout, PanelsCoverTheWindowWithoutOverlap) {
   EXPECT_LE(both.left.x + both.left.w, both.right.x);
   EXPECT_TRUE(both.timeline_only);
   EXPECT_GT(both.bottom.h, 0);
-  EXPECT_FALSE(compute_layout({}, 800, 600, 15, 24).timeline_only);
+  Panels begun;
+  begun.plots_wait = false;
+  EXPECT_FALSE(compute_layout(begun, 800, 600, 15, 24).timeline_only);
+  EXPECT_TRUE(compute_layout({}, 800, 600, 15, 24).timeline_only) << "nothing to plot yet";
+  EXPECT_TRUE(compute_layout({}, 800, 600, 15, 24, false).bottom.empty()) << "no mesh";
   EXPECT_FALSE(compute_layout({}, 1280, 800, 15, 24).folded);
   EXPECT_TRUE(compute_layout({}, 800, 600, 15, 24).folded);
   EXPECT_FALSE(compute_layout({}, 2560, 1600, 30, 48).folded);

@@ -45,8 +45,45 @@ TEST(PanelSizes, OfOlderSettingsStayWhereTheyWereChosen) {
   EXPECT_EQ(read.panels.runs_height, 11.0);
 }
 
+TEST(PanelSizes, LeaveHalfOfTheWindowToTheMeshBeforeTheFirstStep) {
+  const auto share = [](const ui::Panels& panels) {
+    const ui::Layout layout = ui::compute_layout(panels, 1280, 800, 15, 24);
+    EXPECT_EQ(layout.bottom.w, layout.viewport.w) << "the sides have the whole height";
+    EXPECT_EQ(layout.left.h, layout.viewport.h + layout.bottom.h);
+    EXPECT_EQ(layout.right.h, layout.left.h);
+    return layout.viewport.w * layout.viewport.h / (1280.0F * 800.0F);
+  };
+  ui::Panels panels;
+  EXPECT_GT(share(panels), 0.53F);
+  panels.plots_wait = false;
+  EXPECT_GT(share(panels), 0.38F);
+}
+
+TEST_F(LayoutWindow, PlotsOpenWithTheFirstStep) {
+  good("generate annulus");
+  EXPECT_FALSE(boxes().contains("plot"));
+  EXPECT_TRUE(boxes().contains("timeline"));
+  good("step vertex");
+  good("move 5 5");
+  EXPECT_TRUE(boxes().contains("plot"));
+  good("click fold:bottom");
+  EXPECT_FALSE(boxes().contains("plot"));
+  good("step iteration");
+  EXPECT_FALSE(boxes().contains("plot")) << "closed by hand";
+  good("generate block");
+  EXPECT_FALSE(boxes().contains("plot"));
+  good("click fold:bottom");
+  EXPECT_TRUE(boxes().contains("plot"));
+  good("generate annulus");
+  EXPECT_FALSE(boxes().contains("plot"));
+  good("plot histogram");
+  good("move 5 5");
+  EXPECT_TRUE(boxes().contains("plot")) << "of the input there are qualities";
+}
+
 TEST_F(LayoutWindow, EdgesAreDraggedAndADoubleClickGivesTheUsualSize) {
   good("generate annulus");
+  good("step iteration");
   const double before = state().panels.left_width;
   const float width = box("viewport")[2] - box("viewport")[0];
   drag("splitter:left", 60, 0);
@@ -86,6 +123,7 @@ TEST_F(LayoutWindow, AWidthThatWasDraggedIsACommandOfTheLog) {
 
 TEST_F(LayoutWindow, TabsFoldThePanels) {
   good("generate annulus");
+  good("step iteration");
   const Box before = box("viewport");
   for (const char* panel : {"left", "right", "bottom"}) {
     good(fmt::format("click fold:{}", panel));
@@ -122,6 +160,7 @@ TEST_F(LayoutWindow, AClickOnPlusMovesNoControl) {
 
 TEST_F(LayoutWindow, ButtonsBesideOneWhoseLabelChangesStay) {
   good("generate annulus");
+  good("panel bottom on");
   const Box fit = box("fit"), forward = box("timeline-forward"), shown = box("toolbar-shown");
   good("wireframe toggle");
   good("run 3");

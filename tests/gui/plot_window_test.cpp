@@ -144,6 +144,7 @@ TEST_F(PlotWindow, AxesAreChosenAndKeptByTab) {
 }
 
 TEST_F(PlotWindow, ARightClickOffersWhatCanBeChosen) {
+  open(1600, 900);
   good("generate annulus");
   good("run 8");
   const ui::PlotOptions& options = window_->app().state().plot_options;
@@ -166,7 +167,9 @@ TEST_F(PlotWindow, ARightClickOffersWhatCanBeChosen) {
 }
 
 TEST_F(PlotWindow, TheDialogSavesWhereItSays) {
+  open(1600, 900);
   good("generate annulus");
+  good("panel bottom on");
   const fs::path svg = file("dialog.svg");
   good("click plot-save");
   ASSERT_EQ(window_->app().state().dialog, ui::Dialog::Plot);
@@ -183,9 +186,10 @@ TEST_F(PlotWindow, ControlsStayInTheWindowWhateverItsSizeAndScale) {
     good(std::string("size ") + size);
     good(std::string("scale ") + scale);
     good("generate annulus");
+    good("panel bottom on");
     for (const char* tab : {"convergence", "histogram", "sorted"}) {
       good(std::string("plot ") + tab);
-      const float width = std::stof(size);
+      const float width = box("viewport")[2];
       const bool roomy = window_->app().items().boxes().contains("plot-copy");
       const auto& last = box(roomy ? "plot-save" : "plot-more");
       EXPECT_LE(last[2], width) << size << " " << tab;

@@ -105,6 +105,7 @@ TEST_F(RunTable, TheInputStandsAboveTheRuns) {
 }
 
 TEST_F(RunTable, HasColumnsOfSizesWhereARunHasASizeFunction) {
+  good("size 1920 1080");  // so that all columns are in view
   EXPECT_TRUE(window_->run("click run-table:size_correlation").has_value());
   good("select-run 1");
   good("combine mean-ratio:0.3:density h1:0,0");

@@ -104,7 +104,9 @@ void add_panel_commands(CommandTable& table, ViewState& state) {
     static constexpr std::array<std::pair<std::string_view, bool Panels::*>, 3> names{
         {{"left", &Panels::left}, {"right", &Panels::right}, {"bottom", &Panels::bottom}}};
     bool Panels::*panel = choose(words[0], names);
-    state.panels.*panel = switched(words, 1, state.panels.*panel);
+    const bool is_open = panel == &Panels::bottom ? state.panels.plots() : state.panels.*panel;
+    state.panels.*panel = switched(words, 1, is_open);
+    if (panel == &Panels::bottom) state.panels.plots_wait = false;
   });
   table.add({"dialog", "dialog NAME|none",
              "opens or closes a dialog; open-beside, open-surface: that of open, for a mesh beside those that are open, or to slide on"},

@@ -74,8 +74,9 @@ void empty_lines(const PanelContext& context, int count) {
 
 /// A click does what would free the worst element. A number stands beside it only once it was tried, and below it what it gives up.
 void draw_switch(PanelContext& context, const RunView& run, const HeldMinimum& held) {
-  const std::string tried =
-      held.trial ? fmt::format("tried: {}", held.trial->figures().substr(0, held.trial->figures().find(" in "))) : std::string(" ");
+  std::string tried = held.trial ? "tried: " + held.trial->figures() : " ";
+  tried = tried.substr(0, tried.find(" in "));
+  if (const std::size_t arrow = tried.find("->"); arrow != std::string::npos) tried.replace(arrow, 2, "→");
   const float room = ImGui::GetContentRegionAvail().x;
   ImGui::BeginDisabled(context.activity.busy || !run.held.now);
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ImGui::GetStyle().FramePadding.x, 0});

@@ -146,7 +146,7 @@ void draw_run_table(PanelContext& context) {
                             title                    ? widest + 2 * context.em()
                             : shown.column == kMesh  ? std::max(4 * context.em(), widest_mesh + context.em())
                             : shown.column == kSizes ? 7.5F * context.em()
-                                                     : 6 * context.em());
+                                                     : std::max(4.5F * context.em(), ImGui::CalcTextSize(shown.title).x + context.em()));
   }
   ImGui::TableSetupScrollFreeze(1, 1);
   draw_head(context, columns);

@@ -30,16 +30,14 @@ void begin_edge(const char* name, const Rect& rect) {
 struct FoldingPanel {
   const char* name;  // "left"
   const char* action;
-  bool Panels::*open;
   Icon to_fold, to_open;
 };
-constexpr std::array<FoldingPanel, 3> kFolding{{{"left", "panel-left", &Panels::left, Icon::ChevronLeft, Icon::ChevronRight},
-                                                {"right", "panel-right", &Panels::right, Icon::ChevronRight, Icon::ChevronLeft},
-                                                {"bottom", "panel-bottom", &Panels::bottom, Icon::ChevronDown, Icon::ChevronUp}}};
+constexpr std::array<FoldingPanel, 3> kFolding{{{"left", "panel-left", Icon::ChevronLeft, Icon::ChevronRight},
+                                                {"right", "panel-right", Icon::ChevronRight, Icon::ChevronLeft},
+                                                {"bottom", "panel-bottom", Icon::ChevronDown, Icon::ChevronUp}}};
 
 /// A tab over the mesh, in the middle of the panel's edge.
-void fold_tab(PanelContext& context, const FoldingPanel& panel, const Rect& rect) {
-  const bool open = context.state.panels.*panel.open;
+void fold_tab(PanelContext& context, const FoldingPanel& panel, bool open, const Rect& rect) {
   begin_edge(fmt::format("{} tab", panel.name).c_str(), rect);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled({rect.x, rect.y}, {rect.x + rect.w, rect.y + rect.h}, colour(context.palette.panel, 0.9F), context.px(4));
@@ -105,18 +103,19 @@ void draw_splitters(PanelContext& context, const Layout& layout) {
     splitter(context,
              {"bottom", {layout.bottom.x, layout.bottom.y - grip / 2, layout.bottom.w, grip}, false, -1, &Panels::bottom_height, 9, 40});
 
+  const Panels& panels = context.state.panels;
   const float along = context.px(44), across = context.px(13);
   const Rect& mesh = layout.viewport;
   if (mesh.w < 2 * along || mesh.h < 2 * along) return;
   const float middle = std::round(mesh.y + mesh.h / 2 - along / 2);
   if (!layout.folded) {
-    fold_tab(context, kFolding[0], {mesh.x, middle, across, along});
-    fold_tab(context, kFolding[1], {mesh.x + mesh.w - across, middle, across, along});
+    fold_tab(context, kFolding[0], panels.left, {mesh.x, middle, across, along});
+    fold_tab(context, kFolding[1], panels.right, {mesh.x + mesh.w - across, middle, across, along});
   }
-  const float share = mesh.w < context.em() * 62 ? 0.66F : 0.5F;                       // in a narrow one the colour bar reaches the middle
-  const bool bottom_as_wished = context.state.panels.bottom != layout.bottom.empty();  // else there is no room for it
-  if (bottom_as_wished)
-    fold_tab(context, kFolding[2], {std::round(mesh.x + mesh.w * share - along / 2), mesh.y + mesh.h - across, along, across});
+  const float share = mesh.w < context.em() * 62 ? 0.66F : 0.5F;  // in a narrow one the colour bar reaches the middle
+  const bool has_plots = !layout.bottom.empty() && !layout.timeline_only;
+  if (!layout.bottom.empty() && panels.plots() == has_plots)  // else there is no room for them
+    fold_tab(context, kFolding[2], has_plots, {std::round(mesh.x + mesh.w * share - along / 2), mesh.y + mesh.h - across, along, across});
 }
 
 }  // namespace dmoscope::ui

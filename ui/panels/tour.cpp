@@ -81,7 +81,7 @@ void draw_offer(PanelContext& context, const Rect& within) {
                             "A tour of two minutes: open a mesh, make a step, look inside it, compare and export. It is in the menu Help, "
                             "too.",
                             within);
-  const float x = within.x + (within.w - card.width) / 2, y = within.y + (within.h - card.height) / 2;
+  const float x = within.x + (within.w - card.width) / 2, y = within.y + within.h - context.px(12) - card.height;
   begin_card(context, card, {std::round(x), std::round(y), card.width, card.height});
   card_button(context, "tour:take", "Take the tour", "tour on", "", true);
   ImGui::SameLine();
@@ -95,9 +95,7 @@ void draw_tour(PanelContext& context, const Layout& layout) {
   const Tour& tour = context.state.tour;
   const bool empty = context.session.input == nullptr;
   if (!tour.on && !(tour.offer && empty && !context.activity.busy)) return;
-  // With nothing to plot yet, the plots' place is free, and the start page needs its own.
-  const bool below = empty && !layout.bottom.empty() && !layout.timeline_only;
-  const Rect& within = below ? layout.bottom : layout.viewport;
+  const Rect& within = layout.viewport;
   if (!tour.on) return draw_offer(context, within);
   const TourStep& step = tour.now();
   std::optional<Items::Box> control;

@@ -71,6 +71,9 @@ void ViewState::follow(const SessionView& session) {
   const bool gone = (reference.kind == Kind::Run && std::ranges::find(panes.run_ids, reference.run) == panes.run_ids.end()) ||
                     (reference.kind == Kind::MarkA && !timeline.a.frame) || (reference.kind == Kind::MarkB && !timeline.b.frame);
   if (gone) reference = {Kind::Input, 0, std::nullopt};
+  const auto has_begun = [](const RunView& run) { return run.records.size() > 1 || run.moment != Moment{}; };
+  const bool shows_input = plot == PlotTab::Histogram || plot == PlotTab::Sorted;
+  if (shows_input || std::ranges::any_of(session.runs, has_begun)) panels.plots_wait = false;
   if (const auto changed = run_names.follow(session); !changed.empty())
     for (PlotView& view : plots) rename_runs(view, changed);
 }

@@ -79,8 +79,10 @@ struct WindowPlace {
 struct Panels {
   bool left = true;                            // runs and parameters
   bool right = true;                           // inspector and worst elements
-  bool bottom = true;                          // plots and timeline
+  bool bottom = true;                          // plots; the timeline below them is always there
+  bool plots_wait = true;                      // for the first step of a mesh, or for a plot that needs none; then they open
   bool left_over = false, right_over = false;  // opened over the mesh where the window is too small for both
+  [[nodiscard]] bool plots() const noexcept { return bottom && !plots_wait; }
   // In heights of the interface's font. Together the sides leave two thirds of 1280 pixels to the mesh.
   double left_width = 14.0, right_width = 15.6, bottom_height = 15.0;
   double runs_height = 6.2;  // of the list of runs in the left panel

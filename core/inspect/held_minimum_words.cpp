@@ -127,7 +127,7 @@ std::string_view HeldMinimum::brief() const noexcept {
 
 std::string HeldMinimum::outlook() const {
   if (change) return {};
-  if (rises()) return "more iterations raise it";
+  if (rises()) return "it still rises";
   if (certified() && is_fixed(by)) return fmt::format("no joint move gains, either: {} hold it", holders(*joint).size());
   if (certified())
     return fmt::format("certified: {}",

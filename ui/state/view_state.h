@@ -137,7 +137,7 @@ struct ViewState {
   bool features = false;                                 // curves along which vertices slide, and what holds them
   std::optional<std::array<Index, 2>> edge_under_mouse;  // in the inspector or a menu, to be seen in the mesh
   bool holders = false;   // what holds the minimum: elements that hold one another, their forces, and the cluster
-  bool shading = false;   // volumes' faces by a light, too: it changes what colours tell
+  bool shading = true;    // volumes' faces by a light, too: it changes what colours tell
   bool occlusion = true;  // volumes are darker in their corners and along their edges
   render::ColourMap colour_map = render::ColourMap::Beacon;
   RangeMode range_mode = RangeMode::Input;

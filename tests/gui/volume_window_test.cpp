@@ -74,6 +74,19 @@ TEST_F(VolumeWindow, ADragTurnsItAndAClickPicks) {
   EXPECT_NE(state().picked.kind, ui::Picked::Kind::None);
 }
 
+TEST_F(VolumeWindow, ARightDragPansAndOpensNoMenu) {
+  const render::OrbitCamera before = state().orbit;
+  const auto items = window_->app().items().boxes().size();
+  good("right-drag 600 300 660 320");
+  EXPECT_EQ(state().orbit.right, before.right);
+  EXPECT_NE(state().orbit.centre, before.centre);
+  good("move 600 300");
+  EXPECT_EQ(window_->app().items().boxes().size(), items) << "no menu has come";
+  good("right-click 600 300");
+  good("move 600 300");
+  EXPECT_GT(window_->app().items().boxes().size(), items) << "a click without a drag opens it";
+}
+
 /// Within its viewport, and as large as title and colour bar let it be.
 TEST_F(VolumeWindow, AFitFillsViewportsOfEveryShape) {
   const double em = 15.0;

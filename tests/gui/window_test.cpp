@@ -130,6 +130,8 @@ TEST_F(Window, ADragMovesThePictureAndPicksNothing) {
   good("drag 500 300 600 340");
   EXPECT_NEAR((before.centre.x - state().camera.centre.x) / before.units_per_pixel, 100, 1.0);
   EXPECT_NEAR((state().camera.centre.y - before.centre.y) / before.units_per_pixel, 40, 1.0);
+  good("right-drag 600 340 500 300");
+  EXPECT_NEAR((before.centre.x - state().camera.centre.x) / before.units_per_pixel, 0, 1.0);
   EXPECT_EQ(state().picked, (Picked{Picked::Kind::Vertex, 5}));
 }
 

@@ -27,6 +27,18 @@ void push_click(ViewState& state, std::pair<float, float> at, int button) {
   input.push_back({InputKind::Release, at.first, at.second, button, {}, {}});
 }
 
+void push_drag(ViewState& state, Arguments words, int button) {
+  const float x0 = pixel(words[0]), y0 = pixel(words[1]), x1 = pixel(words[2]), y1 = pixel(words[3]);
+  auto& input = state.requests.input;
+  for (int k = 0; k < 2; ++k) input.push_back({InputKind::Move, x0, y0, 0, {}, {}});
+  input.push_back({InputKind::Press, x0, y0, button, {}, {}});
+  for (int k = 1; k <= 4; ++k) {
+    const float t = static_cast<float>(k) / 4;
+    input.push_back({InputKind::Move, x0 + t * (x1 - x0), y0 + t * (y1 - y0), 0, {}, {}});
+  }
+  input.push_back({InputKind::Release, x1, y1, button, {}, {}});
+}
+
 }  // namespace
 
 void add_input_commands(CommandTable& table, ViewState& state, const CommandHost& host) {
@@ -52,17 +64,10 @@ void add_input_commands(CommandTable& table, ViewState& state, const CommandHost
     const auto point = parse_point(host, words, at);
     for (int k = 0; k < 2; ++k) state.requests.input.push_back({InputKind::Move, point.first, point.second, 0, {}, {}});
   });
-  table.add({"drag", "drag X0 Y0 X1 Y1", "the mouse with the left button held"}, {4, 4}, [&state](Arguments words) {
-    const float x0 = pixel(words[0]), y0 = pixel(words[1]), x1 = pixel(words[2]), y1 = pixel(words[3]);
-    auto& input = state.requests.input;
-    for (int k = 0; k < 2; ++k) input.push_back({InputKind::Move, x0, y0, 0, {}, {}});
-    input.push_back({InputKind::Press, x0, y0, 0, {}, {}});
-    for (int k = 1; k <= 4; ++k) {
-      const float t = static_cast<float>(k) / 4;
-      input.push_back({InputKind::Move, x0 + t * (x1 - x0), y0 + t * (y1 - y0), 0, {}, {}});
-    }
-    input.push_back({InputKind::Release, x1, y1, 0, {}, {}});
-  });
+  table.add({"drag", "drag X0 Y0 X1 Y1", "the mouse with the left button held"}, {4, 4},
+            [&state](Arguments words) { push_drag(state, words, 0); });
+  table.add({"right-drag", "right-drag X0 Y0 X1 Y1", "the mouse with the right button held"}, {4, 4},
+            [&state](Arguments words) { push_drag(state, words, 1); });
   table.add({"wheel", "wheel X Y AMOUNT", "the mouse's wheel, up is positive"}, {3, 3}, [&state](Arguments words) {
     const float x = pixel(words[0]), y = pixel(words[1]);
     state.requests.input.push_back({InputKind::Move, x, y, 0, {}, {}});

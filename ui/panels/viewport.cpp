@@ -307,7 +307,7 @@ void open_menu(PanelContext& context, const PaneFacts& pane, Vec2<double> at) {
   ImGui::OpenPopup("viewport menu");
 }
 
-/// A drag of a volume mesh: it turns, with the middle button or Shift it moves.
+/// A drag of a volume mesh: it turns, with another button than the left one or Shift it moves.
 void drag_volume(ViewState& state, Vec2<double> at, Vec2<double> move, bool moves) {
   if (moves) {
     state.orbit.pan(move, state.viewport);
@@ -329,11 +329,11 @@ void handle_volume_mouse(PanelContext& context, const PaneFacts& pane) {
     context.widgets.moved_at = context.now;
   }
   if (ImGui::IsItemActivated()) context.widgets.dragged = false;
-  for (const int button : {ImGuiMouseButton_Left, ImGuiMouseButton_Middle}) {
+  for (const int button : {ImGuiMouseButton_Left, ImGuiMouseButton_Middle, ImGuiMouseButton_Right}) {
     if (!ImGui::IsItemActive() || !ImGui::IsMouseDragging(button, context.widgets.dragged ? 0.0F : context.px(4))) continue;
     const ImVec2 move = context.widgets.dragged ? io.MouseDelta : ImGui::GetMouseDragDelta(button, 0.0F);
     context.widgets.dragged = true;
-    drag_volume(state, at, {static_cast<double>(move.x), static_cast<double>(move.y)}, button == ImGuiMouseButton_Middle || io.KeyShift);
+    drag_volume(state, at, {static_cast<double>(move.x), static_cast<double>(move.y)}, button != ImGuiMouseButton_Left || io.KeyShift);
     if (move.x != 0 || move.y != 0) context.widgets.moved_at = context.now;
   }
   if (hovered && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
@@ -342,7 +342,7 @@ void handle_volume_mouse(PanelContext& context, const PaneFacts& pane) {
   } else if (hovered && ImGui::IsMouseReleased(ImGuiMouseButton_Left) && ImGui::IsItemDeactivated() && !context.widgets.dragged) {
     pick_at(context, pane, at);
   }
-  if (hovered && ImGui::IsMouseReleased(ImGuiMouseButton_Right)) open_menu(context, pane, at);
+  if (hovered && ImGui::IsMouseReleased(ImGuiMouseButton_Right) && !context.widgets.dragged) open_menu(context, pane, at);
 }
 
 void handle_mouse(PanelContext& context, const PaneFacts& pane) {
@@ -358,7 +358,7 @@ void handle_mouse(PanelContext& context, const PaneFacts& pane) {
   }
   if (ImGui::IsItemActivated()) context.widgets.dragged = false;
   const bool painting = handle_brush(context, pane, at);
-  for (const int button : {ImGuiMouseButton_Left, ImGuiMouseButton_Middle}) {
+  for (const int button : {ImGuiMouseButton_Left, ImGuiMouseButton_Middle, ImGuiMouseButton_Right}) {
     if (painting && button == ImGuiMouseButton_Left) continue;
     if (!ImGui::IsItemActive() || !ImGui::IsMouseDragging(button, context.widgets.dragged ? 0.0F : context.px(4))) continue;
     // The first drag event carries the way from the press on, so that the grabbed point stays under the cursor.
@@ -375,9 +375,7 @@ void handle_mouse(PanelContext& context, const PaneFacts& pane) {
   } else if (hovered && ImGui::IsMouseReleased(ImGuiMouseButton_Left) && ImGui::IsItemDeactivated() && !context.widgets.dragged) {
     pick_at(context, pane, at);
   }
-  if (hovered && ImGui::IsMouseReleased(ImGuiMouseButton_Right)) {
-    open_menu(context, pane, at);
-  }
+  if (hovered && ImGui::IsMouseReleased(ImGuiMouseButton_Right) && !context.widgets.dragged) open_menu(context, pane, at);
 }
 
 /// The handle between two viewports that lie over each other.

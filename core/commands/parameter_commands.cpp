@@ -90,7 +90,7 @@ std::span<const CommandRow> parameter_commands() {
   static const std::vector<CommandRow> table = [] {
     std::vector<CommandRow> rows{
         {{"metric", "metric NAME", "Chooses the metric that is optimised."}, {1, 1, set_metric}},
-        {{"show", "show NAME|next", "Chooses the metric that is shown, or the next one; also while a run goes."},
+        {{"show", "show NAME|next", "Chooses the metric that is shown, or the next one whose values differ; also while a run goes."},
          {1, 1, show_metric, true, CommandReach::Look}},
         {{"method", "method NAME", "Chooses the smoothing method."}, {1, 1, set_method}},
     };

@@ -75,8 +75,7 @@ TEST_F(Window, ASampleOpensFromTheStartPage) {
 TEST_F(Window, TheShownMetricChangesWithoutLoadingAgain) {
   good("generate annulus");
   const auto before = session();
-  good("key M");  // mean-ratio-area: the same values for triangles
-  good("key M");
+  good("key M");  // not the mean ratio by area, which has the same values for triangles
   const auto after = session();
   EXPECT_NE(before->shown, after->shown);
   EXPECT_EQ(before->input, after->input);

@@ -22,7 +22,7 @@ enum class Hints : std::uint8_t { On, Full, Off };
   return hints == Hints::On ? HintBudget::of_run(run_seconds) : HintBudget();
 }
 
-/// The same with a trial of what would free the minimum, from now on: a fifth of the run's time in all.
+/// Time budget, from now on, for hints together with a trial of what would free the minimum: a fifth of the run's time.
 [[nodiscard]] inline HintBudget trial_budget_of(Hints hints, double run_seconds) {
   constexpr double kLeast = 0.1;  // seconds, which nobody notices
   return hints == Hints::On ? HintBudget(std::max(kLeast, 0.2 * run_seconds)) : HintBudget();

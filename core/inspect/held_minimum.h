@@ -69,11 +69,11 @@ struct HoldSwitch {
   [[nodiscard]] std::string command() const { return name + ' ' + value + (beside.empty() ? "" : ' ' + beside); }
   /// On the command line: "--boundary slide".
   [[nodiscard]] std::string option() const;
-  /// What of the mesh may change that stayed until now: "the fixed boundary". Empty: nothing.
+  /// Names the part of the mesh that the switch lets change: "the fixed boundary". Empty: none.
   [[nodiscard]] std::string gives_up() const;
 };
 
-/// What came of a switch on a copy of the whole mesh.
+/// Result of a short run with a switch, on a copy of the whole mesh.
 struct SwitchTrial {
   double before = 0.0, after = 0.0;     // the minimum: where it began, and at its best
   std::uint64_t iterations = 0;         // that it took
@@ -111,7 +111,7 @@ struct HeldMinimum {
   [[nodiscard]] std::vector<std::string> commands() const;
   /// On the command line: "--feature-angle 60 --max-deviation 0.01".
   [[nodiscard]] std::string options() const;
-  /// What the switches give up together, see there.
+  /// Names all parts of the mesh that its switches let change; empty: none.
   [[nodiscard]] std::string gives_up() const;
   /// Is there a switch that is not known to be in vain on the whole mesh?
   [[nodiscard]] bool has_advice() const noexcept { return change && (!trial || trial->gains()); }

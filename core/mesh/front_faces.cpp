@@ -69,7 +69,7 @@ class Finder {
     return none;
   }
 
-  /// Of ways_of() those, bit by bit, whose two faces are on the boundary.
+  /// Bits of those of ways_of() whose two faces are both on the boundary.
   [[nodiscard]] std::uint8_t possible_ways(Index e) const {
     const ElementKind kind = mesh_.elements.kind(e);
     const auto local = faces_of(kind);

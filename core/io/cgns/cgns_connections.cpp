@@ -92,7 +92,7 @@ class ConnectionReader {
     return to;
   }
 
-  /// Of structured zones.
+  /// Pairs the points of two structured zones, by ranges and a transform.
   void block(const CgnsNode& node) {
     const CgnsZone& other = donor(node);
     const IndexBlock own = range(node, "PointRange", zone_), across = range(node, "PointRangeDonor", other);
@@ -115,7 +115,7 @@ class ConnectionReader {
     }
   }
 
-  /// Of zones whose points are in no blocks: lists of points that are in the same order. Lists of faces do not say which point is which.
+  /// Pairs the points of two unstructured zones, by two lists in the same order. Lists of faces pair nothing: they name no points.
   void list(const CgnsNode& node) {
     const auto type = tree_.child(node, "GridConnectivityType_t");
     const auto location = tree_.child(node, "GridLocation_t");

@@ -123,6 +123,11 @@ Output run(std::vector<std::string> arguments) {
   return run(call);
 }
 
+bool cannot_draw(const Output& output) {
+  const bool without_egl = output.code == 3 && output.err.find("EGL") != std::string::npos;
+  return without_egl || output.err.find("without OpenGL") != std::string::npos;
+}
+
 nlohmann::json json_of(const Output& output) {
   nlohmann::json object = nlohmann::json::parse(output.out, nullptr, false);
   EXPECT_TRUE(object.is_object()) << "not one JSON object:\n" << output.out << output.err;

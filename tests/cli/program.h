@@ -31,6 +31,9 @@ struct Call {
 Output run(const Call& call);
 Output run(std::vector<std::string> arguments);
 
+/// True when the program says that it cannot draw: built without OpenGL, or on a machine without EGL.
+bool cannot_draw(const Output& output);
+
 /// Standard output as JSON; fails the test (and returns null) when it is not exactly one object.
 nlohmann::json json_of(const Output& output);
 

@@ -31,8 +31,7 @@ TEST(Render, LooksInsideAVolume) {
     std::vector<std::string> arguments{"render", mesh, "-o", picture, "--size", "160x120"};
     arguments.insert(arguments.end(), looks[i].begin(), looks[i].end());
     const Output output = run(arguments);
-    if (output.code == 3 && output.err.find("EGL") != std::string::npos) GTEST_SKIP() << output.err;
-    if (output.err.find("without OpenGL") != std::string::npos) GTEST_SKIP() << output.err;
+    if (cannot_draw(output)) GTEST_SKIP() << output.err;
     ASSERT_EQ(output.code, 0) << output.err;
     pictures.insert(read_file(picture));
   }
@@ -54,8 +53,7 @@ TEST(Render, ShowsAPartLargerInThePlaneAndInSpace) {
       std::vector<std::string> arguments{"render", mesh, "-o", picture, "--size", "160x120"};
       arguments.insert(arguments.end(), look.begin(), look.end());
       const Output output = run(arguments);
-      if (output.code == 3 && output.err.find("EGL") != std::string::npos) GTEST_SKIP() << output.err;
-      if (output.err.find("without OpenGL") != std::string::npos) GTEST_SKIP() << output.err;
+      if (cannot_draw(output)) GTEST_SKIP() << output.err;
       ASSERT_EQ(output.code, 0) << output.err;
       pictures.insert(read_file(picture));
       if (look.empty()) plain = read_file(picture);
@@ -76,8 +74,7 @@ TEST(Render, TakesEveryWordOfTheWindowsRanges) {
     std::vector<std::string> arguments{"render", mesh, "-o", picture, "--size", "160x120"};
     if (!range.empty()) arguments.insert(arguments.end(), {"--range", range});
     const Output output = run(arguments);
-    if (output.code == 3 && output.err.find("EGL") != std::string::npos) GTEST_SKIP() << output.err;
-    if (output.err.find("without OpenGL") != std::string::npos) GTEST_SKIP() << output.err;
+    if (cannot_draw(output)) GTEST_SKIP() << output.err;
     ASSERT_EQ(output.code, 0) << range << output.err;
     pictures[range] = read_file(picture);
   }

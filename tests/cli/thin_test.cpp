@@ -378,7 +378,9 @@ TEST(ThinOnTheCommandLine, OnAnotherSurfaceItsCellsCount) {
 TEST(ThinOnTheCommandLine, PicturesAreOfTheFront) {
   const Folder folder;
   const std::string solid = folder.file("solid.vtk", solid_vtk(mixed_sheet(), as_it_is, behind_by(0.1)));
-  EXPECT_EQ(run({"render", solid, "-o", folder / "a.png", "--size", "200x150"}).code, 0);
+  const Output front = run({"render", solid, "-o", folder / "a.png", "--size", "200x150"});
+  if (cannot_draw(front)) GTEST_SKIP() << front.err;
+  EXPECT_EQ(front.code, 0) << front.err;
   EXPECT_EQ(run({"render", solid, "-o", folder / "b.png", "--size", "200x150", "--thin", "off"}).code, 0);
   EXPECT_NE(read_file(folder / "a.png"), read_file(folder / "b.png"));
 }

@@ -14,6 +14,7 @@
 #include "ui/commands/tour_commands.h"
 #include "ui/commands/view_to_commands.h"
 #include "ui/plots/plot_save.h"
+#include "ui/state/home_of_item.h"
 #include "ui/state/situation.h"
 #include "ui/state/view_geometry.h"
 #include "ui/toolkit/tooltips.h"
@@ -73,6 +74,18 @@ void App::execute(std::string_view line) {
   }
   state_.commands.end(look());
   if (!is_session_command(line) && record_of(line.substr(0, line.find(' '))) == Record::Action) state_.result.succeeded();
+}
+
+bool App::bring_to_sight(std::string_view line) {
+  const std::size_t space = line.find(' ');
+  const std::string_view word = line.substr(0, space);
+  if (space == std::string_view::npos || (word != "click" && word != "double-click" && word != "right-click" && word != "move"))
+    return false;
+  const std::string_view item = line.substr(line.find_first_not_of(' ', space));
+  if (item.find(' ') != std::string_view::npos || items_.boxes().contains(item)) return false;
+  open_home_of(item, state_.panels);
+  items_.scroll_to(item);
+  return true;
 }
 
 void App::submit(std::string_view line) {
@@ -174,6 +187,7 @@ void App::notice_new_input() {
     state_.colouring.isolated.reset();  // a category of another mesh would leave nothing of this one
     if (!stays && frame != nullptr && tells_nothing(state_.colouring.by, *frame)) state_.colouring.by = ColourBy::Quality;
     state_.inspection.open = state_.inspection.playing = false;
+    if (state_.picked.kind == Picked::Kind::None) state_.panels.leave_selection();
   }
   if (state_.colouring.by == ColourBy::Group && frame != nullptr && frame->input->mesh.groups.empty())
     state_.colouring.by = ColourBy::Quality;
@@ -230,53 +244,29 @@ void App::update_viewports(PanelContext& context, const Rect& rect) {
   context.panes = viewports_.facts();
 }
 
-void App::draw_side(PanelContext& context, const char* name, const Rect& rect, bool overlay, bool left) {
-  if (rect.empty()) return;
-  // It comes to the front when it opens, and stays there, as the panels below never do. To focus it in every frame would take clicks and
-  // dialogs away from everything else.
-  if (overlay) ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0F);
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {context.px(9), context.px(8)});  // these are narrow
-  begin_panel(name, rect, overlay, true);
-  ImGui::PopStyleVar(overlay ? 2 : 1);
-  if (left) {
-    draw_runs(context);
-    draw_groups(context);
-    ImGui::Dummy({0, context.px(4)});
-    draw_parameters(context);
-    draw_colours(context);
-  } else {
-    // Of a surface little is inside: what it is comes first.
-    const bool surface = context.frame() != nullptr && context.frame()->input->is_surface();
-    if (!surface) draw_clipping(context);
-    if (state_.inspection.open) draw_inspection(context);
-    draw_inspector(context);
-    if (surface) draw_clipping(context);
-    draw_worst(context);
-  }
-  end_panel();
-}
-
 void App::draw_panels(PanelContext& context) {
-  const float menu = draw_menu(context);
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   state_.window_size = {static_cast<int>(screen.x), static_cast<int>(screen.y)};
-  const Layout layout = compute_layout(state_.panels, screen.x, screen.y, context.em(), menu, session_->input != nullptr);
+  const Layout layout = compute_layout(state_.panels, screen.x, screen.y, header_size(context), session_->input != nullptr);
+  draw_menu(context, layout.menu);
   update_viewports(context, layout.viewport);
   draw_toolbar(context, layout.toolbar);
   draw_viewports(context, layout.viewport);
   draw_notice(context, uncovered(layout));
   if (!layout.folded) {
-    draw_side(context, "left", layout.left, false, true);
-    draw_side(context, "right", layout.right, false, false);
+    draw_column(context, Side::Left, layout.left, false);
+    draw_column(context, Side::Right, layout.right, false);
   }
-  draw_plots(context, layout.bottom, layout.timeline_only);
+  draw_plots(context, layout.bottom);
   draw_strips(context, layout);
   draw_splitters(context, layout);
   if (layout.folded) {
-    draw_side(context, "left over", layout.left, true, true);
-    draw_side(context, "right over", layout.right, true, false);
+    draw_column(context, Side::Left, layout.left, true);
+    draw_column(context, Side::Right, layout.right, true);
   }
+  draw_timeline(context, layout.timeline);
   draw_status(context, layout.status);
+  draw_message(context, layout.viewport);
   draw_tour(context, layout);
   draw_dialogs(context);
 }
@@ -302,8 +292,11 @@ void App::draw(double now) {
     if (listener_) listener_(message);
     add_message(state_, std::move(message));
   }
+  const std::size_t tour_step = state_.tour.step;
   state_.tour.follow(tour_facts(*session_, state_, busy));
+  if (state_.tour.on && state_.tour.step != tour_step) open_home_of(state_.tour.now().items[0], state_.panels);
   if (const int direction = std::exchange(focus_moves_, 0); direction != 0) items_.move_focus(direction);
+  if (ImGui::IsKeyPressed(key::kEscape, false)) Items::end_focus();
   items_.begin_frame();
   PanelContext context{
       state_,

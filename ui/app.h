@@ -63,6 +63,8 @@ class App {
   void execute(std::string_view line);
   /// The same; errors become messages.
   void submit(std::string_view line);
+  /// Opens the tab or fold of the control that a line of a script clicks, and scrolls to it; true: a frame is to be drawn before the line.
+  bool bring_to_sight(std::string_view line);
   /// A line of a person: where it would give up what is in no file, the question is put instead.
   void submit_by_person(std::string_view line);
   /// What is saved by itself goes along with the view as it is now.
@@ -125,7 +127,6 @@ class App {
   void update_viewports(PanelContext& context, const Rect& rect);
   [[nodiscard]] bool waits_its_turn(const Action& action) const;
   void draw_panels(PanelContext& context);
-  void draw_side(PanelContext& context, const char* name, const Rect& rect, bool overlay, bool left);
   [[nodiscard]] bool moving(double now) const;
 
   Options options_;

@@ -246,6 +246,7 @@ std::optional<Message> Desktop::run(std::string_view line) {
   wanted_size_.reset();
   pause_ = true;
   try {
+    if (app_.bring_to_sight(line)) settle();
     app_.execute(line);
   } catch (const Error& error) {
     return Message{Message::Kind::Error, error.what(), error.exit_code()};

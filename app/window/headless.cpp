@@ -132,6 +132,7 @@ std::optional<Message> HeadlessWindow::run(std::string_view line) {
   pause_ = true;
   // A screenshot is of what was reached before it: the scene has settled after every line.
   try {
+    if (app_->bring_to_sight(line)) settle();
     app_->execute(line);
   } catch (const Error& error) {
     const Message message{Message::Kind::Error, error.what(), error.exit_code()};

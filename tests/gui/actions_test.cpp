@@ -157,27 +157,40 @@ TEST(Layout, PanelsCoverTheWindowWithoutOverlap) {
        {std::tuple{1280.0F, 800.0F, 15.0F}, {800.0F, 600.0F, 15.0F}, {2560.0F, 1600.0F, 30.0F}, {400.0F, 300.0F, 15.0F}}) {
     Panels panels;
     panels.plots_wait = false;
-    const Layout layout = compute_layout(panels, width, height, em, 24);
-    EXPECT_GE(layout.viewport.w, 0);
-    EXPECT_GE(layout.viewport.h, 0);
-    const float left = layout.folded ? layout.left_strip.w : layout.left.w, right = layout.folded ? layout.right_strip.w : layout.right.w;
-    EXPECT_NEAR(left + layout.viewport.w + right, width, 0.5);
-    EXPECT_NEAR(24 + layout.toolbar.h + layout.viewport.h + layout.bottom.h + layout.status.h, height, 0.5);
+    for (const Side setup_side : {Side::Left, Side::Right}) {
+      panels.setup_side = setup_side;
+      const Layout layout = compute_layout(panels, width, height, {em, 20 * em, 40 * em});
+      EXPECT_GE(layout.viewport.w, 0);
+      EXPECT_GE(layout.viewport.h, 0);
+      const float left = layout.folded ? layout.left_strip.w : layout.left.w, right = layout.folded ? layout.right_strip.w : layout.right.w;
+      EXPECT_NEAR(left + layout.viewport.w + right, width, 0.5);
+      EXPECT_EQ(left > 0, setup_side == Side::Left) << "facts stand at the right";
+      const bool one_row = layout.toolbar.y == 0;
+      EXPECT_EQ(one_row, width >= 60 * em);
+      EXPECT_NEAR((one_row ? 0 : layout.menu.h) + layout.toolbar.h + layout.viewport.h + layout.bottom.h + layout.status.h, height, 0.5);
+      EXPECT_NEAR(layout.timeline.w + layout.status.w, width, 0.5);
+      EXPECT_EQ(layout.timeline.y, layout.status.y);
+    }
   }
   Panels open;
   open.left_over = open.right_over = true;
-  const Layout both = compute_layout(open, 1280, 800, 30, 46);
+  open.setup_side = Side::Left;
+  const HeaderSize one{15, 300, 700}, two{30, 600, 1400};
+  const Layout both = compute_layout(open, 1280, 800, two);
+  EXPECT_TRUE(both.folded);
   EXPECT_LE(both.left.x + both.left.w, both.right.x);
-  EXPECT_TRUE(both.timeline_only);
-  EXPECT_GT(both.bottom.h, 0);
+  EXPECT_TRUE(both.bottom.empty());
+  EXPECT_FALSE(both.timeline.empty());
   Panels begun;
   begun.plots_wait = false;
-  EXPECT_FALSE(compute_layout(begun, 800, 600, 15, 24).timeline_only);
-  EXPECT_TRUE(compute_layout({}, 800, 600, 15, 24).timeline_only) << "nothing to plot yet";
-  EXPECT_TRUE(compute_layout({}, 800, 600, 15, 24, false).bottom.empty()) << "no mesh";
-  EXPECT_FALSE(compute_layout({}, 1280, 800, 15, 24).folded);
-  EXPECT_TRUE(compute_layout({}, 800, 600, 15, 24).folded);
-  EXPECT_FALSE(compute_layout({}, 2560, 1600, 30, 48).folded);
+  EXPECT_FALSE(compute_layout(begun, 800, 600, one).bottom.empty());
+  EXPECT_TRUE(compute_layout({}, 800, 600, one).bottom.empty()) << "nothing to plot yet";
+  EXPECT_TRUE(compute_layout({}, 800, 600, one, false).timeline.empty()) << "no mesh";
+  EXPECT_FALSE(compute_layout({}, 1280, 800, one).folded);
+  EXPECT_FALSE(compute_layout({}, 800, 600, one).folded);
+  EXPECT_TRUE(compute_layout({}, 780, 600, one).folded);
+  EXPECT_TRUE(compute_layout(open, 800, 600, one).folded) << "two columns";
+  EXPECT_FALSE(compute_layout({}, 2560, 1600, two).folded);
 }
 
 }  // namespace

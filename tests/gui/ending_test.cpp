@@ -57,7 +57,9 @@ TEST_F(Ending, LeftInvertedIsSaidWithPlacesToGoTo) {
 TEST_F(Ending, IsHiddenUntilAnotherRunEnds) {
   open_hopeless();
   good("run 2");
-  EXPECT_TRUE(has_item("notice-off"));
+  EXPECT_TRUE(has_item("notice")) << "a line";
+  EXPECT_FALSE(has_item("notice-off"));
+  good("click notice");
   good("click notice-off");
   EXPECT_FALSE(has_item("notice:vertex"));
   good("notice on");

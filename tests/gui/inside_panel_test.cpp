@@ -110,6 +110,7 @@ TEST_F(InsidePanel, KeysAndMenusReachIt) {
 TEST_F(InsidePanel, ASliderIsSeenAsItMovesAndToldOnce) {
   good("clip x");
   const std::size_t before = told("clip");
+  good("tab inside");
   const auto at = box("inside:place");
   drag("inside:place", -(at[2] - at[0]) / 4, 0);
   EXPECT_NEAR(inside().clip.offset, 0.25, 0.05);  // a quarter of its length; the knob has a width
@@ -167,6 +168,7 @@ TEST_F(InsidePanel, ARangeThatNoSliderTellsIsSaidAndTakenBack) {
 }
 
 TEST_F(InsidePanel, IsOfVolumesAlone) {
+  good("tab inside");
   EXPECT_TRUE(has("inside:clip"));
   EXPECT_TRUE(window_->run("brush on").has_value());
   EXPECT_TRUE(window_->run("link-cameras off").has_value());

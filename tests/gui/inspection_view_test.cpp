@@ -321,7 +321,6 @@ TEST_F(InspectionView, SmallWindowsAndLargeInterfacesShowIt) {
     good(std::string("scale ") + (setting[5] == '8' ? "1" : "2"));
     good("generate annulus");
     good("inspect-next");
-    if (setting[5] == '8') good("click fold:right");
     const auto& boxes = window_->app().items().boxes();
     for (const char* item : {"level:1", "level:2", "level:3"}) ASSERT_TRUE(boxes.contains(item)) << item;
     const auto &first = boxes.at("level:1"), &third = boxes.at("level:3");

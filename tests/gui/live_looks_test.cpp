@@ -136,7 +136,7 @@ TEST_F(LiveLooks, EveryOtherLookChangesAtOnce) {
     return panes.size() == 2 && panes[0].session->frame && panes[1].session->frame;
   })) << "the input beside the run";
   at_once("viewports 1", [&] { return window_->app().panes().size() == 1; });
-  at_once("panel left off", [&] { return !state().panels.left; });
+  at_once("panel left off", [&] { return !state().panels.setup; });
   at_once("plot histogram", [&] { return state().plot == PlotTab::Histogram; });
   at_once("histogram-range whole", [&] { return state().plot_options.histogram_range == ui::HistogramRange::Whole; });
   at_once("plot convergence", [&] { return state().plot == PlotTab::Convergence; });
@@ -179,7 +179,7 @@ TEST_F(LiveLooks, TheStatusBarSaysHowTheRunGoes) {
   TearDown();
   window_->frame();
   EXPECT_FALSE(window_->app().items().boxes().contains("status-progress"));
-  EXPECT_TRUE(window_->app().items().boxes().contains("status-speed"));
+  EXPECT_TRUE(window_->app().items().boxes().contains("status-backend"));
 }
 
 }  // namespace

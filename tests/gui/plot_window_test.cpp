@@ -193,7 +193,8 @@ TEST_F(PlotWindow, ControlsStayInTheWindowWhateverItsSizeAndScale) {
       const bool roomy = window_->app().items().boxes().contains("plot-copy");
       const auto& last = box(roomy ? "plot-save" : "plot-more");
       EXPECT_LE(last[2], width) << size << " " << tab;
-      EXPECT_GT(box("plot-axis")[0], box("plot-time")[2]) << size << " " << tab;
+      const bool has_axis = window_->app().items().boxes().contains("plot-axis");  // else it is in the menu of the last
+      EXPECT_GT((has_axis ? box("plot-axis") : last)[0], box("plot-time")[2]) << size << " " << tab;
     }
   }
 }

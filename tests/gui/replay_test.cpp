@@ -25,6 +25,7 @@ class Replay : public HeadlessTest {
  protected:
   [[nodiscard]] Reached reached() {
     const auto view = window_->app().engine().view();
+    add_message(state(), {Message::Kind::Info, "reached", 0});  // what was said before is not compared
     window_->settle();
     return {view->frame->positions, view->frame->moment, window_->picture()};
   }
@@ -66,6 +67,7 @@ class Replay : public HeadlessTest {
 
 TEST_F(Replay, ClicksKeysWheelAndDragsComeToTheSameMeshAndPicture) {
   for (const char* line : {"size 1280 880",
+                           "dock setup left",
                            "click sample:coast",
                            "key N",
                            "click step-class",

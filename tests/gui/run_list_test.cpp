@@ -99,7 +99,7 @@ TEST_F(RunList, F2RenamesTheRunUnderTheMouseAndElseFoldsThePanel) {
   good("add-run laplace");
   good("move run:0");
   good("key F2");
-  EXPECT_TRUE(state().panels.left);
+  EXPECT_TRUE(state().panels.setup);
   EXPECT_EQ(state().renaming_run, session()->runs[0].id);
   good("type \"never mind\"");
   good("key Escape");
@@ -107,7 +107,7 @@ TEST_F(RunList, F2RenamesTheRunUnderTheMouseAndElseFoldsThePanel) {
   EXPECT_EQ(session()->runs[0].name, "");
   good("move 640 300");
   good("key F2");
-  EXPECT_FALSE(state().panels.left);
+  EXPECT_FALSE(state().panels.setup);
   good("key F2");
   good("key Shift+F2");
   EXPECT_EQ(state().renaming_run, session()->runs[1].id) << "the active one";

@@ -119,6 +119,7 @@ TEST_F(RunTable, HasColumnsOfSizesWhereARunHasASizeFunction) {
   good("combine mean-ratio:0.3:density h1:0,0");
   good("run 2");
   good("wait");
+  good("settings on");
   EXPECT_GT(window_->app().items().find("size-course")[2], 0.0F);
 }
 

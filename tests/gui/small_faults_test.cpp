@@ -51,6 +51,7 @@ TEST_F(SmallFaults, TooltipsFitWhenTheMouseRests) {
 TEST_F(SmallFaults, ParametersAnswerOnTheirFieldsToo) {
   open(1280, 1400);
   good("generate annulus");
+  good("settings on");
   for (const char* item : {"grid", "levels", "omega", "precision", "threads", "method"}) {
     good("move 640 400");
     EXPECT_EQ(tooltip(), nullptr);
@@ -91,9 +92,10 @@ TEST_F(SmallFaults, NoFrameStaysRoundThePlot) {
 
 TEST_F(SmallFaults, WhyAndTheNumberStandApart) {
   good("generate annulus");
+  good("tab worst");
   const auto why = box("why:0"), row = box("worst:0");
   EXPECT_LT(row[2], why[0]);
-  const float right = 1280.0F - 9.0F - 11.0F - 4.0F;  // of the numbers: the panel's padding, its bar
+  const float right = 1280.0F - 12.0F - 11.0F - 4.0F;  // of the numbers: the panel's padding, its bar
   EXPECT_GE(right - why[2], ImGui::CalcTextSize("0.003610").x + 6.0F) << "room for the longest number, and a gap";
 }
 

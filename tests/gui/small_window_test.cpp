@@ -17,6 +17,7 @@ class SmallWindow : public HeadlessTest {
 
 TEST_F(SmallWindow, FoldedPanelsOpenAndCloseAndTakeNothingFromOthers) {
   good("generate annulus");
+  good("dock setup left");
   good("click fold:right");
   EXPECT_TRUE(state().panels.right_over);
   good("click fold:left");

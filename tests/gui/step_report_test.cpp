@@ -94,7 +94,7 @@ TEST_F(StepWindow, TheStatusBarShowsItWhole) {
   for (const char* step : {"step vertex", "step class", "key N"}) {
     good(step);
     ASSERT_FALSE(news().sentence.empty()) << step;
-    const auto said = window_->app().items().find("status-message");
+    const auto said = window_->app().items().find("message");  // over the mesh, since the status is as narrow as the column
     EXPECT_NEAR(said[2] - said[0], ImGui::CalcTextSize(news().sentence.c_str()).x, 1.0F) << step;
   }
 }

@@ -57,6 +57,7 @@ TEST_F(SurfaceWindow, IsSeenInSpaceSteppedAndPicked) {
 TEST_F(SurfaceWindow, SaysWhatItsRunsReadOfSliding) {
   const auto has = [&](const char* item) { return window_->app().items().boxes().contains(item); };
   good("size 1280 1500");  // so that nothing is scrolled away
+  good("settings on");
   (void)picture();
   for (const char* item : {"feature-angle", "corner-angle", "max-deviation"}) EXPECT_TRUE(has(item)) << item;
   good("feature-angle 95");

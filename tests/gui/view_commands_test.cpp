@@ -84,7 +84,7 @@ TEST_F(ViewCommands, SwitchesSwitch) {
   EXPECT_EQ(state_.theme, Theme::Contrast);
   EXPECT_THROW(run("theme pink"), UsageError);
   run("panel right off");
-  EXPECT_FALSE(state_.panels.right);
+  EXPECT_FALSE(state_.panels.facts);
   run("plot histogram");
   EXPECT_EQ(state_.plot, PlotTab::Histogram);
   run("log-scale on");
@@ -187,7 +187,7 @@ TEST(Settings, ComeBackAsTheyWereAndNonsenseIsIgnored) {
   ViewState state;
   state.theme = Theme::Light;
   state.scale = 1.5;
-  state.panels.left = false;
+  state.panels.setup = false;
   remember_file(state, "/a/b.vtk");
   remember_file(state, "/c/d.14");
   remember_file(state, "/a/b.vtk");
@@ -196,7 +196,7 @@ TEST(Settings, ComeBackAsTheyWereAndNonsenseIsIgnored) {
   ASSERT_TRUE(apply_recent(recent_text(state), read));
   EXPECT_EQ(read.theme, Theme::Light);
   EXPECT_EQ(read.scale, 1.5);
-  EXPECT_FALSE(read.panels.left);
+  EXPECT_FALSE(read.panels.setup);
   EXPECT_EQ(read.recent_files, (std::vector<std::string>{"/a/b.vtk", "/c/d.14"}));
   ViewState plain;
   EXPECT_FALSE(apply_settings("not json", plain));

@@ -14,7 +14,7 @@ ViewState some_view() {
   state.wireframe = false;
   state.vertices = true;
   state.colour_map = render::ColourMap::Magma;
-  state.panels.left = false;
+  state.panels.setup = false;
   state.panels.bottom_height = 21.5;
   state.plot = PlotTab::Sorted;
   state.plots[1].axis = ValueAxis::Log;
@@ -42,7 +42,7 @@ TEST(ViewJson, ComesBackAsItWas) {
   EXPECT_EQ(read.camera, state.camera);
   EXPECT_FALSE(read.wireframe);
   EXPECT_EQ(read.colour_map, state.colour_map);
-  EXPECT_FALSE(read.panels.left);
+  EXPECT_FALSE(read.panels.setup);
   EXPECT_EQ(read.panels.bottom_height, 21.5);
   EXPECT_EQ(read.plot, PlotTab::Sorted);
   EXPECT_EQ(read.plots, state.plots);

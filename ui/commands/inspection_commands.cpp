@@ -99,6 +99,7 @@ void open_at(ViewState& state, const SessionView& session, Index vertex, bool in
   inspection.playing = false;
   inspection.hovered.reset();
   state.picked = {Picked::Kind::Vertex, vertex};
+  state.panels.show_selection();
   look_at_star(state, *session.frame, vertex);
   show_level(state, inspect(session, vertex), 1);
 }
@@ -118,6 +119,7 @@ void open_at_element(ViewState& state, const SessionView& session, Index element
       "All corners of element {} are fixed: no smoothing can change it. It is part of the ceiling, above which the minimum cannot rise.",
       element);
   state.picked = {Picked::Kind::Element, element};
+  state.panels.show_selection();
 }
 
 /// At what is picked, or where the run goes next.

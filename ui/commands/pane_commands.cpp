@@ -63,7 +63,8 @@ void add_pane_commands(CommandTable& table, ViewState& state) {
               const Panes& panes = state.panes;
               if (panes.run_ids.empty()) throw UsageError("no mesh is open");
               state.renaming_run = words.empty() ? panes.active_id : panes.parse({"run", words[0]}).run;
-              state.panels.left = state.panels.left_over = true;  // where the list is
+              state.panels.setup = true;  // where the list is
+              (state.panels.setup_side == Side::Left ? state.panels.left_over : state.panels.right_over) = true;
             });
   table.add({"split", "split X", "where the handle of the split view is, 0 (left) to 1"}, {1, 1}, [&state](Arguments words) {
     const double at = to_number(words[0]);

@@ -88,6 +88,7 @@ void leave(ViewState& state) {
     return;
   }
   state.picked = {};
+  state.panels.leave_selection();
 }
 
 }  // namespace

@@ -44,13 +44,17 @@ void take_range(const json& from, ViewState& state) {
   take_pair(from, "low_percent", "high_percent", state.range_low_percent, state.range_high_percent, 0.0, 100.0);
 }
 
-constexpr int kLayout = 2;  // 1, which was not written: wider side panels
+constexpr int kLayout = 3;  // 1, which was not written: wide side panels; 2: narrower ones; 3: one column
 
 /// Settings have always held the panels' sizes, also where nobody had chosen them.
-void forget_old_defaults(Panels& panels) {
-  constexpr double kLeftWidth = 17.0, kRightWidth = 22.0;
-  if (panels.left_width == kLeftWidth) panels.left_width = Panels{}.left_width;
-  if (panels.right_width == kRightWidth) panels.right_width = Panels{}.right_width;
+void forget_old_defaults(Panels& panels, int layout) {
+  const auto forget = [&panels](double Panels::*size, double usual) {
+    if (panels.*size == usual) panels.*size = Panels{}.*size;
+  };
+  forget(&Panels::left_width, layout == 1 ? 17.0 : 14.0);
+  forget(&Panels::right_width, layout == 1 ? 22.0 : 15.6);
+  forget(&Panels::bottom_height, 15.0);
+  forget(&Panels::runs_height, 6.2);
 }
 
 /// A file of ours where XDG wants it: `variable`, else `fallback` in the home.
@@ -168,7 +172,9 @@ bool apply_settings(const std::string& text, ViewState& state) {
     take(*at, "right_width", state.panels.right_width, 8.0, 60.0);
     take(*at, "bottom_height", state.panels.bottom_height, 6.0, 60.0);
     take(*at, "runs_height", state.panels.runs_height, 4.0, 60.0);
-    if (!at->contains("layout")) forget_old_defaults(state.panels);
+    double layout = 1;
+    take(*at, "layout", layout, 1, kLayout);
+    if (layout < kLayout) forget_old_defaults(state.panels, static_cast<int>(layout));
   }
   return true;
 }

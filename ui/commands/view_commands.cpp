@@ -53,12 +53,16 @@ Picked parse_pick(const CommandHost& host, Arguments words) {
 }
 
 void add_camera_commands(CommandTable& table, ViewState& state, const CommandHost& host) {
-  table.add({"pick", "pick vertex|element ID  or  pick none", "selects a vertex or an element"},
-            [&state, &host](Arguments words) { state.picked = parse_pick(host, words); });
+  table.add({"pick", "pick vertex|element ID  or  pick none", "selects a vertex or an element"}, [&state, &host](Arguments words) {
+    state.picked = parse_pick(host, words);
+    if (state.picked.kind == Picked::Kind::None) return state.panels.leave_selection();
+    state.panels.show_selection();
+  });
   table.add({"goto", "goto vertex|element ID", "selects it and moves the view there"}, [&state, &host](Arguments words) {
     const Picked picked = parse_pick(host, words);
     if (picked.kind == Picked::Kind::None) throw UsageError("expected vertex or element");
     state.picked = picked;
+    state.panels.show_selection(true);
     const auto view = host.session();
     if (view->frame) look_at_picked(state, *view->frame);
   });
@@ -100,14 +104,26 @@ void add_panel_commands(CommandTable& table, ViewState& state) {
     state.full_screen = switched(words, 0, state.full_screen);
     state.requests.full_screen = state.full_screen;
   });
-  table.add({"panel", "panel left|right|bottom [on|off|toggle]", "shows or hides a panel"}, {1, 2}, [&state](Arguments words) {
-    static constexpr std::array<std::pair<std::string_view, bool Panels::*>, 3> names{
-        {{"left", &Panels::left}, {"right", &Panels::right}, {"bottom", &Panels::bottom}}};
-    bool Panels::*panel = choose(words[0], names);
-    const bool is_open = panel == &Panels::bottom ? state.panels.plots() : state.panels.*panel;
-    state.panels.*panel = switched(words, 1, is_open);
-    if (panel == &Panels::bottom) state.panels.plots_wait = false;
+  table.add(
+      {"panel", "panel setup|facts|bottom [on|off|toggle]", "shows or hides a panel; left and right are older names of the first two"},
+      {1, 2}, [&state](Arguments words) {
+        static constexpr std::array<std::pair<std::string_view, bool Panels::*>, 5> names{{{"setup", &Panels::setup},
+                                                                                           {"facts", &Panels::facts},
+                                                                                           {"bottom", &Panels::bottom},
+                                                                                           {"left", &Panels::setup},
+                                                                                           {"right", &Panels::facts}}};
+        bool Panels::*panel = choose(words[0], names);
+        const bool is_open = panel == &Panels::bottom ? state.panels.plots() : state.panels.*panel;
+        state.panels.*panel = switched(words, 1, is_open);
+        if (panel == &Panels::bottom) state.panels.plots_wait = false;
+      });
+  table.add({"dock", "dock setup|facts left|right", "the side at which a panel stands"}, {2, 2}, [&state](Arguments words) {
+    static constexpr std::array<std::pair<std::string_view, Side Panels::*>, 2> names{
+        {{"setup", &Panels::setup_side}, {"facts", &Panels::facts_side}}};
+    Side Panels::*side = choose(words[0], names);
+    state.panels.*side = choose(words[1], kSides);
   });
+  add_option_commands(table, state, {"tab", "settings", "unfold-holds", "unfold-notice"});
   table.add({"dialog", "dialog NAME|none",
              "opens or closes a dialog; open-beside, open-surface: that of open, for a mesh beside those that are open, or to slide on"},
             {1, 1}, [&state](Arguments words) {

@@ -28,7 +28,7 @@ std::vector<std::string> view_lines(const ViewState& state, bool with_camera) {
   };
   if (state.window_size.first > 0) lines.push_back(fmt::format("size {} {}", state.window_size.first, state.window_size.second));
   lines.push_back(fmt::format("scale {}", state.scale));
-  say({"theme", "panel left", "panel right"});
+  say({"theme", "panel setup", "panel facts", "dock setup", "dock facts", "settings", "unfold-holds", "unfold-notice", "tab"});
   if (!panels.plots_wait) say({"panel bottom"});
   lines.push_back(fmt::format("panel-size left {}", panels.left_width));
   lines.push_back(fmt::format("panel-size right {}", panels.right_width));

@@ -99,7 +99,7 @@ BarLayout lay_out(const PanelContext& context, const Rect& rect) {
   float height = 0, right = 0;
   const float first = 0.6F * pad, second = first + 1.25F * line;
   if (layout.has_bar) {
-    layout.width = std::min(widest, std::clamp(rect.w * 0.42F, 10 * context.em(), 30 * context.em()));
+    layout.width = std::min(widest, std::clamp(rect.w * 0.42F, 10 * context.em(), 15 * context.em()));
     height = second + layout.bar + 1.15F * line + 0.6F * pad;
     arrange(layout.swatches, inner + layout.width + 1.5F * pad, second - 0.1F * line, widest + inner, layout.bar, pad, line);
     right = inner + layout.width;

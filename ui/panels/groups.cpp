@@ -1,4 +1,4 @@
-// Left: the groups that the file carried.
+// The groups that the file carried.
 #include <algorithm>
 #include <span>
 
@@ -112,10 +112,8 @@ void draw_groups(PanelContext& context) {
   ImGui::Dummy({0, context.px(4)});
   heading(context, "Groups");
   constexpr std::size_t kMostShown = 40;  // beyond, a list in a panel helps nobody
-  constexpr float kMostRows = 5;          // more of them scroll by themselves, so that the parameters stay in sight
   const std::size_t shown = std::min(groups.size(), kMostShown);
-  const bool more = groups.size() > kMostShown, scrolls = static_cast<float>(groups.size()) > kMostRows;
-  if (scrolls) ImGui::BeginChild("groups", {0, (kMostRows + 0.5F) * ImGui::GetTextLineHeightWithSpacing()});
+  const bool more = groups.size() > kMostShown;
   ImGui::BeginDisabled(context.activity.busy);
   const float swatch = 0.7F * ImGui::GetTextLineHeight() + context.px(6);
   const RowLook look = look_of(context, std::span(groups).first(shown), ImGui::GetContentRegionAvail().x - swatch);
@@ -126,7 +124,6 @@ void draw_groups(PanelContext& context) {
   }
   ImGui::EndDisabled();
   if (more) dim_text(context, fmt::format("and {} more: dmoscope info FILE lists all", count(groups.size() - kMostShown)));
-  if (scrolls) ImGui::EndChild();
 }
 
 }  // namespace dmoscope::ui

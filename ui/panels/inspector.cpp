@@ -1,4 +1,4 @@
-// Right: facts of the mesh, of what is picked, and the worst elements.
+// Facts of the mesh, of what is picked, and the worst elements.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -132,21 +132,54 @@ void draw_hold(PanelContext& context, const RunView& run) {
   empty_lines(context, 2);
 }
 
+/// The minimum in large numerals, and where on the scale of colours it is.
+void draw_minimum(PanelContext& context, Metric metric, double minimum, Index worst) {
+  dim_text(context, fmt::format("worst element by {}", metric_phrase(metric)), false);
+  metric_tooltip(context, info(metric));
+  const float top = ImGui::GetCursorPosY();
+  ImGui::PushFont(context.fonts.large);
+  ImGui::TextUnformatted(short_number(minimum).c_str());
+  ImGui::PopFont();
+  next_item_tooltip(full_number(minimum) + "\n(click copies it)");
+  if (ImGui::IsItemClicked()) context.send("copy " + quote_word(full_number(minimum)));
+  context.items.record_last("minimum");
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  const float middle = (low.y + high.y) / 2, half = context.px(6), left = high.x + context.px(10);
+  if (std::isfinite(minimum) && metric == context.session.shown)
+    ImGui::GetWindowDrawList()->AddRectFilled({left, middle - half}, {left + 2 * half, middle + half},
+                                              colour(shown_scale(context.state, context.derived).colour(minimum)), context.px(3));
+  if (worst == kNoIndex) return;
+  constexpr const char* kShow = "Show it";
+  const float below = ImGui::GetCursorPosY();
+  ImGui::SetCursorPos({ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(kShow).x - 2 * ImGui::GetStyle().FramePadding.x,
+                       top + (high.y - low.y - ImGui::GetTextLineHeight()) / 2});
+  if (ImGui::SmallButton(kShow)) context.send(fmt::format("goto element {}", worst));
+  note_item(context, "show-worst", "selects the worst element and goes there");
+  ImGui::SetCursorPosY(below);
+}
+
 /// `run`: whose minimum it is; null: nobody's.
-void draw_statistics(PanelContext& context, const char* title, Metric metric, const Statistics& statistics, const RunView* run) {
-  ImGui::Dummy({0, context.px(2)});
-  heading(context, title);
-  metric_tooltip(context, info(metric));
-  ImGui::SameLine();
-  dim_text(context, metric_phrase(metric), false);
-  metric_tooltip(context, info(metric));
-  number_row(context, "minimum", statistics.minimum, "the worst element of all");
-  if (run != nullptr) draw_hold(context, *run);
+void draw_statistics(PanelContext& context, Metric metric, const Statistics& statistics, const RunView* run) {
+  draw_minimum(context, metric, statistics.minimum, statistics.worst_element);
+  number_row(context, "mean", statistics.mean, "over all elements");
+  const Frame& frame = *context.frame();
+  if (run != nullptr || metric == frame.shown) {
+    const Index inverted = frame.shown_statistics.inverted;  // whatever the metric
+    value_row(context, "inverted", count(inverted), {}, inverted != 0 ? std::optional(context.palette.error) : std::nullopt,
+              "elements whose Jacobian is 0 or less, at a corner or inside");
+  }
+  if (run == nullptr) return;
+  const HeldMinimum* held = run->held.found.get();
+  const std::string aside = held == nullptr ? std::string() : fit_text(std::string(held->brief()), 9 * context.em());
+  const bool open = context.state.panels.holds;
+  if (fold_row(context, "holds", "Why no better?", aside, open, "what holds the worst element, and what would raise it"))
+    context.send(open ? "unfold-holds off" : "unfold-holds on");
+  if (!open) return;
+  draw_hold(context, *run);
   number_row(context, "movable minimum", statistics.movable_minimum,
              "over elements with at least one free corner: what smoothing can raise");
   number_row(context, "ceiling", statistics.ceiling,
              "over elements whose corners are all fixed: the minimum can never rise above it (– when there is no such element)");
-  number_row(context, "mean", statistics.mean, "over all elements");
 }
 
 const char* held_word(HeldOn held) {
@@ -352,36 +385,29 @@ std::string id_text(Index element, float room) {
 
 }  // namespace
 
-void draw_inspector(PanelContext& context) {
+void draw_mesh_facts(PanelContext& context) {
   const Frame* frame = context.frame();
-  if (frame == nullptr) {
-    heading(context, "Inspector");
-    dim_text(context, "Numbers of the mesh, and of the vertex or element that you click.");
-    return;
-  }
-  draw_mesh(context, *frame);
+  if (frame == nullptr) return dim_text(context, "Numbers of the mesh that is open.");
   const RunView* run = context.run();
   const Metric optimised = run != nullptr ? run->parameters.metric : frame->shown;
-  const Index inverted = frame->shown_statistics.inverted;  // whatever the metric
-  value_row(context, "inverted", count(inverted), {}, inverted != 0 ? std::optional(context.palette.error) : std::nullopt,
-            "elements whose Jacobian is 0 or less, at a corner or inside");
-  if (optimised == frame->shown) {
-    draw_statistics(context, "Quality", frame->shown, frame->shown_statistics, run);
+  if (optimised != frame->shown) {
+    draw_statistics(context, optimised, frame->provisional ? kNotKnownYet : frame->statistics, run);
+    ImGui::Dummy({0, context.px(4)});
+    draw_statistics(context, frame->shown, frame->shown_statistics, nullptr);
   } else {
-    draw_statistics(context, "Optimised", optimised, frame->provisional ? kNotKnownYet : frame->statistics, run);
-    draw_statistics(context, "Shown", frame->shown, frame->shown_statistics, nullptr);
+    draw_statistics(context, frame->shown, frame->shown_statistics, run);
   }
+  ImGui::Dummy({0, context.px(4)});
+  draw_mesh(context, *frame);
+}
+
+void draw_selection(PanelContext& context) {
+  const Frame* frame = context.frame();
   const PickedFacts& facts = context.derived.facts;  // of what was picked when this drawing began
-  ImGui::Dummy({0, context.px(2)});
-  if (facts.picked.kind == Picked::Kind::Vertex) {
-    draw_vertex(context, *frame, facts.picked.id);
-  } else if (facts.picked.kind == Picked::Kind::Element) {
-    draw_element(context, *frame, facts.picked.id);
-  } else if (!facts.trouble.empty()) {
-    dim_text(context, "What is picked cannot be read now: " + facts.trouble);
-  } else {
-    dim_text(context, "Click a vertex or an element (Alt: the element).");
-  }
+  if (frame != nullptr && facts.picked.kind == Picked::Kind::Vertex) return draw_vertex(context, *frame, facts.picked.id);
+  if (frame != nullptr && facts.picked.kind == Picked::Kind::Element) return draw_element(context, *frame, facts.picked.id);
+  dim_text(context, facts.trouble.empty() ? "Click a vertex or an element (Alt: the element)."
+                                          : "What is picked cannot be read now: " + facts.trouble);
 }
 
 void draw_worst(PanelContext& context) {

@@ -1,6 +1,7 @@
 // Menu bar and tool bar, both from the table of actions.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -54,6 +55,14 @@ void draw_submenu(PanelContext& context, const Submenu& submenu) {
   ImGui::EndMenu();
 }
 
+/// Groups of actions that are menus within a menu.
+struct Nested {
+  std::string_view menu, within;
+};
+constexpr std::array<Nested, 4> kNested{{{"Stepping", "Run"}, {"Inspect", "Run"}, {"Plot", "View"}, {"Colours", "View"}}};
+
+bool is_nested(std::string_view menu) { return std::ranges::find(kNested, menu, &Nested::menu) != kNested.end(); }
+
 /// Planar meshes, and below a line volumes.
 void draw_samples(PanelContext& context) {
   const bool open = ImGui::BeginMenu("Samples");
@@ -88,80 +97,100 @@ void draw_entries(PanelContext& context, std::string_view menu) {
       draw_samples(context);
     }
   }
+  for (const Nested& nested : kNested) {
+    if (nested.within != menu) continue;
+    if (nested.menu == std::ranges::find(kNested, menu, &Nested::within)->menu) ImGui::Separator();
+    const bool open = ImGui::BeginMenu(std::string(nested.menu).c_str());
+    context.items.record_last(fmt::format("menu:{}", nested.menu));
+    if (!open) continue;
+    draw_entries(context, nested.menu);
+    ImGui::EndMenu();
+  }
 }
 
-/// Space between groups of the tool bar.
-void gap(const PanelContext& context) { ImGui::SameLine(0, context.px(18)); }
+/// A button of the tool bar. Text first: what a button does must not be a riddle.
+struct Tool {
+  const char* id;
+  const char* label;
+  const char* other = nullptr;  // that it also has
+  bool gap = false;             // before it
+  float least = 0;              // heights of the font, of a tool bar that has room for it
+};
+constexpr std::array<Tool, 10> kTools{{{"open", "Open…", nullptr, false, 44},
+                                       {"run-pause", "▶ Run", "❚❚ Pause", true},
+                                       {"make-good", "Make it good", nullptr, false, 40},
+                                       {"step-iteration", "Step"},
+                                       {"back-iteration", "Back"},
+                                       {"reset", "Reset", nullptr, false, 36},
+                                       {"step-class", "Class", nullptr, true, 47},
+                                       {"step-vertex", "Vertex", nullptr, false, 47},
+                                       {"fit", "Fit", nullptr, true, 30},
+                                       {"wireframe", "Wires", "Wires ✓", false, 34}}};
+
+float width_of(const Tool& tool) { return tool.other == nullptr ? widest_button({tool.label}) : widest_button({tool.label, tool.other}); }
+
+float gap_before(const PanelContext& context, const Tool& tool) { return tool.gap ? context.px(18) : context.px(6); }
+
+/// The metric that is shown, at the right end where there is room.
+void draw_shown_metric(PanelContext& context, const Rect& rect) {
+  const float width = 12 * context.em(), label = ImGui::CalcTextSize("shown").x + context.px(8), end = context.px(12);
+  ImGui::SameLine();
+  const float left = rect.w - end - width;
+  if (context.derived.metrics.empty() || left - label < ImGui::GetCursorPosX() + context.px(8)) return;
+  ImGui::SetCursorPosX(left - label);
+  ImGui::AlignTextToFramePadding();
+  dim_text(context, "shown", false);
+  ImGui::SameLine(left);
+  ImGui::SetNextItemWidth(width);
+  metric_combo(context, "toolbar-shown", context.session.shown, "show");
+}
 
 }  // namespace
 
-float draw_menu(PanelContext& context) {
-  float height = 0;
-  if (ImGui::BeginMainMenuBar()) {
-    for (const std::string_view menu : menu_names()) {
-      const bool open = ImGui::BeginMenu(std::string(menu).c_str());
-      context.items.record_last(fmt::format("menu:{}", menu));
-      if (!open) continue;
-      draw_entries(context, menu);
-      ImGui::EndMenu();
-    }
-    height = ImGui::GetWindowSize().y;
-    ImGui::EndMainMenuBar();
+HeaderSize header_size(const PanelContext& context) {
+  HeaderSize size{context.em(), context.px(8), context.px(20)};
+  for (const std::string_view menu : menu_names())
+    if (!is_nested(menu)) size.menu += std::floor(ImGui::CalcTextSize(std::string(menu).c_str()).x + 2 * ImGui::GetStyle().ItemSpacing.x);
+  for (const Tool& tool : kTools) size.tools += width_of(tool) + gap_before(context, tool);
+  return size;
+}
+
+void draw_menu(PanelContext& context, const Rect& rect) {
+  ImGui::SetNextWindowPos({rect.x, rect.y});
+  ImGui::SetNextWindowSize({rect.w, rect.h});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {context.px(4), 0});
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {context.px(8), std::round((rect.h - context.em()) / 2)});
+  ImGui::Begin("menu", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_MenuBar);
+  const bool bar = ImGui::BeginMenuBar();
+  ImGui::PopStyleVar(2);
+  for (const std::string_view menu : menu_names()) {
+    if (is_nested(menu)) continue;
+    const bool open = bar && ImGui::BeginMenu(std::string(menu).c_str());
+    context.items.record_last(fmt::format("menu:{}", menu));
+    if (!open) continue;
+    draw_entries(context, menu);
+    ImGui::EndMenu();
   }
-  return height;
+  if (bar) ImGui::EndMenuBar();
+  ImGui::End();
 }
 
 void draw_toolbar(PanelContext& context, const Rect& rect) {
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {context.px(12), (rect.h - ImGui::GetFrameHeight()) / 2});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {context.px(10), (rect.h - ImGui::GetFrameHeight()) / 2});
   begin_panel("toolbar", rect);
   ImGui::PopStyleVar();
-  action_button(context, "open", "Open…");
-  gap(context);
-  // Text first: what a button does must not be a riddle. Narrow windows get the shorter words.
-  const bool wide = rect.w > 66 * context.em();
-  const bool middling = rect.w > 50 * context.em();
-  const bool busy = context.activity.busy;
-  constexpr const char *kRun = "▶ Run", *kPause = "❚❚ Pause";
-  action_button(context, "run-pause", busy ? kPause : kRun, context.session.input != nullptr, widest_button({kRun, kPause}));
-  ImGui::SameLine();
-  if (rect.w > 56 * context.em()) {
-    action_button(context, "make-good", "Make it good");
-    ImGui::SameLine();
+  float end = 0;  // of the last tool
+  for (const Tool& tool : kTools) {
+    if (rect.w < tool.least * context.em()) continue;
+    if (end > 0) ImGui::SameLine(0, gap_before(context, tool));
+    const bool is_run = std::string_view(tool.id) == "run-pause", is_wires = std::string_view(tool.id) == "wireframe";
+    const bool other = (is_run && context.activity.busy) || (is_wires && context.state.wireframe);
+    action_button(context, tool.id, other ? tool.other : tool.label, is_run && context.session.input != nullptr, width_of(tool));
+    end = ImGui::GetItemRectMax().x;
   }
-  action_button(context, "step-iteration", "Step");
-  ImGui::SameLine();
-  action_button(context, "back-iteration", "Back");
-  if (middling) {
-    ImGui::SameLine();
-    action_button(context, "reset", "Reset");
-  }
-  if (wide) {
-    gap(context);
-    action_button(context, "step-class", "Class");
-    ImGui::SameLine();
-    action_button(context, "step-vertex", "Vertex");
-  }
-  gap(context);
-  action_button(context, "fit", "Fit");
-  ImGui::SameLine();
-  constexpr const char *kWires = "Wires", *kWiresOn = "Wires ✓";
-  action_button(context, "wireframe", context.state.wireframe ? kWiresOn : kWires, false, widest_button({kWires, kWiresOn}));
-  if (!context.derived.metrics.empty()) {
-    const float width = 12 * context.em();
-    const float label = ImGui::CalcTextSize("shown").x + context.px(8);
-    const float left = rect.w - context.px(12) - width;
-    ImGui::SameLine();
-    if (left - label > ImGui::GetCursorPosX() + context.px(8)) {
-      ImGui::SetCursorPosX(left - label);
-      ImGui::AlignTextToFramePadding();
-      dim_text(context, "shown", false);
-      ImGui::SameLine(left);
-    } else {
-      ImGui::SetCursorPosX(std::max(ImGui::GetCursorPosX(), left));
-    }
-    ImGui::SetNextItemWidth(std::min(width, ImGui::GetContentRegionAvail().x));
-    metric_combo(context, "toolbar-shown", context.session.shown, "show");
-  }
+  draw_shown_metric(context, rect);
   end_panel();
 }
 

@@ -2,7 +2,9 @@
 #include "ui/commands/notice.h"
 
 #include <algorithm>
+#include <utility>
 
+#include "ui/panels/icons.h"
 #include "ui/panels/panels.h"
 
 namespace dmoscope::ui {
@@ -72,69 +74,109 @@ void draw_figures(PanelContext& context, const std::vector<FigureRow>& rows, con
   }
 }
 
-}  // namespace
+/// "->" is for terminals.
+std::string with_arrows(std::string text) {
+  for (std::size_t at = text.find("->"); at != std::string::npos; at = text.find("->", at)) text.replace(at, 2, "→");
+  return text;
+}
 
-void draw_notice(PanelContext& context, const Rect& rect) {
-  Notice notice = notice_of(context.session);
-  const float em = context.em(), pad = context.px(10), gap = context.px(6), bar = context.px(4);
-  if (notice.empty() || notice.key == context.state.dismissed_notice || rect.w < 16 * em || rect.h < 12 * em) return;
-  if (rect.h < 28 * em) notice.figures.clear();  // they would hide the mesh; the sentence says what is worse
-  const float margin = context.px(8), around = 2 * pad + bar;
-  float room = std::min(rect.w - 2 * margin, 34 * em) - around;
-  std::vector<std::string> labels;
-  for (const Offer& offer : notice.offers) labels.push_back(offer.label);
-  const std::string hide = "Hide";
-  labels.push_back(hide);
-  float wanted = -gap;  // no wider than what is in it
-  for (const std::string& label : labels) wanted += button_width(label) + gap;
-  for (const std::string& sentence : notice.sentences) wanted = std::max(wanted, ImGui::CalcTextSize(sentence.c_str()).x + 1);
-  const FigureTable table(notice.figures, context.px(10));
-  room = std::min(room, std::max(wanted, table.width));
-  const float width = room + around;
-  const ButtonRows rows = in_rows(labels, room, gap);
-  float text = 0;
-  for (const std::string& line : notice.sentences) text += ImGui::CalcTextSize(line.c_str(), nullptr, false, room).y + gap;
-  if (!notice.figures.empty()) text += table.height + gap;
-  const float height = text + rows.height + 2 * pad;
-  // Beside the title of the one viewport where there is room, else below the titles.
+/// Where the note is: beside the title of the one viewport where there is room, else below what stands under the titles.
+Rect place(const PanelContext& context, const Rect& rect, float width, float height) {
+  const float em = context.em(), margin = context.px(8);
   const bool beside = context.state.panes.one() && rect.w - width > 16 * em;
-  const Rect box{rect.x + rect.w - margin - width, rect.y + (beside ? margin : 2.9F * em), width, height};
+  return {rect.x + rect.w - margin - width, rect.y + (beside ? margin : 5.2F * em), width, height};
+}
 
+void begin_note(PanelContext& context, const Rect& box) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, context.px(5));
   ImGui::PushStyleColor(ImGuiCol_WindowBg, colour_vector(context.palette.panel, 0.96F));
   begin_panel("notice", box, true);
   ImGui::PopStyleColor();
   ImGui::PopStyleVar(2);
-  const ImVec2 corner{box.x, box.y};
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  list.AddRect(corner, {corner.x + width, corner.y + height}, colour(context.palette.line), context.px(5));
-  list.AddRectFilled(corner, {corner.x + bar, corner.y + height}, colour(context.palette.warning), context.px(2));
-  const float left = corner.x + bar + pad;
-  float y = corner.y + pad;
-  const auto write = [&](const std::string& line) {
+  list.AddRect({box.x, box.y}, {box.x + box.w, box.y + box.h}, colour(context.palette.line), context.px(5));
+  list.AddRectFilled({box.x, box.y}, {box.x + context.px(4), box.y + box.h}, colour(context.palette.warning), context.px(2));
+}
+
+/// The first sentence, in a line that unfolds what can be done about it.
+void draw_folded(PanelContext& context, const Notice& notice, const Rect& rect) {
+  const float pad = context.px(10), bar = context.px(4), icon = context.px(14), height = ImGui::GetFrameHeight();
+  const float around = bar + 2 * pad + icon + context.px(6);
+  const std::string text = fit_text(notice.sentences.front(), std::min(rect.w - context.px(16) - around, 40 * context.em()));
+  const Rect box = place(context, rect, ImGui::CalcTextSize(text.c_str()).x + around, height);
+  begin_note(context, box);
+  ImGui::SetCursorScreenPos({box.x, box.y});
+  if (ImGui::InvisibleButton("##notice", {box.w, height})) context.send("unfold-notice on");
+  note_item(context, "notice", notice.sentences.front() + "\n(click: more about it, and what can be done)");
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const render::Rgb ink = context.palette.text;
+  list.AddText({box.x + bar + pad, box.y + (height - ImGui::GetTextLineHeight()) / 2}, colour(ink), text.c_str());
+  draw_icon(list, Icon::ChevronDown, {box.x + box.w - pad - icon / 2, box.y + height / 2}, icon, colour(context.palette.dim));
+  end_panel();
+}
+
+void draw_unfolded(PanelContext& context, Notice notice, const Rect& rect) {
+  const float em = context.em(), pad = context.px(10), gap = context.px(6), bar = context.px(4);
+  if (rect.h < 28 * em) notice.figures.clear();  // they would hide the mesh; the sentence says what is worse
+  const float around = 2 * pad + bar;
+  float room = std::min(rect.w - context.px(16), 34 * em) - around;
+  std::vector<std::string> labels;
+  for (const Offer& offer : notice.offers) labels.push_back(offer.label);
+  const std::string less = "Less", hide = "Hide";
+  labels.push_back(less);
+  labels.push_back(hide);
+  float wanted = -gap;  // no wider than what is in it
+  for (const std::string& label : labels) wanted += button_width(label) + gap;
+  for (const std::string& sentence : notice.sentences) wanted = std::max(wanted, ImGui::CalcTextSize(sentence.c_str()).x + 1);
+  const FigureTable table(notice.figures, context.px(10));
+  room = std::min(room, std::max(wanted, table.width));
+  const ButtonRows rows = in_rows(labels, room, gap);
+  float text = 0;
+  for (const std::string& line : notice.sentences) text += ImGui::CalcTextSize(line.c_str(), nullptr, false, room).y + gap;
+  if (!notice.figures.empty()) text += table.height + gap;
+  const Rect box = place(context, rect, room + around, text + rows.height + 2 * pad);
+  begin_note(context, box);
+  const float left = box.x + bar + pad;
+  float y = box.y + pad;
+  for (const std::string& line : notice.sentences) {
     ImGui::SetCursorScreenPos({left, y});
     ImGui::PushTextWrapPos(bar + pad + room);
     ImGui::TextUnformatted(line.c_str());
     ImGui::PopTextWrapPos();
     y += ImGui::CalcTextSize(line.c_str(), nullptr, false, room).y + gap;
-  };
-  for (const std::string& sentence : notice.sentences) write(sentence);
+  }
   if (!notice.figures.empty()) {
     draw_figures(context, notice.figures, table, {left, y});
     y += table.height + gap;
   }
+  const auto go_to = [&](std::size_t button) { ImGui::SetCursorScreenPos({left + rows.places[button].x, y + rows.places[button].y}); };
   ImGui::BeginDisabled(context.activity.busy);
   for (std::size_t k = 0; k < notice.offers.size(); ++k) {
     const Offer& offer = notice.offers[k];
-    ImGui::SetCursorScreenPos({left + rows.places[k].x, y + rows.places[k].y});
+    go_to(k);
     if (ImGui::Button(offer.label.c_str())) context.send(offer.command);
     note_item(context, offer.id, offer.tooltip);
   }
   ImGui::EndDisabled();
-  ImGui::SetCursorScreenPos({left + rows.places.back().x, y + rows.places.back().y});
+  go_to(labels.size() - 2);
+  if (ImGui::Button(less.c_str())) context.send("unfold-notice off");
+  note_item(context, "notice-less", "back to one line");
+  go_to(labels.size() - 1);
   action_button(context, "notice-off", hide.c_str());
   end_panel();
+}
+
+}  // namespace
+
+void draw_notice(PanelContext& context, const Rect& rect) {
+  Notice notice = notice_of(context.session);
+  if (notice.empty() || notice.key == context.state.dismissed_notice || rect.w < 16 * context.em() || rect.h < 12 * context.em()) return;
+  for (std::string& sentence : notice.sentences) sentence = with_arrows(std::move(sentence));
+  if (context.state.panels.notice)
+    draw_unfolded(context, std::move(notice), rect);
+  else
+    draw_folded(context, notice, rect);
 }
 
 }  // namespace dmoscope::ui

@@ -108,6 +108,8 @@ struct WidgetState {
   std::pair<Index, Index> under_menu{kNoIndex, kNoIndex};  // vertex and element where the menu was opened
   std::array<Index, 2> edge_under_menu{kNoIndex, kNoIndex};
   PickedFacts vertex_under_menu, element_under_menu;  // and what there is to copy of them
+  float setup_height = 0;                             // of the setup's contents in the last frame; 0: not drawn yet
+  bool message_is_cut = false;                        // in the status
   double moved_at = -1e9;                             // when the view last moved
 };
 

@@ -7,7 +7,9 @@
 
 namespace dmoscope::ui {
 
-float draw_menu(PanelContext& context);  // returns its height
+/// How wide menus and tools are in one row.
+[[nodiscard]] HeaderSize header_size(const PanelContext& context);
+void draw_menu(PanelContext& context, const Rect& rect);
 void draw_toolbar(PanelContext& context, const Rect& rect);
 void draw_runs(PanelContext& context);
 void draw_parameters(PanelContext& context);
@@ -21,7 +23,11 @@ void draw_clipping(PanelContext& context);
 /// The clip plane in a viewport: what of it takes the mouse, to be called before whatever lies below it; and its picture.
 void handle_clip_plane(PanelContext& context, const PaneFacts& pane);
 void draw_clip_plane(const PanelContext& context, const PaneFacts& pane);
-void draw_inspector(PanelContext& context);
+/// A column's docks. `overlay`: over the mesh, in a small window.
+void draw_column(PanelContext& context, Side side, const Rect& rect, bool overlay);
+/// Facts of the mesh and its quality; of what is picked.
+void draw_mesh_facts(PanelContext& context);
+void draw_selection(PanelContext& context);
 /// Of a picked vertex, and of the edges of a picked element, where the run's vertices slide: their kinds, and what changes them.
 void draw_vertex_kind(PanelContext& context, const Frame& frame, const RunView& run, Index vertex);
 void draw_element_edges(PanelContext& context, const Frame& frame, const RunView& run, Index element);
@@ -55,10 +61,11 @@ void draw_notice(PanelContext& context, const Rect& rect);
 /// The tour's card, or the offer of a tour, over all panels; last of these, since it looks for the control that it is about.
 void draw_tour(PanelContext& context, const Layout& layout);
 void draw_start_page(PanelContext& context, const Rect& rect);
-/// `timeline_only`: there is no room for more.
-void draw_plots(PanelContext& context, const Rect& rect, bool timeline_only);
-void draw_timeline(PanelContext& context);
+void draw_plots(PanelContext& context, const Rect& rect);
+void draw_timeline(PanelContext& context, const Rect& rect);
 void draw_status(PanelContext& context, const Rect& rect);
+/// Over the mesh: a message that the status has no room for.
+void draw_message(PanelContext& context, const Rect& viewport);
 void draw_strips(PanelContext& context, const Layout& layout);
 void draw_splitters(PanelContext& context, const Layout& layout);
 

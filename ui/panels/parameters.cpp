@@ -140,17 +140,33 @@ void draw_target(PanelContext& context, const RunView& run) {
   if (combo.entry("other", "another…", false)) context.state.dialog = Dialog::Formula;
 }
 
+/// "all usual" or "2 changed": of the parameters that are folded away.
+std::string changes_of(const RunParameters& parameters) {
+  const RunParameters usual;
+  std::size_t changed = 0;
+  for (const ParameterInfo& row : parameter_table())
+    if (row.in_session && row.name != "method" && row.name != "metric" && row.to_text(parameters) != row.to_text(usual)) ++changed;
+  return changed == 0 ? "all usual" : fmt::format("{} changed", changed);
+}
+
+void draw_settings(PanelContext& context, const RunView& run) {
+  const RunParameters& parameters = run.parameters;
+  if (run.input) draw_target(context, run);
+  draw_composite(context, run);
+  draw_options(context, parameters, run.input && run.input->is_surface());
+  draw_interfaces(context, parameters);
+  draw_order(context, parameters);
+  draw_backend(context, run);
+  labelled(context, "threads", "of this computer that smooth; the result does not depend on it");
+  integer(context, "threads", static_cast<int>(context.session.threads), 1, 1024, "threads");
+}
+
 }  // namespace
 
 void draw_parameters(PanelContext& context) {
-  heading(context, "Parameters");
   const RunView* run = context.run();
-  if (run == nullptr) {
-    dim_text(context, "of the run that is selected");
-    return;
-  }
+  if (run == nullptr) return;
   const RunParameters& parameters = run->parameters;
-  draw_what_a_change_does(context, *run);
   ImGui::BeginDisabled(context.activity.busy);
   draw_method(context, parameters);
   draw_method_note(context, parameters);
@@ -159,14 +175,14 @@ void draw_parameters(PanelContext& context) {
   else
     labelled(context, "judged by", "the metric of the run's statistics; the method goes by none", metric_combo_width(context));
   metric_combo(context, "metric", parameters.metric, "metric");
-  if (run->input) draw_target(context, *run);
-  draw_composite(context, *run);
-  draw_options(context, parameters, run->input && run->input->is_surface());
-  draw_interfaces(context, parameters);
-  draw_order(context, parameters);
-  draw_backend(context, *run);
-  labelled(context, "threads", "of this computer that smooth; the result does not depend on it");
-  integer(context, "threads", static_cast<int>(context.session.threads), 1, 1024, "threads");
+  draw_what_a_change_does(context, *run);
+  ImGui::EndDisabled();
+  const bool open = context.state.panels.settings;
+  if (fold_row(context, "settings", "More settings", changes_of(parameters), open, "target, phases, grid, boundary, order, threads"))
+    context.send(open ? "settings off" : "settings on");
+  if (!open) return;
+  ImGui::BeginDisabled(context.activity.busy);
+  draw_settings(context, *run);
   ImGui::EndDisabled();
 }
 

@@ -1,4 +1,4 @@
-// Bottom: plots and the timeline.
+// Below the viewport: plots.
 #include <algorithm>
 
 #include "ui/panels/panels.h"
@@ -6,22 +6,16 @@
 
 namespace dmoscope::ui {
 
-void draw_plots(PanelContext& context, const Rect& rect, bool timeline_only) {
+void draw_plots(PanelContext& context, const Rect& rect) {
   if (rect.empty()) return;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {context.px(12), context.px(6)});
   begin_panel("plots", rect);
   ImGui::PopStyleVar();
-  if (timeline_only) {
-    draw_timeline(context);
-    end_panel();
-    return;
-  }
   draw_plot_tabs(context);
   draw_plot_controls(context, rect);
-  const float timeline = ImGui::GetFrameHeightWithSpacing();
   // The keyboard goes into the table, not into plots, around which it would leave a frame.
   const ImGuiWindowFlags keys = context.state.plot == PlotTab::Runs ? ImGuiWindowFlags_None : ImGuiWindowFlags_NoNav;
-  ImGui::BeginChild("plot area", {0, std::max(1.0F, ImGui::GetContentRegionAvail().y - timeline)}, false,
+  ImGui::BeginChild("plot area", {0, std::max(1.0F, ImGui::GetContentRegionAvail().y)}, false,
                     keys | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
   if (context.state.plot == PlotTab::Runs) {
     draw_run_table(context);
@@ -29,7 +23,6 @@ void draw_plots(PanelContext& context, const Rect& rect, bool timeline_only) {
     draw_plot_area(context);
   }
   ImGui::EndChild();
-  draw_timeline(context);
   end_panel();
 }
 

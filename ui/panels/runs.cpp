@@ -1,4 +1,4 @@
-// Left: the runs, in a list that scrolls by itself and keeps its height, so that what is below it never moves.
+// The runs, in a list that scrolls by itself and keeps its height, so that what is below it never moves.
 #include <algorithm>
 #include <utility>
 
@@ -25,17 +25,10 @@ const Statistics* statistics_of(const PanelContext& context, std::size_t k) {
   return &run.records.back().statistics;
 }
 
-/// "it 12 · min 0.4284 · mean 0.7831"; what there is no room for is in the tooltip.
-std::string facts_of(const PanelContext& context, std::size_t k, float room) {
-  std::string text = fmt::format("it {}", count(context.session.runs[k].moment.iteration));
+/// The minimum, by the run's own metric.
+std::string minimum_of(const PanelContext& context, std::size_t k) {
   const Statistics* statistics = statistics_of(context, k);
-  if (statistics == nullptr) return fit_text(text, room);
-  for (const auto& [word, value] : {std::pair{"min", statistics->minimum}, {"mean", statistics->mean}}) {
-    const std::string longer = fmt::format("{} · {} {}", text, word, short_number(value));
-    if (ImGui::CalcTextSize(longer.c_str()).x > room) break;
-    text = longer;
-  }
-  return fit_text(text, room);
+  return statistics == nullptr ? std::string() : short_number(statistics->minimum);
 }
 
 std::string tooltip_of(const PanelContext& context, std::size_t k) {
@@ -91,17 +84,17 @@ void draw_name_field(PanelContext& context, std::size_t k, float width) {
   if (changed) context.send(fmt::format("rename-run {} {}", k + 1, quote_word(list.name)));
 }
 
-void draw_row_buttons(PanelContext& context, std::size_t k, ImVec2 corner, float side) {
+void draw_row_buttons(PanelContext& context, std::size_t k, ImVec2 corner, float side, float height) {
   const std::string number = std::to_string(k + 1);
   const bool hidden = is_hidden(context, k);
   ImGui::SetCursorScreenPos(corner);
-  if (icon_button(context, "run-eye:" + number, hidden ? Icon::EyeOff : Icon::Eye, {side, side},
+  if (icon_button(context, "run-eye:" + number, hidden ? Icon::EyeOff : Icon::Eye, {side, height},
                   hidden ? "shows it in plots and viewports again" : "hides it in plots and viewports"))
     context.send("hide-run " + number);
-  ImGui::SetCursorScreenPos({corner.x, corner.y + side});
+  ImGui::SetCursorScreenPos({corner.x + side, corner.y});
   const bool possible = context.session.runs.size() > 1 && !context.activity.busy;
   ImGui::BeginDisabled(!possible);
-  if (icon_button(context, "run-remove:" + number, Icon::Cross, {side, side},
+  if (icon_button(context, "run-remove:" + number, Icon::Cross, {side, height},
                   context.session.runs.size() > 1 ? "removes it; Ctrl+Z brings it back" : "the last run cannot be removed"))
     context.send("remove-run " + number);
   ImGui::EndDisabled();
@@ -119,17 +112,19 @@ void draw_run_row(PanelContext& context, std::size_t k, float width) {
   const RunView& run = context.session.runs[k];
   ImGui::PushID(static_cast<int>(k));
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float line = ImGui::GetTextLineHeight(), pad = context.px(3), side = line + pad;
+  const float line = ImGui::GetTextLineHeight(), height = std::round(1.6F * line), side = line + context.px(3);
   const bool active = k == context.session.active, hidden = is_hidden(context, k);
-  const float bar = context.px(4), text = at.x + bar + context.px(6), room = at.x + width - side - context.px(2) - text;
+  const std::string minimum = minimum_of(context, k);
+  const float bar = context.px(4), text = at.x + bar + context.px(6), buttons = at.x + width - 2 * side;
+  const float number = buttons - context.px(4) - ImGui::CalcTextSize(minimum.c_str()).x, room = number - context.px(8) - text;
   if (context.state.renaming_run == run.id) {
     ImGui::SetCursorScreenPos({text, at.y});
     draw_name_field(context, k, room);
     ImGui::SetCursorScreenPos(at);
   } else {
-    const bool pressed = ImGui::Selectable("##run", active, ImGuiSelectableFlags_AllowItemOverlap, {width, 2 * side});
+    const bool pressed = ImGui::Selectable("##run", active, ImGuiSelectableFlags_AllowItemOverlap, {width, height});
     context.items.record_last(fmt::format("run:{}", k));
-    const bool on_text = ImGui::IsItemHovered() && ImGui::GetIO().MousePos.x < at.x + width - side;  // not on the buttons
+    const bool on_text = ImGui::IsItemHovered() && ImGui::GetIO().MousePos.x < buttons;
     if (on_text) context.widgets.run_list.over = k + 1;
     const bool twice = on_text && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
     if (on_text) next_item_tooltip(tooltip_of(context, k));
@@ -140,13 +135,13 @@ void draw_run_row(PanelContext& context, std::size_t k, float width) {
       context.send(fmt::format("select-run {}", k + 1));
   }
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  list.AddRectFilled({at.x, at.y + pad}, {at.x + bar, at.y + 2 * side - pad}, colour(context.palette.run(k), hidden ? 0.35F : 1.0F),
-                     bar / 2);
-  const render::Rgb ink = hidden ? context.palette.dim : context.palette.text;
-  if (context.state.renaming_run != run.id) list.AddText({text, at.y + pad / 2}, colour(ink), title_within(context, k, room).c_str());
-  list.AddText({text, at.y + side + pad / 2}, colour(context.palette.dim), facts_of(context, k, room).c_str());
-  draw_row_buttons(context, k, {at.x + width - side, at.y}, side);
-  ImGui::SetCursorScreenPos({at.x, at.y + 2 * side});
+  const float pad = context.px(3), y = at.y + (height - line) / 2;
+  list.AddRectFilled({at.x, at.y + pad}, {at.x + bar, at.y + height - pad}, colour(context.palette.run(k), hidden ? 0.35F : 1.0F), bar / 2);
+  const ImU32 ink = colour(hidden ? context.palette.dim : context.palette.text);
+  if (context.state.renaming_run != run.id) list.AddText({text, y}, ink, title_within(context, k, room).c_str());
+  list.AddText({number, y}, ink, minimum.c_str());
+  draw_row_buttons(context, k, {buttons, at.y}, side, height);
+  ImGui::SetCursorScreenPos({at.x, at.y + height});
   ImGui::PopID();
 }
 
@@ -201,7 +196,7 @@ void draw_runs(PanelContext& context) {
   ImGui::PopStyleVar();
   const ImVec2 below = ImGui::GetCursorScreenPos();
   const float grip = context.px(6);
-  splitter_grip(context, {"runs", {below.x, below.y, width, grip}, false, 1, &Panels::runs_height, 4, 40});
+  splitter_grip(context, {"runs", {below.x, below.y, width, grip}, false, 1, &Panels::runs_height, 3, 40});
 }
 
 }  // namespace dmoscope::ui

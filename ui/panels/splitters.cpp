@@ -1,6 +1,5 @@
 // The edges of the panels: dragged they resize, by their chevrons panels are folded and come back.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -26,27 +25,29 @@ void begin_edge(const char* name, const Rect& rect) {
   ImGui::PopStyleVar(2);
 }
 
-/// One of the panels that can be folded.
-struct FoldingPanel {
-  const char* name;  // "left"
-  const char* action;
-  Icon to_fold, to_open;
-};
-constexpr std::array<FoldingPanel, 3> kFolding{{{"left", "panel-left", Icon::ChevronLeft, Icon::ChevronRight},
-                                                {"right", "panel-right", Icon::ChevronRight, Icon::ChevronLeft},
-                                                {"bottom", "panel-bottom", Icon::ChevronDown, Icon::ChevronUp}}};
-
-/// A tab over the mesh, in the middle of the panel's edge.
-void fold_tab(PanelContext& context, const FoldingPanel& panel, bool open, const Rect& rect) {
-  begin_edge(fmt::format("{} tab", panel.name).c_str(), rect);
+/// A tab over the mesh, in the middle of an edge that can be folded; true when it is clicked.
+bool fold_tab(PanelContext& context, const char* name, Icon icon, const char* tooltip, const Rect& rect) {
+  begin_edge(fmt::format("{} tab", name).c_str(), rect);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled({rect.x, rect.y}, {rect.x + rect.w, rect.y + rect.h}, colour(context.palette.panel, 0.9F), context.px(4));
   list.AddRect({rect.x, rect.y}, {rect.x + rect.w, rect.y + rect.h}, colour(context.palette.line), context.px(4));
-  const Action& action = *find_action(panel.action);
-  const std::string tip = fmt::format("{} ({})", open ? "folds this panel" : "opens the panel", action.key);
-  if (icon_button(context, fmt::format("fold:{}", panel.name), open ? panel.to_fold : panel.to_open, {rect.w, rect.h}, tip))
-    context.send(std::string(action.command));
+  const bool clicked = icon_button(context, fmt::format("fold:{}", name), icon, {rect.w, rect.h}, tooltip);
   ImGui::End();
+  return clicked;
+}
+
+/// Folds all docks of a side, or opens them.
+void draw_column_tab(PanelContext& context, Side side, const Rect& rect) {
+  const Panels& panels = context.state.panels;
+  const bool open = panels.has_column(side), points_left = open == (side == Side::Left);
+  const bool both = panels.setup_side == panels.facts_side;
+  const std::string keys = both ? "F2, F3" : panels.setup_side == side ? "F2" : "F3";
+  if (!fold_tab(context, side == Side::Left ? "left" : "right", points_left ? Icon::ChevronLeft : Icon::ChevronRight,
+                fmt::format("{} ({})", open ? "folds this column" : "opens the column", keys).c_str(), rect))
+    return;
+  const char* word = open ? "off" : "on";
+  if (panels.setup_side == side) context.send(fmt::format("panel setup {}", word));
+  if (panels.facts_side == side) context.send(fmt::format("panel facts {}", word));
 }
 
 void splitter(PanelContext& context, const SplitterEdge& edge) {
@@ -99,7 +100,7 @@ void draw_splitters(PanelContext& context, const Layout& layout) {
         {"left", {layout.left.x + layout.left.w - grip / 2, layout.left.y, grip, layout.left.h}, true, 1, &Panels::left_width, 12, 40});
   if (!layout.folded && !layout.right.empty())
     splitter(context, {"right", {layout.right.x - grip / 2, layout.right.y, grip, layout.right.h}, true, -1, &Panels::right_width, 13, 40});
-  if (!layout.bottom.empty() && !layout.timeline_only)
+  if (!layout.bottom.empty())
     splitter(context,
              {"bottom", {layout.bottom.x, layout.bottom.y - grip / 2, layout.bottom.w, grip}, false, -1, &Panels::bottom_height, 9, 40});
 
@@ -109,13 +110,16 @@ void draw_splitters(PanelContext& context, const Layout& layout) {
   if (mesh.w < 2 * along || mesh.h < 2 * along) return;
   const float middle = std::round(mesh.y + mesh.h / 2 - along / 2);
   if (!layout.folded) {
-    fold_tab(context, kFolding[0], panels.left, {mesh.x, middle, across, along});
-    fold_tab(context, kFolding[1], panels.right, {mesh.x + mesh.w - across, middle, across, along});
+    if (panels.uses(Side::Left)) draw_column_tab(context, Side::Left, {mesh.x, middle, across, along});
+    if (panels.uses(Side::Right)) draw_column_tab(context, Side::Right, {mesh.x + mesh.w - across, middle, across, along});
   }
   const float share = mesh.w < context.em() * 62 ? 0.66F : 0.5F;  // in a narrow one the colour bar reaches the middle
-  const bool has_plots = !layout.bottom.empty() && !layout.timeline_only;
-  if (!layout.bottom.empty() && panels.plots() == has_plots)  // else there is no room for them
-    fold_tab(context, kFolding[2], has_plots, {std::round(mesh.x + mesh.w * share - along / 2), mesh.y + mesh.h - across, along, across});
+  const bool has_plots = !layout.bottom.empty();
+  if (layout.timeline.empty() || panels.plots() != has_plots) return;  // no mesh, or no room for plots
+  if (fold_tab(context, "bottom", has_plots ? Icon::ChevronDown : Icon::ChevronUp,
+               has_plots ? "folds the plots (F4)" : "opens the plots (F4)",
+               {std::round(mesh.x + mesh.w * share - along / 2), mesh.y + mesh.h - across, along, across}))
+    context.send("panel bottom toggle");
 }
 
 }  // namespace dmoscope::ui

@@ -24,7 +24,8 @@ std::string speed_sentence(const PanelContext& context) {
 
 /// In line with the text beside it, which ImGui's own bar would put lower.
 void draw_bar(const PanelContext& context, float fraction) {
-  const ImVec2 at = ImGui::GetCursorScreenPos(), size{8 * context.em(), ImGui::GetTextLineHeight()};
+  const ImVec2 at = ImGui::GetCursorScreenPos(),
+               size{std::min(8 * context.em(), 0.25F * ImGui::GetWindowWidth()), ImGui::GetTextLineHeight()};
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float round = ImGui::GetStyle().FrameRounding;
   list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, ImGui::GetColorU32(ImGuiCol_FrameBg), round);
@@ -37,7 +38,6 @@ void draw_bar(const PanelContext& context, float fraction) {
 /// Of pictures that are being taken; not in the pictures themselves.
 void draw_sequence_progress(PanelContext& context, const Sequence& sequence) {
   if (sequence.phase == Sequence::Phase::Clean) return;
-  ImGui::SameLine(0, context.px(16));
   draw_bar(context, static_cast<float>(sequence.progress()));
   ImGui::SameLine();
   ImGui::TextUnformatted(fmt::format("picture {} of {}", sequence.done + 1, sequence.iterations.size()).c_str());
@@ -75,16 +75,14 @@ bool shows_work(const PanelContext& context) {
 
 /// Before all that changes its width meanwhile, so that it stays under the pointer.
 void draw_cancel(PanelContext& context) {
-  if (!shows_work(context)) return;
-  ImGui::SameLine(0, context.px(16));
   if (ImGui::SmallButton("Cancel")) context.send("cancel");
   context.items.record_last("cancel");
 }
 
 void draw_progress(PanelContext& context) {
   if (context.state.sequence) return draw_sequence_progress(context, *context.state.sequence);
-  if (!shows_work(context)) return;
-  ImGui::SameLine(0, context.px(16));
+  draw_cancel(context);
+  ImGui::SameLine(0, context.px(10));
   const auto fraction = static_cast<float>(context.activity.progress);
   const RunView* run = run_at_work(context.session);
   const bool endless = run != nullptr && run->pursuit->until_converged;
@@ -109,70 +107,116 @@ void strip(PanelContext& context, const char* side_name, const Rect& rect, const
   end_panel();
 }
 
+/// The newest thing that was said, which the sentence of a step is, too.
+std::optional<Message> newest_message(const PanelContext& context) {
+  const StepNews& news = context.state.stepping.news;
+  if (!news.sentence.empty() && news.messages == context.state.messages) return Message{Message::Kind::Info, news.sentence, 0};
+  return context.state.result.newest();
+}
+
+std::string first_line(const PanelContext& context, const Message& message) {
+  return context.shown(message.text.substr(0, message.text.find('\n')));
+}
+
+render::Rgb ink_of(const PanelContext& context, const Message& message) {
+  return message.kind == Message::Kind::Error     ? context.palette.error
+         : message.kind == Message::Kind::Warning ? context.palette.warning
+                                                  : context.palette.text;
+}
+
+/// `room`: up to what stands at the right end.
+void draw_newest(PanelContext& context, float room) {
+  const auto message = newest_message(context);
+  if (!message) return;
+  const std::string text = first_line(context, *message);
+  context.widgets.message_is_cut = ImGui::CalcTextSize(text.c_str()).x > room + 1;
+  if (room < 3 * context.em()) return;
+  ImGui::TextColored(colour_vector(ink_of(context, *message)), "%s", fit_text(text, room + 1).c_str());
+  std::string recent = message->text;
+  const std::deque<Message>& log = context.state.log;
+  for (std::size_t k = log.size() - std::min<std::size_t>(8, log.size()); k < log.size(); ++k)
+    if (log[k].text != message->text) recent += "\n" + log[k].text;
+  next_item_tooltip(context.shown(recent) + "\n(click shows the log)");
+  if (ImGui::IsItemClicked()) context.send("dialog log");
+  context.items.record_last("status-message");
+}
+
+/// "2 CPU threads", or the way from a device to the screen; how fast it is stands in the tooltip.
+void draw_backend(PanelContext& context, const std::string& backend) {
+  const Activity& activity = context.activity;
+  dim_text(context, backend, false);
+  context.items.record_last("status-backend");
+  std::string more;
+  for (const std::string& line : {activity.backend_reason, activity.backend == Backend::Cpu ? std::string() : activity.drawing.reason,
+                                  activity.renderer, speed_sentence(context)})
+    if (!line.empty()) more += (more.empty() ? "" : "\n") + line;
+  next_item_tooltip(more);
+}
+
+std::string backend_words(const PanelContext& context) {
+  const Activity& activity = context.activity;
+  const unsigned threads = context.session.threads;
+  if (activity.frames_per_second > 0.0 && !activity.busy) return fmt::format("{:.0f} frames/s", activity.frames_per_second);
+  if (activity.backend != Backend::Cpu) return activity.drawing.sentence();
+  return context.session.input ? fmt::format("{} CPU thread{}", threads, threads == 1 ? "" : "s") : std::string("CPU");
+}
+
 }  // namespace
 
 void draw_status(PanelContext& context, const Rect& rect) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {context.px(12), (rect.h - ImGui::GetTextLineHeight()) / 2});
-  ImGui::PushStyleColor(ImGuiCol_WindowBg, colour_vector(context.palette.raised));
   begin_panel("status", rect);
-  ImGui::PopStyleColor();
   ImGui::PopStyleVar();
-  const Activity& activity = context.activity;
-  const unsigned threads = context.session.threads;
-  const bool on_cpu = activity.backend == Backend::Cpu;
-  std::string backend = on_cpu ? std::string(name(activity.backend)) : activity.drawing.sentence();
-  if (on_cpu && context.session.input) backend += fmt::format(", {} thread{}", threads, threads == 1 ? "" : "s");
-  ImGui::TextUnformatted(fit_text(backend, 24 * context.em()).c_str());
-  context.items.record_last("status-backend");
-  std::string more;
-  for (const std::string& line : {activity.backend_reason, on_cpu ? std::string() : activity.drawing.reason, activity.renderer})
-    if (!line.empty()) more += (more.empty() ? "" : "\n") + line;
-  next_item_tooltip(more);
-  draw_cancel(context);
-  const bool at_work = activity.busy && run_at_work(context.session) != nullptr;
-  if (const std::string speed = speed_sentence(context); !at_work && !speed.empty()) {
-    ImGui::SameLine(0, context.px(16));
-    dim_text(context, speed, false);
-    note_item(context, "status-speed",
-              "of the last iteration, smoothing alone: vertices searched a second, those passed over not counted, and its time");
-  }
-  if (activity.frames_per_second > 0.0) {
-    ImGui::SameLine(0, context.px(16));
-    dim_text(context, fmt::format("{:.0f} frames/s", activity.frames_per_second), false);
-  }
-  draw_progress(context);
-  const StepNews& news = context.state.stepping.news;
-  const bool of_step = !news.sentence.empty() && news.messages == context.state.messages;
-  if (const auto& result = context.state.result.newest(); of_step || result) {
-    const Message message = of_step ? Message{Message::Kind::Info, news.sentence, 0} : *result;
-    std::string text = context.shown(message.text.substr(0, message.text.find('\n')));
-    ImGui::SameLine(0, context.px(16));
-    const float room = ImGui::GetContentRegionAvail().x;
-    if (room > 4 * context.em()) {
-      text = fit_text(text, room);
-      ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(text.c_str()).x);
-      const render::Rgb ink = message.kind == Message::Kind::Error     ? context.palette.error
-                              : message.kind == Message::Kind::Warning ? context.palette.warning
-                                                                       : context.palette.text;
-      ImGui::TextColored(colour_vector(ink), "%s", text.c_str());
-      std::string recent = of_step ? news.sentence : std::string();
-      for (std::size_t k = context.state.log.size() - std::min<std::size_t>(8, context.state.log.size()); k < context.state.log.size();
-           ++k) {
-        recent += (recent.empty() ? "" : "\n") + context.state.log[k].text;
-      }
-      next_item_tooltip(context.shown(recent) + "\n(click shows the log)");
-      if (ImGui::IsItemClicked()) context.send("dialog log");
-      context.items.record_last("status-message");
+  context.widgets.message_is_cut = false;
+  const bool at_work = context.state.sequence || shows_work(context);
+  const std::string backend = fit_text(backend_words(context), 0.6F * rect.w);
+  const float end = rect.w - context.px(12) - ImGui::CalcTextSize(backend.c_str()).x;
+  if (at_work) {
+    draw_progress(context);
+  } else {
+    const auto message = newest_message(context);
+    const float whole = message ? ImGui::CalcTextSize(first_line(context, *message).c_str()).x : 0.0F;
+    const bool both = context.px(24) + whole <= end;  // else the message needs all the room
+    draw_newest(context, both ? whole : rect.w - context.px(24));
+    if (both) {
+      ImGui::SameLine(end);
+      draw_backend(context, backend);
     }
   }
+  end_panel();
+}
+
+void draw_message(PanelContext& context, const Rect& viewport) {
+  const auto message = newest_message(context);
+  if (!message || !context.widgets.message_is_cut || viewport.h < 8 * context.em()) return;
+  // Other news is in the facts, too, and in the tooltip.
+  const bool is_step = message->text == context.state.stepping.news.sentence && !context.state.tour.on;  // whose card is there
+  if (message->kind == Message::Kind::Info && !is_step) return;
+  const std::string text = first_line(context, *message);
+  const float pad = context.px(10), axes = context.state.in_space ? 6 * context.em() : 0.0F;
+  const float most = std::min(viewport.w - 4 * pad - axes, 60 * context.em());
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, most - 2 * pad);
+  const Rect box{std::round(viewport.x + viewport.w - size.x - 4 * pad - axes), std::round(viewport.y + viewport.h - size.y - 4 * pad),
+                 size.x + 2 * pad + 1, size.y + 2 * pad};
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {pad, pad});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, context.px(5));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0F);
+  begin_panel("message", box, true);
+  ImGui::PopStyleVar(3);
+  wrapped_text(text, ink_of(context, *message));
+  if (ImGui::IsItemClicked()) context.send("dialog log");
+  context.items.record_last("message");
   end_panel();
 }
 
 void draw_strips(PanelContext& context, const Layout& layout) {
   if (!layout.folded) return;
   const Panels& panels = context.state.panels;
-  strip(context, "left", layout.left_strip, "☰", "runs and parameters", panels.left_over);
-  strip(context, "right", layout.right_strip, "ℹ", "inspector and worst elements", panels.right_over);
+  const auto words = [&panels](Side side) {
+    return panels.setup_side == panels.facts_side ? "setup and facts" : panels.setup_side == side ? "runs and parameters" : "facts";
+  };
+  if (!layout.left_strip.empty()) strip(context, "left", layout.left_strip, "☰", words(Side::Left), panels.left_over);
+  if (!layout.right_strip.empty()) strip(context, "right", layout.right_strip, "☰", words(Side::Right), panels.right_over);
 }
 
 }  // namespace dmoscope::ui

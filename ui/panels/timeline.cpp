@@ -52,9 +52,7 @@ void draw_slider(PanelContext& context, std::uint64_t last, float width) {
   ImGui::EndDisabled();
 }
 
-}  // namespace
-
-void draw_timeline(PanelContext& context) {
+void draw_controls(PanelContext& context) {
   const RunView* run = context.run();
   const std::uint64_t last = run == nullptr || run->records.empty() ? 0 : run->records.back().iteration;
   const float small = context.px(4);
@@ -92,6 +90,20 @@ void draw_timeline(PanelContext& context) {
   ImGui::AlignTextToFramePadding();
   dim_text(context, label, false);
   if (run != nullptr && !run->history_note.empty()) next_item_tooltip(run->history_note);
+}
+
+}  // namespace
+
+void draw_timeline(PanelContext& context, const Rect& rect) {
+  if (rect.empty()) return;
+  const float line = ImGui::GetTextLineHeight();
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {context.px(7), std::floor((rect.h - line - context.px(4)) / 2)});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {context.px(12), context.px(2)});
+  begin_panel("timeline", rect);
+  ImGui::PopStyleVar();
+  draw_controls(context);
+  ImGui::PopStyleVar();
+  end_panel();
 }
 
 }  // namespace dmoscope::ui

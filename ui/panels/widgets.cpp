@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "ui/panels/icons.h"
 #include "ui/panels/panels.h"
 #include "ui/state/format.h"
 #include "ui/state/situation.h"
@@ -135,6 +136,19 @@ void metric_tooltip(const PanelContext& context, const MetricInfo& metric) {
   ImGui::EndTooltip();
 }
 
+bool fold_row(PanelContext& context, const char* item, const char* title, const std::string& aside, bool open, const char* tooltip) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x, line = ImGui::GetTextLineHeight(), height = ImGui::GetFrameHeight();
+  const bool clicked = ImGui::Selectable(fmt::format("##{}", item).c_str(), false, 0, {width, height});
+  note_item(context, item, tooltip);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const float y = at.y + (height - line) / 2, side = context.px(12);
+  draw_icon(list, open ? Icon::ChevronDown : Icon::ChevronRight, {at.x + side / 2, at.y + height / 2}, side, colour(context.palette.dim));
+  list.AddText({at.x + side + context.px(6), y}, colour(context.palette.text), title);
+  list.AddText({at.x + width - ImGui::CalcTextSize(aside.c_str()).x, y}, colour(context.palette.dim), aside.c_str());
+  return clicked;
+}
+
 bool action_button(PanelContext& context, std::string_view id, const char* label, bool primary, float width) {
   const Action* action = find_action(id);
   const bool possible = enabled(*action, context.situation());
@@ -174,7 +188,7 @@ void labelled(const PanelContext& context, const char* label, const char* toolti
   const float beside_label = ImGui::GetCursorPosX() + ImGui::CalcTextSize(label).x + ImGui::GetStyle().ItemSpacing.x;
   // One column for all but the longest labels.
   const float usual = ImGui::GetCursorPosX() + ImGui::CalcTextSize("grid points").x + ImGui::GetStyle().ItemSpacing.x;
-  const float at = std::max({ImGui::GetWindowContentRegionMax().x * 0.42F, usual, beside_label});
+  const float at = std::max({ImGui::GetWindowContentRegionMax().x * 0.32F, usual, beside_label});
   const bool below = wanted > 0 && at + wanted > ImGui::GetWindowContentRegionMax().x;
   if (!below) ImGui::AlignTextToFramePadding();
   dim_text(context, label, false);

@@ -20,6 +20,8 @@ void value_row(const PanelContext& context, const char* label, const std::string
                std::optional<render::Rgb> ink = {}, const char* tooltip = nullptr);
 void number_row(const PanelContext& context, const char* label, double value, const char* tooltip = nullptr);
 void metric_tooltip(const PanelContext& context, const MetricInfo& metric);
+/// A row that unfolds what stands below it; `aside` at its right end. True when it is clicked.
+bool fold_row(PanelContext& context, const char* item, const char* title, const std::string& aside, bool open, const char* tooltip);
 /// A button for an action, with tooltip and key; records the item under the action's id.
 /// `width`: in pixels, for labels that change; 0: as the label needs.
 bool action_button(PanelContext& context, std::string_view id, const char* label, bool primary = false, float width = 0);

@@ -5,6 +5,16 @@
 
 namespace dmoscope::ui {
 
+void Panels::show_selection(bool in_list) {
+  if (tab == FactsTab::Selection || (in_list && tab == FactsTab::Worst)) return;
+  tab_before = tab;
+  tab = FactsTab::Selection;
+}
+
+void Panels::leave_selection() {
+  if (tab == FactsTab::Selection) tab = tab_before;
+}
+
 namespace {
 
 /// The upper end of the highest bin that is not empty.

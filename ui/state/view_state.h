@@ -75,17 +75,43 @@ struct WindowPlace {
   friend bool operator==(const WindowPlace&, const WindowPlace&) = default;
 };
 
-/// Which panels are there. The side panels give way to the mesh in a small window and then open over it.
+enum class Side : std::uint8_t { Left, Right };
+inline constexpr std::array<std::pair<std::string_view, Side>, 2> kSides{{{"left", Side::Left}, {"right", Side::Right}}};
+/// What the dock of facts shows.
+enum class FactsTab : std::uint8_t { Mesh, Selection, Worst, Colours, Inside };
+inline constexpr std::array<std::pair<std::string_view, FactsTab>, 5> kFactsTabs{{{"mesh", FactsTab::Mesh},
+                                                                                  {"selection", FactsTab::Selection},
+                                                                                  {"worst", FactsTab::Worst},
+                                                                                  {"colours", FactsTab::Colours},
+                                                                                  {"inside", FactsTab::Inside}}};
+
+/// Which panels are there. Two docks, of setup and of facts, stand in columns beside the mesh, the one above the other where they share
+/// a side. The columns give way to the mesh in a small window and then open over it.
 struct Panels {
-  bool left = true;                            // runs and parameters
-  bool right = true;                           // inspector and worst elements
+  bool setup = true;  // runs, method and metric
+  bool facts = true;  // mesh, selection, worst elements, colours
+  Side setup_side = Side::Right, facts_side = Side::Right;
+  FactsTab tab = FactsTab::Mesh;
+  FactsTab tab_before = FactsTab::Mesh;        // the one to go back to when nothing is picked any more
+  bool settings = false;                       // all parameters are unfolded
+  bool holds = false;                          // what holds the minimum is unfolded
+  bool notice = false;                         // the note about a run's end is unfolded
   bool bottom = true;                          // plots; the timeline below them is always there
   bool plots_wait = true;                      // for the first step of a mesh, or for a plot that needs none; then they open
   bool left_over = false, right_over = false;  // opened over the mesh where the window is too small for both
   [[nodiscard]] bool plots() const noexcept { return bottom && !plots_wait; }
-  // In heights of the interface's font. Together the sides leave two thirds of 1280 pixels to the mesh.
-  double left_width = 14.0, right_width = 15.6, bottom_height = 15.0;
-  double runs_height = 6.2;  // of the list of runs in the left panel
+  [[nodiscard]] bool has_setup(Side side) const noexcept { return setup && setup_side == side; }
+  [[nodiscard]] bool has_facts(Side side) const noexcept { return facts && facts_side == side; }
+  [[nodiscard]] bool has_column(Side side) const noexcept { return has_setup(side) || has_facts(side); }
+  /// Whether a dock belongs there, open or not.
+  [[nodiscard]] bool uses(Side side) const noexcept { return setup_side == side || facts_side == side; }
+  /// Shows the facts of what is picked; `in_list`: from the list of the worst, which stays.
+  void show_selection(bool in_list = false);
+  /// Nothing is picked any more.
+  void leave_selection();
+  // In heights of the interface's font.
+  double left_width = 16.0, right_width = 20.0, bottom_height = 13.0;
+  double runs_height = 4.8;  // of the list of runs: three rows
 };
 
 struct ScreenshotOptions {

@@ -56,10 +56,19 @@ void Items::move_focus(int direction) const {
   g.NavNextActivateFlags = ImGuiActivateFlags_PreferInput;  // of a slider, too: what is typed is its number
 }
 
+void Items::end_focus() {
+  ImGuiContext& g = *ImGui::GetCurrentContext();
+  if (g.OpenPopupStack.empty() && g.ActiveId == 0) g.NavDisableHighlight = true;
+}
+
 void Items::record_last(std::string_view name) {
   record_stop(ImGui::GetItemID());
   if (!stops_.empty() && stops_.back().id == ImGui::GetItemID())  // ImGui shows no ring round buttons that it does not draw itself
     ImGui::RenderNavHighlight(ImGui::GetCurrentContext()->LastItemData.Rect, stops_.back().id);
+  if (!scroll_to_.empty() && name == scroll_to_) {
+    if (!ImGui::IsItemVisible()) ImGui::SetScrollHereY(0.5F);
+    scroll_to_.clear();
+  }
   if (!ImGui::IsItemVisible()) return;  // scrolled out of its panel: something else is where it would be
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   record(name, {low.x, low.y, high.x, high.y});

@@ -27,6 +27,11 @@ class Items {
   /// Gives the keyboard to the control that was drawn after the one that has it, or before it (`direction` -1), round and round within the
   /// dialog that is open, or else all panels; to a text field with its text selected. Between ImGui::NewFrame and ImGui::Render.
   void move_focus(int direction) const;
+  /// Escape ends the ring round the control that has the keyboard, also within a panel's part that scrolls by itself, which ImGui would
+  /// only leave for its panel. Between ImGui::NewFrame and ImGui::Render.
+  static void end_focus();
+  /// The panel of this item scrolls in the next frame so that it is seen.
+  void scroll_to(std::string_view name) { scroll_to_ = name; }
   /// Throws UsageError that lists the known names.
   [[nodiscard]] const Box& find(const std::string& name) const;
   [[nodiscard]] const std::map<std::string, Box, std::less<>>& boxes() const noexcept { return boxes_; }
@@ -40,6 +45,7 @@ class Items {
   };
   std::vector<Stop> stops_;  // in the order they were drawn
   std::map<std::string, Box, std::less<>> boxes_;
+  std::string scroll_to_;
 };
 
 }  // namespace dmoscope::ui

@@ -7,55 +7,66 @@ namespace dmoscope::ui {
 
 namespace {
 
-/// The viewport gives plots and timeline their room.
+// All in heights of the font. Whole pixels everywhere: ImGui puts windows there, and the mesh's picture must not be resampled.
+constexpr float kHeader = 2.66F, kMenu = 1.6F, kLowest = 1.87F, kStrip = 2.6F;
+constexpr float kLeastMesh = 24.0F, kUnfoldedMesh = 33.0F, kLeastMeshHeight = 10.0F, kLeastPlots = 9.0F, kStatus = 20.0F;
+
+/// Menus and tools in one row where both fit, else one above the other. Returns where the row ends.
+float place_header(Layout& layout, float width, const HeaderSize& header) {
+  const float row = std::round(kHeader * header.em);
+  if (header.menu + header.tools <= width) {
+    layout.menu = {0, 0, header.menu, row};
+    layout.toolbar = {header.menu, 0, width - header.menu, row};
+    return row;
+  }
+  const float menu = std::round(kMenu * header.em);
+  layout.menu = {0, 0, width, menu};
+  layout.toolbar = {0, menu, width, row};
+  return menu + row;
+}
+
+/// The status stands below the right column; without one at the right end. The timeline has the rest.
+void place_lowest(Layout& layout, const Panels& panels, float width, float height, float em, bool mesh) {
+  const float row = std::round(kLowest * em), top = height - row;
+  const bool column = !layout.folded && panels.has_column(Side::Right) && layout.right.w >= kStatus * em * 0.7F;
+  const float status = !mesh ? width : column ? layout.right.w : std::round(std::min(kStatus * em, 0.4F * width));
+  layout.status = {width - status, top, status, row};
+  if (mesh) layout.timeline = {0, top, width - status, row};
+}
+
+/// The viewport gives plots their room.
 void take_bottom(Layout& layout, const Panels& panels, float em) {
-  constexpr float kLeastMeshHeight = 10.0F, kLeastPlots = 9.0F, kTimeline = 2.7F;
   Rect& mesh = layout.viewport;
   float height = 0.0F;
   if (panels.plots()) height = std::min({static_cast<float>(panels.bottom_height) * em, 0.4F * mesh.h, mesh.h - kLeastMeshHeight * em});
-  if (height < kLeastPlots * em) {
-    layout.timeline_only = mesh.h >= (kTimeline + kLeastMeshHeight) * em;
-    height = layout.timeline_only ? kTimeline * em : 0.0F;
-  }
+  if (height < kLeastPlots * em) return;
   height = std::round(height);
-  mesh.h = std::max(0.0F, mesh.h - height);
+  mesh.h -= height;
   layout.bottom = {mesh.x, mesh.y + mesh.h, mesh.w, height};
 }
 
-}  // namespace
+/// Strips in place of the columns; a column that is open lies over the mesh, and none covers the other.
+void place_folded(Layout& layout, const Panels& panels, float width, float top, float inner, float em) {
+  const float strip = std::round(kStrip * em);
+  const float left = panels.uses(Side::Left) ? strip : 0.0F, right = panels.uses(Side::Right) ? strip : 0.0F;
+  layout.left_strip = {0, top, left, inner};
+  layout.right_strip = {width - right, top, right, inner};
+  layout.viewport = {left, top, std::max(0.0F, width - left - right), inner};
+  const float over = std::min(layout.viewport.w, width * 0.6F);
+  float left_over = left > 0 && panels.left_over ? std::min(static_cast<float>(panels.left_width) * em, over) : 0.0F;
+  float right_over = right > 0 && panels.right_over ? std::min(static_cast<float>(panels.right_width) * em, over) : 0.0F;
+  const float both = left_over + right_over;
+  const float share = both > layout.viewport.w ? layout.viewport.w / both : 1.0F;
+  left_over = std::floor(left_over * share);
+  right_over = std::floor(right_over * share);
+  layout.left = {left, top, left_over, inner};
+  layout.right = {width - right - right_over, top, right_over, inner};
+}
 
-Layout compute_layout(const Panels& panels, float width, float height, float em, float menu, bool timeline) {
-  constexpr float kToolbar = 2.9F, kStatus = 1.9F, kStrip = 2.6F;
-  constexpr float kFoldBelow = 68.0F, kLeastMesh = 24.0F;
-  Layout out;
-  // Whole pixels everywhere: ImGui puts windows there, and the mesh's picture must not be resampled.
-  out.toolbar = {0, std::round(menu), width, std::round(kToolbar * em)};
-  const float status = std::round(kStatus * em);
-  out.status = {0, height - status, width, status};
-  const float top = out.toolbar.y + out.toolbar.h;
-  const float inner = std::max(0.0F, out.status.y - top);
-
-  out.folded = width < kFoldBelow * em;
-  float left = panels.left ? static_cast<float>(panels.left_width) * em : 0.0F;
-  float right = panels.right ? static_cast<float>(panels.right_width) * em : 0.0F;
+void place_columns(Layout& layout, const Panels& panels, float width, float top, float inner, float em) {
+  float left = panels.has_column(Side::Left) ? static_cast<float>(panels.left_width) * em : 0.0F;
+  float right = panels.has_column(Side::Right) ? static_cast<float>(panels.right_width) * em : 0.0F;
   const float room = std::max(0.0F, width - kLeastMesh * em);
-  if (out.folded) {
-    const float strip = std::round(kStrip * em);
-    const float over = std::min(std::max(0.0F, width - 2 * strip), width * 0.6F);
-    out.left_strip = {0, top, strip, inner};
-    out.right_strip = {width - strip, top, strip, inner};
-    out.viewport = {strip, top, std::max(0.0F, width - 2 * strip), inner};
-    if (timeline) take_bottom(out, panels, em);
-    const float left_wanted = std::min(static_cast<float>(panels.left_width) * em, over);
-    const float right_wanted = std::min(static_cast<float>(panels.right_width) * em, over);
-    const bool both = panels.left_over && panels.right_over;  // then neither may cover the other
-    const float share = both ? std::min(1.0F, out.viewport.w / (left_wanted + right_wanted)) : 1.0F;
-    const float left_over = std::floor(left_wanted * share);
-    const float right_over = std::floor(right_wanted * share);
-    if (panels.left_over) out.left = {strip, top, left_over, inner};
-    if (panels.right_over) out.right = {width - strip - right_over, top, right_over, inner};
-    return out;
-  }
   if (left + right > room) {
     const float shrink = room / (left + right);
     left *= shrink;
@@ -63,10 +74,32 @@ Layout compute_layout(const Panels& panels, float width, float height, float em,
   }
   left = std::round(left);
   right = std::round(right);
-  out.left = {0, top, left, inner};
-  out.right = {width - right, top, right, inner};
-  out.viewport = {left, top, std::max(0.0F, width - left - right), inner};
-  if (timeline) take_bottom(out, panels, em);
+  layout.left = {0, top, left, inner};
+  layout.right = {width - right, top, right, inner};
+  layout.viewport = {left, top, std::max(0.0F, width - left - right), inner};
+}
+
+/// Whether the usual columns leave too little of the window to the mesh: closing one in a small window shall not turn the other into a
+/// column.
+bool folds(const Panels& panels, float width, float em) {
+  const Panels usual;
+  const double columns = (panels.uses(Side::Left) ? usual.left_width : 0.0) + (panels.uses(Side::Right) ? usual.right_width : 0.0);
+  return width < (static_cast<float>(columns) + kUnfoldedMesh) * em;
+}
+
+}  // namespace
+
+Layout compute_layout(const Panels& panels, float width, float height, const HeaderSize& header, bool mesh) {
+  Layout out;
+  const float em = header.em, top = place_header(out, width, header);
+  const float inner = std::max(0.0F, height - std::round(kLowest * em) - top);
+  out.folded = folds(panels, width, em);
+  if (out.folded)
+    place_folded(out, panels, width, top, inner, em);
+  else
+    place_columns(out, panels, width, top, inner, em);
+  if (mesh) take_bottom(out, panels, em);
+  place_lowest(out, panels, width, height, em, mesh);
   return out;
 }
 

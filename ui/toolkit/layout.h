@@ -7,14 +7,21 @@
 namespace dmoscope::ui {
 
 struct Layout {
-  Rect toolbar, left, viewport, right, bottom, status;
-  Rect left_strip, right_strip;  // instead of the panels where the window is too small
-  bool folded = false;           // side panels are strips, and open over the mesh
-  bool timeline_only = false;    // the plots are closed, or there is no room for them
+  Rect menu, toolbar;            // in one row where there is room
+  Rect left, right;              // columns of docks
+  Rect viewport, bottom;         // the plots stand below the viewport alone
+  Rect timeline, status;         // in one row, the lowest
+  Rect left_strip, right_strip;  // instead of the columns where the window is too small
+  bool folded = false;           // columns are strips, and open over the mesh
 };
 
-/// All in pixels. `timeline`: whether there is one, with plots above it where these are open. `em`: the interface font's height; `menu`:
-/// the menu bar's. The mesh keeps at least 24 em of width; widths and heights of the panels are limited so that it does.
-[[nodiscard]] Layout compute_layout(const Panels& panels, float width, float height, float em, float menu, bool timeline = true);
+/// The interface font's height, and how wide menus and buttons of the tool bar are in one row, in pixels.
+struct HeaderSize {
+  float em = 15.0F, menu = 0.0F, tools = 0.0F;
+};
+
+/// All in pixels. `mesh`: one is open, so that there are a timeline and plots. The mesh keeps at least 24 em of width; widths and heights
+/// of the panels are limited so that it does.
+[[nodiscard]] Layout compute_layout(const Panels& panels, float width, float height, const HeaderSize& header, bool mesh = true);
 
 }  // namespace dmoscope::ui

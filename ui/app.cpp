@@ -220,11 +220,13 @@ void App::note_letters(const Mesh& mesh) {
   for (const auto& group : mesh.groups) (void)widgets_.glyphs.shown(group.name);
 }
 
-/// Of several viewports the colour bar has a place of its own below them, of one it lies on the mesh.
+/// The colour bar lies on the mesh, of two viewports on that of the left one where these are high enough; else it has a place of its own
+/// below them.
 std::vector<Rect> App::pane_places(PanelContext& context, const Rect& rect) {
   Rect area = rect;
   const PaneLayout layout = state_.panes.layout;
-  const bool below = (layout == PaneLayout::Two || layout == PaneLayout::Four) && context.frame() != nullptr;
+  const bool low = layout == PaneLayout::Two && rect.h < 26 * context.em();
+  const bool below = (layout == PaneLayout::Four || low) && context.frame() != nullptr;
   if (below) area.h = std::max(0.0F, area.h - std::round(colour_bar_height(context, rect)));
   return pane_rects(layout, area, std::round(context.px(4)), viewports_.aspect(), 2.9F * context.em());
 }

@@ -153,7 +153,43 @@ std::vector<RunParameters> orders(const RunParameters& like, std::uint64_t count
   return wanted;
 }
 
+/// "dmo:min-angle" is a run like another one by this method for this metric.
+RunParameters run_like(RunParameters parameters, const std::string& words) {
+  const std::size_t colon = words.find(':');
+  parameters.method = method_info(words.substr(0, colon)).name;
+  const bool cannot = parameters.combination && !can_combine(method_info(parameters.method), *parameters.combination);
+  if (cannot || colon != std::string::npos) parameters.combination.reset();
+  if (colon != std::string::npos) parameters.metric = parse_metric(words.substr(colon + 1));
+  return parameters;
+}
+
+/// Adds the runs that are named, and takes all to the same iteration, or until they converge.
+void compare_with(CommandContext& context, Arguments arguments) {
+  const Run& active = context.session.active();
+  const RunParameters like = active.parameters();
+  const bool to_end = arguments.back() == "converged",
+             counted = !to_end && arguments.back().find_first_not_of("0123456789") == std::string::npos;
+  const Arguments names = arguments.subspan(1, arguments.size() - 1 - (to_end || counted ? 1 : 0));
+  if (names.empty()) throw WrongArguments("name the runs to compare with: METHOD[:METRIC]...");
+  std::vector<RunParameters> wanted;
+  std::string added = "compare with";
+  for (const std::string& words : names) {
+    wanted.push_back(run_like(like, words));
+    added += " " + quote_word(words);
+  }
+  const std::uint64_t reached = active.moment().iteration;
+  add_missing(context, wanted);
+  context.done.push_back(added + " 0");
+  if (!to_end) return bring_to(context, counted ? to_count(arguments.back()) : reached > 0 ? reached : kUsualIterations);
+  for_runs(context, [&](Run& run) {
+    (void)run.until_converged({}, context.progress);
+    run.end_at_best(context.progress);
+    tell(context, fmt::format("{}: {}", run.title(), run.last_outcome()->sentence()));
+  });
+}
+
 void compare(CommandContext& context, Arguments arguments) {
+  if (arguments[0] == "with") return compare_with(context, arguments);
   const Run& active = context.session.active();
   const RunParameters like = active.parameters();
   const bool of_orders = arguments[0] == "orders";
@@ -168,7 +204,8 @@ void compare(CommandContext& context, Arguments arguments) {
     wanted = orders(like, to_count(arguments[1], 1));
     added += ' ' + arguments[1];
   } else {
-    throw WrongArguments(unknown_value("comparison", arguments[0], std::array<std::string_view, 3>{"methods", "metrics", "orders"}));
+    throw WrongArguments(
+        unknown_value("comparison", arguments[0], std::array<std::string_view, 4>{"methods", "metrics", "orders", "with"}));
   }
   const std::uint64_t reached = active.moment().iteration;
   const std::uint64_t iterations = count_or(arguments, of_orders ? 2 : 1, reached > 0 ? reached : kUsualIterations);
@@ -183,9 +220,11 @@ std::span<const CommandRow> comparison_commands() {
   static const std::vector<CommandRow> table{
       {{"each", "each step|run|back|until-converged [best]|seek|reset [N [MAX]]", "Does that with every run, iterations by turns."},
        {1, 4, each, true, CommandReach::Paths}},
-      {{"compare", "compare methods|metrics [ITERATIONS] | compare orders N [ITERATIONS]",
-        "Adds runs like the active one by every method, for every metric, or in N shuffled orders, and takes all to the same iteration."},
-       {1, 3, compare, true, CommandReach::Paths}},
+      {{"compare",
+        "compare methods|metrics [ITERATIONS] | compare orders N [ITERATIONS] | compare with METHOD[:METRIC]... [ITERATIONS|converged]",
+        "Adds runs like the active one by every method, for every metric, in N shuffled orders or as they are named, and takes all to the "
+        "same iteration, or until they converge."},
+       {1, kAnyWords, compare, true, CommandReach::Paths}},
   };
   return table;
 }

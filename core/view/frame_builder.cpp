@@ -242,14 +242,16 @@ bool FrameBuilder::work_at_rest(Session& session, std::span<const Watch> watched
   };
   found = summaries_.find(session, whole, go_on) || found;
   found = endings_.find(session, go_on) || found;
+  found = judgements_.find(session, go_on) || found;
   for (std::size_t i = 0; session.percentiles() && i < session.run_count(); ++i)
     if (session.run(i).find_percentiles([&](double) { return go_on(); })) found = true;
   return found;
 }
 
 bool FrameBuilder::work_long_at_rest(Session& session, const std::function<bool()>& go_on) {
+  const bool courses = judgements_.find_courses(session, go_on);
   const bool hint = endings_.find_hint(session, go_on);
-  return session.holds().find_at_rest(session, go_on) || hint;
+  return session.holds().find_at_rest(session, go_on) || hint || courses;
 }
 
 bool FrameBuilder::try_at_rest(Session& session, const std::function<bool()>& go_on) {
@@ -258,7 +260,8 @@ bool FrameBuilder::try_at_rest(Session& session, const std::function<bool()>& go
 
 void FrameBuilder::add_meshes(Session& session, SessionView& view) {
   for (const auto& input : session.inputs())
-    view.meshes.push_back({input, facts_of(session, input).serial, summaries_.of_input(session, input)});
+    view.meshes.push_back(
+        {input, facts_of(session, input).serial, summaries_.of_input(session, input), judgements_.of_input(session, input)});
   const auto active = std::ranges::find(view.meshes, view.input, &InputView::input);
   view.input_summary = active->summary;
 }
@@ -280,6 +283,7 @@ std::shared_ptr<const SessionView> FrameBuilder::build(Session& session, FrameDe
     view->runs.back().unsaved = session.would_lose(i);
     view->runs.back().summary = summaries_.of(session, i);
     view->runs.back().ending = endings_.of(session, i);
+    view->runs.back().judged = judgements_.of(session, i);
     view->runs.back().held = session.holds().of(session, i);
   }
   for (Known& known : known_) known.wanted = false;

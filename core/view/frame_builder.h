@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/session/session.h"
+#include "core/view/judgements.h"
 #include "core/view/judging.h"
 #include "core/view/summaries.h"
 #include "core/view/view.h"
@@ -78,6 +79,7 @@ class FrameBuilder {
   std::vector<InputFacts> inputs_;  // of the meshes that are open
   std::vector<Known> known_;        // frames of the last view, and what was worked out at rest since
   Summaries summaries_;
+  Judgements judgements_;
   Endings endings_;
 };
 

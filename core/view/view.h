@@ -63,6 +63,20 @@ struct RunSummary {
   SizeCourse sizes{};         // of a run with a size function
 };
 
+/// What an iteration comes to by a metric; `own_...`: by the one that the run optimises, as its record has it.
+struct JudgedPoint {
+  std::uint64_t iteration = 0;
+  double minimum = 0.0, mean = 0.0;
+  double own_minimum = 0.0, own_mean = 0.0;
+};
+
+/// How a run as it stands, or an input, fares by a metric that runs are compared by; see Judgements.
+struct JudgedBy {
+  Metric metric = Metric::MeanRatio;
+  double minimum = 0.0, p1 = 0.0, mean = 0.0;
+  std::vector<JudgedPoint> course;  // of a run by a metric of others; at some of its iterations, see judged_iterations()
+};
+
 /// How the input fares by a metric.
 struct InputSummary {
   Metric metric = Metric::MeanRatio;
@@ -75,6 +89,7 @@ struct InputView {
   std::shared_ptr<const InputMesh> input;
   std::uint64_t serial = 0;                     // Frame::input_serial of its frames
   std::shared_ptr<const InputSummary> summary;  // by the metric that is shown; null until it has been worked out, as those of runs
+  std::shared_ptr<const std::vector<JudgedBy>> judged{};  // by all metrics of a comparison; null where there is none, or not yet
 };
 
 struct RunView {
@@ -98,16 +113,17 @@ struct RunView {
   SharedVector<std::uint8_t> fixed;      // see Run::fixed
   std::shared_ptr<const Domain> domain;  // see Run::domain; the input must be at hand
   SharedVector<IterationRecord> records;
-  SharedVector<Percentiles> percentiles;      // of the metric it optimises, one a record; empty while `percentiles` is off
-  std::shared_ptr<const RunSummary> summary;  // null until it has been worked out, which is once the session is at rest
-  std::size_t edits = 0, edits_done = 0;      // all of its path, and those up to its moment; see edit.h
-  bool unsaved = false;                       // ending now would lose something of it, see SavedMarks
-  std::string history_note;                   // History::sentence()
-  std::string last_outcome;                   // why it last stopped, may be empty
-  std::optional<std::uint64_t> ended{};       // the iteration that it ended with before it went back to the best, where it did
-  std::uint64_t best_iteration = 0;           // see best_iteration()
-  std::shared_ptr<const RunEnding> ending{};  // see Endings
-  Holds::Latest held{};                       // what holds its minimum
+  SharedVector<Percentiles> percentiles;                  // of the metric it optimises, one a record; empty while `percentiles` is off
+  std::shared_ptr<const RunSummary> summary;              // null until it has been worked out, which is once the session is at rest
+  std::size_t edits = 0, edits_done = 0;                  // all of its path, and those up to its moment; see edit.h
+  bool unsaved = false;                                   // ending now would lose something of it, see SavedMarks
+  std::string history_note;                               // History::sentence()
+  std::string last_outcome;                               // why it last stopped, may be empty
+  std::optional<std::uint64_t> ended{};                   // the iteration that it ended with before it went back to the best, where it did
+  std::uint64_t best_iteration = 0;                       // see best_iteration()
+  std::shared_ptr<const RunEnding> ending{};              // see Endings
+  Holds::Latest held{};                                   // what holds its minimum
+  std::shared_ptr<const std::vector<JudgedBy>> judged{};  // as InputView's
   /// What holds the minimum as the run stands, by joint moves; null: it is not known, or they cannot be.
   [[nodiscard]] std::shared_ptr<const JointCluster> hold() const { return held.now && held.found ? held.found->joint : nullptr; }
   /// Whether there is no better iteration to go to.

@@ -117,7 +117,7 @@ void rename_runs(PlotView& view, const std::map<std::string, std::string>& chang
 }
 
 void add_plot_commands(CommandTable& table, ViewState& state) {
-  add_option_commands(table, state, {"plot"});
+  add_option_commands(table, state, {"judged-by", "plot"});
   table.add({"axis", "axis linear|log|log-distance|next", "the shown plot's value axis; log-distance: by the logarithm of 1 - quality"},
             {1, 1}, [&state](Arguments words) {
               choose_axis(state, words[0] == "next" ? next_axis(state.plot, state.plot_view().axis) : choose(words[0], kValueAxes));

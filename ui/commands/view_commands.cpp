@@ -32,6 +32,7 @@ constexpr auto kDialogs = std::to_array<std::pair<std::string_view, Dialog>>({{"
                                                                               {"sequence", Dialog::Sequence},
                                                                               {"plot", Dialog::Plot},
                                                                               {"formula", Dialog::Formula},
+                                                                              {"compare", Dialog::Compare},
                                                                               {"save-session", Dialog::SaveSession},
                                                                               {"unsaved", Dialog::Unsaved},
                                                                               {"recover", Dialog::Recover}});

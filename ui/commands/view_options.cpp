@@ -58,6 +58,7 @@ auto named(const Rows& rows, std::string_view Row::*name, Value Row::*value) {
 constexpr std::array<std::pair<std::string_view, ClipPlane::Mode>, 2> kClipModes{
     {{"crinkle", ClipPlane::Mode::Crinkle}, {"cut", ClipPlane::Mode::Cut}}};
 constexpr std::array<std::pair<std::string_view, bool>, 2> kAlong{{{"iteration", false}, {"seconds", true}}};
+constexpr std::array<std::pair<std::string_view, bool>, 2> kJudges{{{"shown", false}, {"own", true}}};
 constexpr std::array<std::pair<std::string_view, bool>, 2> kLevelRanges{{{"view", false}, {"level", true}}};
 constexpr std::array<std::pair<std::string_view, int>, 3> kBins{{{"16", 16}, {"32", 32}, {"64", 64}}};
 
@@ -150,6 +151,8 @@ std::vector<ViewOption> all_options() {
       flag([](auto& s) -> auto& { return s.asks_unsaved; }, {"ask-unsaved", "asks before keys and menus give up what is in no file"}),
       choice([](auto& s) -> auto& { return s.plot; }, kPlotTabs, {"plot", "which plot is shown, or the table of runs", "/plots/shown"}),
       choice([](auto& s) -> auto& { return s.plot_options.by_seconds; }, kAlong, {"plot-x", "", "/plots/by_seconds", "", true}),
+      choice([](auto& s) -> auto& { return s.plot_options.judged_own; }, kJudges,
+             {"judged-by", "the metric of runs that are compared: the one that is shown, or each its own", "/plots/judged_own"}),
       choice([](auto& s) -> auto& { return s.plot_options.x_axis; }, kXAxes, {"x-axis", "", "/plots/x_axis", "/x_axis"}),
       choice([](auto& s) -> auto& { return s.plot_options.histogram_range; }, kHistogramRanges,
              {"histogram-range", "", "/plots/histogram_range", "/histogram_range"}),

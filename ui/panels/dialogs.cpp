@@ -60,7 +60,8 @@ constexpr std::array kDialogInfos{DialogInfo{Dialog::Open, "Open a mesh", draw_o
                                   DialogInfo{Dialog::SaveSession, "Save the session", draw_save_session_dialog},
                                   DialogInfo{Dialog::Unsaved, "Not saved", draw_unsaved_dialog},
                                   DialogInfo{Dialog::Recover, "Recover", draw_recover_dialog},
-                                  DialogInfo{Dialog::Formula, "A metric of your own", draw_formula_dialog}};
+                                  DialogInfo{Dialog::Formula, "A metric of your own", draw_formula_dialog},
+                                  DialogInfo{Dialog::Compare, "Compare", draw_compare_dialog}};
 /// `dialog` is not None.
 const DialogInfo& info_of(Dialog dialog) { return *std::ranges::find(kDialogInfos, dialog, &DialogInfo::dialog); }
 

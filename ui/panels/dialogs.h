@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -84,6 +85,14 @@ struct SequenceDialog {
   bool window = false, overwrite = false;
 };
 void draw_sequence_dialog(PanelContext& context);
+
+/// What is to be run beside the active run.
+struct CompareDialog {
+  std::set<std::string> methods, metrics;  // by their names
+  bool until_converged = true;
+  int iterations = 20;
+};
+void draw_compare_dialog(PanelContext& context);
 
 /// Saves a plot.
 struct PlotDialog {

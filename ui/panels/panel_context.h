@@ -89,6 +89,7 @@ struct WidgetState {
   SaveSessionDialog save_session;
   RecoverDialog recover;
   FormulaDialog formula;
+  CompareDialog compare;
   TargetChoices target_choices;
   ChooserTurn chooser;
   Dialog dialog_shown = Dialog::None;  // in the last frame

@@ -128,7 +128,8 @@ void draw_more_menu(PanelContext& context) {
 }  // namespace
 
 void draw_plot_tabs(PanelContext& context) {
-  static constexpr std::array<const char*, kPlotTabs.size()> kTitles{"Convergence", "Histogram", "Sorted", "Moved", "Time", "Runs"};
+  static constexpr std::array<const char*, kPlotTabs.size()> kTitles{"Convergence", "Histogram", "Sorted", "Moved",
+                                                                     "Time",        "Runs",      "Compare"};
   for (std::size_t k = 0; k < kPlotTabs.size(); ++k) {
     const auto& [name, tab] = kPlotTabs[k];
     if (k > 0) ImGui::SameLine(0, context.px(4));

@@ -11,6 +11,8 @@ void draw_plot_tabs(PanelContext& context);
 void draw_plot_controls(PanelContext& context, const Rect& rect);
 /// How every run fares, by the metric that is shown, in the space that is left.
 void draw_run_table(PanelContext& context);
+/// All runs by every metric that one of them optimises, in the space that is left.
+void draw_comparison(PanelContext& context);
 /// The plot in the space that is left; a click in it shows that iteration.
 void draw_plot_area(PanelContext& context);
 

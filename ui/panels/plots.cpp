@@ -14,11 +14,14 @@ void draw_plots(PanelContext& context, const Rect& rect) {
   draw_plot_tabs(context);
   draw_plot_controls(context, rect);
   // The keyboard goes into the table, not into plots, around which it would leave a frame.
-  const ImGuiWindowFlags keys = context.state.plot == PlotTab::Runs ? ImGuiWindowFlags_None : ImGuiWindowFlags_NoNav;
+  const ImGuiWindowFlags keys =
+      context.state.plot == PlotTab::Runs || context.state.plot == PlotTab::Compare ? ImGuiWindowFlags_None : ImGuiWindowFlags_NoNav;
   ImGui::BeginChild("plot area", {0, std::max(1.0F, ImGui::GetContentRegionAvail().y)}, false,
                     keys | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
   if (context.state.plot == PlotTab::Runs) {
     draw_run_table(context);
+  } else if (context.state.plot == PlotTab::Compare) {
+    draw_comparison(context);
   } else {
     draw_plot_area(context);
   }

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <imgui.h>
 #include <imgui_stdlib.h>
 
 #include "ui/panels/icons.h"

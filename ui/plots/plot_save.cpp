@@ -8,6 +8,7 @@
 #include "core/base/error.h"
 #include "core/io/writing/atomic_file.h"
 #include "render/drawing_picture.h"
+#include "ui/analysis/comparison.h"
 #include "ui/plots/plot_drawing.h"
 #include "ui/plots/run_rows.h"
 
@@ -83,6 +84,17 @@ std::vector<Message> serve_plot_requests(ViewState& state, const SessionView& se
     try {
       if (state.plot == PlotTab::Runs) {
         save_table(save, state, session, said);
+        continue;
+      }
+      const bool numbers = save.path.empty() || save.path.extension() == ".csv";
+      if (state.plot == PlotTab::Compare && numbers && session.runs.size() > 1) {
+        const std::string text = comparison_csv(compare_runs(session), session);
+        if (save.path.empty()) {
+          state.requests.clipboard = text;
+        } else {
+          write_file_atomically(save.path, text);
+          said.push_back({Message::Kind::Info, "comparison saved as " + save.path.string(), 0});
+        }
         continue;
       }
       const Plot plot = build_plot(state, session, sorted, palette(Theme::Light));

@@ -10,6 +10,7 @@
 
 #include "core/run/summary.h"
 #include "render/shading.h"
+#include "ui/analysis/comparison.h"
 #include "ui/state/format.h"
 #include "ui/state/run_names.h"
 
@@ -63,6 +64,9 @@ class Builder {
     switch (state_.plot) {
       case PlotTab::Convergence:
         build_convergence();
+        break;
+      case PlotTab::Compare:
+        build_judged();
         break;
       case PlotTab::Histogram:
         build_histogram();
@@ -265,6 +269,32 @@ class Builder {
       add_to_legend(plot_.series.back(), "inverted elements, in the strip below");
       plot_.strip_share = 0.27;
       plot_.strip_title = "inverted";
+    }
+  }
+
+  /// The minima of all runs by one metric; by another metric than a run's own at those of its iterations that were judged by it.
+  void build_judged() {
+    describe_course();
+    const bool own = state_.plot_options.judged_own;
+    plot_.y_title = own ? "worst element, each run by its own metric" : "worst element by " + metric_phrase(session_.shown);
+    plot_.title = "comparison by " + plot_.x_name;
+    plot_.empty_text = "compare runs to see how each fares by the metric of the others";
+    for (std::size_t k = 0; k < session_.runs.size(); ++k) {
+      if (!is_shown(k)) continue;
+      const RunView& run = session_.runs[k];
+      if (own || run.parameters.metric == session_.shown) {
+        add_course(k, series_of_run(k, "minimum"), [](const IterationRecord& record) { return record.statistics.minimum; });
+        continue;
+      }
+      Series series = series_of_run(k, "minimum");
+      const JudgedBy* judged = judged_by(run, session_.shown);
+      const auto x = course(run);
+      for (std::size_t i = 0; judged != nullptr && i < judged->course.size(); ++i) {
+        if (judged->course[i].iteration >= x.size()) continue;
+        series.x.push_back(x[judged->course[i].iteration]);
+        series.y.push_back(finite_or_gap(judged->course[i].minimum));
+      }
+      plot_.series.push_back(std::move(series));
     }
   }
 

@@ -83,6 +83,7 @@ constexpr std::array kActions{
     Action{"flip-now", "Run", "Back to the current mesh", "Shift+X", "flip now", Needs::Mesh},
     Action{"next-run", "Run", "Next run", "Alt+N", "next-run", Needs::SeveralRuns, true},
 
+    Action{"compare-runs", "Compare", "Methods and metrics…", "", "dialog compare", Needs::MeshAndIdle},
     Action{"every-method", "Compare", "Same metric, every method", "", "compare methods", Needs::MeshAndIdle},
     Action{"every-metric", "Compare", "Same mesh, every metric", "", "compare metrics", Needs::MeshAndIdle},
     Action{"every-order", "Compare", "Same run, 10 shuffled orders", "", "compare orders 10", Needs::MeshAndIdle},
@@ -163,6 +164,7 @@ constexpr std::array kActions{
     Action{"plot-moved", "Plot", "Moved vertices", "Alt+4", "plot moved"},
     Action{"plot-time", "Plot", "Time", "Alt+5", "plot time"},
     Action{"plot-runs", "Plot", "Table of runs", "Alt+6", "plot runs"},
+    Action{"plot-compare", "Plot", "Comparison of runs", "Alt+7", "plot compare"},
     Action{"log-scale", "Plot", "Next value axis", "Alt+L", "axis next", Needs::Nothing, true},
     Action{"plot-seconds", "Plot", "Seconds instead of iterations", "Alt+T", "plot-x toggle"},
     Action{"x-axis-log", "Plot", "Iterations by their logarithm", "", "x-axis log"},

@@ -12,14 +12,15 @@
 
 namespace dmoscope::ui {
 
-/// What the lower panel shows: plots, and the table of runs, which has no axes.
-enum class PlotTab { Convergence, Histogram, Sorted, Moved, Time, Runs };
-inline constexpr std::array<std::pair<std::string_view, PlotTab>, 6> kPlotTabs{{{"convergence", PlotTab::Convergence},
+/// What the lower panel shows: plots, the table of runs, which has no axes, and runs compared by several metrics.
+enum class PlotTab { Convergence, Histogram, Sorted, Moved, Time, Runs, Compare };
+inline constexpr std::array<std::pair<std::string_view, PlotTab>, 7> kPlotTabs{{{"convergence", PlotTab::Convergence},
                                                                                 {"histogram", PlotTab::Histogram},
                                                                                 {"sorted", PlotTab::Sorted},
                                                                                 {"moved", PlotTab::Moved},
                                                                                 {"time", PlotTab::Time},
-                                                                                {"runs", PlotTab::Runs}}};
+                                                                                {"runs", PlotTab::Runs},
+                                                                                {"compare", PlotTab::Compare}}};
 
 /// How values lie along the upright axis. LogDistance: by the logarithm of 1 - q, the distance to the ideal element, better ones higher.
 enum class ValueAxis { Linear, Log, LogDistance };
@@ -29,7 +30,7 @@ inline constexpr std::array<std::pair<std::string_view, ValueAxis>, 3> kValueAxe
 /// Only qualities have a distance to the ideal.
 [[nodiscard]] constexpr bool offers(PlotTab tab, ValueAxis axis) noexcept {
   if (tab == PlotTab::Runs) return axis == ValueAxis::Linear;
-  return axis != ValueAxis::LogDistance || tab == PlotTab::Convergence || tab == PlotTab::Sorted;
+  return axis != ValueAxis::LogDistance || tab == PlotTab::Convergence || tab == PlotTab::Compare || tab == PlotTab::Sorted;
 }
 /// Plots that have the iterations, or the seconds that they took, along them.
 [[nodiscard]] constexpr bool over_iterations(PlotTab tab) noexcept {
@@ -65,6 +66,7 @@ struct PlotOptions {
   int bins = 64;            // of the histogram: 16, 32 or 64
   std::string sorted_by{};  // the column of the table of runs that they are sorted by, see run_columns(); empty: as they were made
   bool descending = false;  // likewise
+  bool judged_own = false;  // runs that are compared by the metric that each optimises, else all by the one that is shown
   XAxis x_axis = XAxis::Log;
   HistogramRange histogram_range = HistogramRange::Data;
   friend bool operator==(const PlotOptions&, const PlotOptions&) = default;

@@ -57,7 +57,8 @@ enum class Dialog {
   SaveSession,
   Unsaved,
   Recover,
-  Formula
+  Formula,
+  Compare
 };
 
 /// What a person picked.

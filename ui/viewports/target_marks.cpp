@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kMostEllipses = 200;  // more would hide the mesh
 constexpr double kLong = 1.05;              // what is less long shows no axis
 // Unlike the outlines of what is picked, on any colour.
-constexpr render::Rgba kInk{255, 255, 255, 255}, kCasing{20, 20, 20, 255};
+constexpr render::Rgba kInk{255, 255, 255, 255}, kTargetCasing{20, 20, 20, 255};
 
 /// Of the circle in an ideal element of unit edges, so that an ellipse fills its element.
 constexpr double kRadius = 0.28;
@@ -100,8 +100,8 @@ void add_targets(render::Marks& marks, const Frame& frame, Metric metric, std::s
     }
     const double size = std::sqrt(determinant(shape->now) / determinant(shape->wished));
     const Ellipse wished(scaled(size, shape->wished), centre), now(shape->now, centre);
-    now.draw(marks.lines, 1.0F, kCasing);
-    wished.draw(marks.lines, 3.4F, kCasing);
+    now.draw(marks.lines, 1.0F, kTargetCasing);
+    wished.draw(marks.lines, 3.4F, kTargetCasing);
     wished.draw(inked, 1.6F, kInk);
     if (TargetShapeOfElement::aspect(shape->wished) > kLong) wished.draw_longer_axis(inked, 1.0F, kInk);
   }
@@ -118,8 +118,8 @@ void add_space_target(render::SpaceMarks& marks, const Frame& frame, Metric metr
   for (const Index v : corners) centre = centre + (1.0 / static_cast<double>(corners.size())) * frame.positions[v];
   const double size = std::cbrt(determinant(shape->now) / determinant(shape->wished));
   const Ellipsoid wished(scaled(size, shape->wished), centre), now(shape->now, centre);
-  now.draw(marks.lines, 1.0F, kCasing);
-  wished.draw(marks.lines, 3.4F, kCasing);
+  now.draw(marks.lines, 1.0F, kTargetCasing);
+  wished.draw(marks.lines, 3.4F, kTargetCasing);
   wished.draw(marks.lines, 1.6F, kInk);
 }
 

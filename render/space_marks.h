@@ -1,10 +1,12 @@
 #pragma once
 // What is marked over the picture of a volume mesh.
 
+#include <array>
 #include <optional>
 #include <vector>
 
 #include "core/mesh/mesh.h"
+#include "render/orbit_camera.h"
 #include "render/style.h"
 
 namespace dmoscope::render {
@@ -36,5 +38,8 @@ struct SpaceMarks {
   bool faint_where_taken_away = true;  // marks of cells and vertices of which nothing is seen
   friend bool operator==(const SpaceMarks&, const SpaceMarks&) = default;
 };
+
+/// Where the letters of the axes are in a viewport, in pixels from its upper left corner: x, y, z.
+[[nodiscard]] std::array<Vec2<double>, 3> triad_letters(const OrbitCamera& camera, Vec2<double> viewport, double scale);
 
 }  // namespace dmoscope::render

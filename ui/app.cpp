@@ -334,6 +334,7 @@ void App::draw(double now) {
   redraw_in_ = std::min({redraw_in_, play_in, fades_in});
   if (state_.inspection.hovered != hovered) redraw_in_ = 0.0;      // the mesh is marked in the next frame
   if (widgets_.glyphs.size() != built_letters_) redraw_in_ = 0.0;  // with the letters that were met for the first time
+  if (const auto wakes_in = std::exchange(widgets_.pointer_rest.wakes_in, std::nullopt)) redraw_in_ = std::min(redraw_in_, *wakes_in);
   if (tooltip_unsettled()) redraw_in_ = 0.0;
 }
 

@@ -71,6 +71,7 @@ void Desktop::begin_as_remembered() {
   ui::ViewState& state = app_.state();
   ui::move_to_monitor(state, static_cast<double>(window_->content_scale()));
   state.stepping.flash = ui::Flash::On;  // unless the settings say otherwise; pictures of scripts stay the same whenever they are taken
+  state.pointer_value = true;
   settings_.begin(ui::settings_path(), ui::recent_path(), state);
   state.asks_unsaved = true;
   state.tour.offer = !state.tour.offered;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/csv_text.h"
+#include "ui/state/format.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -23,7 +24,7 @@ void add_metric(Comparison::Row& row, const JudgedBy* by) {
     row.cells.push_back({value, false});
 }
 
-/// Marks the largest values of a column, where there are two different ones.
+/// Marks the largest values of a column, where there are two that look different.
 void mark_best(Comparison& comparison, std::size_t column) {
   double best = -INFINITY, least = INFINITY;
   for (const Comparison::Row& row : comparison.rows) {
@@ -32,8 +33,9 @@ void mark_best(Comparison& comparison, std::size_t column) {
     best = std::max(best, value);
     least = std::min(least, value);
   }
-  if (!(best > least)) return;
-  for (Comparison::Row& row : comparison.rows) row.cells[column].best = row.run != Comparison::kInput && row.cells[column].value == best;
+  if (!(best > least) || short_number(best) == short_number(least)) return;
+  for (Comparison::Row& row : comparison.rows)
+    row.cells[column].best = row.run != Comparison::kInput && short_number(row.cells[column].value) == short_number(best);
 }
 
 /// Whether the runs that optimise a metric are those with the best minimum by it, for all metrics that several runs optimise.

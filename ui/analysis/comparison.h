@@ -15,7 +15,7 @@ struct Comparison {
   static constexpr std::size_t kMeasures = 3;
   struct Cell {
     double value = std::numeric_limits<double>::quiet_NaN();  // NaN: not known, or the metric is not defined for the run's mesh
-    bool best = false;                                        // of all runs' in its column; of equal ones all, and none where all are equal
+    bool best = false;  // of all runs' in its column; of those that look equal all, and none where all do
   };
   struct Row {
     std::size_t run = kInput;

@@ -83,7 +83,7 @@ void add_camera_commands(CommandTable& table, ViewState& state, const CommandHos
 }
 
 void add_look_commands(CommandTable& table, ViewState& state) {
-  add_option_commands(table, state, {"wireframe", "vertices", "worst", "features", "holders"});
+  add_option_commands(table, state, {"wireframe", "vertices", "worst", "pointer-value", "features", "holders"});
   table.add({"theme", "theme dark|light|contrast|next", "colours of the interface"}, {1, 1}, [&state](Arguments words) {
     state.theme = words[0] == "next" ? static_cast<Theme>((static_cast<int>(state.theme) + 1) % 3) : choose(words[0], kThemes);
   });

@@ -69,6 +69,8 @@ std::vector<ViewOption> all_options() {
       flag([](auto& s) -> auto& { return s.vertices; }, {"vertices", "dots: free vertices round, fixed ones square", "/vertices"}),
       flag([](auto& s) -> auto& { return s.worst_marker; },
            {"worst", "ring around the worst element, and a diamond where a listed one is inverted inside alone", "/worst_marker"}),
+      flag([](auto& s) -> auto& { return s.pointer_value; },
+           {"pointer-value", "the value of the element where the pointer rests", "", "/pointer_value"}),
       flag([](auto& s) -> auto& { return s.features; },
            {"features", "where vertices slide: boundary, interfaces and feature edges as lines, corners as squares", "/features"}),
       flag([](auto& s) -> auto& { return s.holders; },

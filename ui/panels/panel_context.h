@@ -60,6 +60,16 @@ struct InsideGrip {
   Vec2<double> pressed_at;  // pixels, of the clip plane's handle
 };
 
+/// A pointer that rests over a mesh.
+struct PointerRest {
+  std::size_t pane = 0;
+  Vec2<double> at{};                 // in it
+  std::uint64_t frame = 0;           // Frame::serial
+  double since = 0.0;                // seconds
+  std::optional<Index> element{};    // below it, once it rests; kNoIndex: none
+  std::optional<double> wakes_in{};  // seconds until it rests; of this frame
+};
+
 /// An edge between panels while it is held.
 struct SplitterGrip {
   double before = 0, pressed_at = 0;  // em, when it was taken; pixels
@@ -100,6 +110,7 @@ struct WidgetState {
   RangeGrip range_grip;
   InsideGrip inside_grip;
   SplitterGrip splitter_grip;
+  PointerRest pointer_rest;
   RunListState run_list;
   std::size_t worst_cells = 50;                            // how many "only the worst" means
   std::vector<Thumbnail> thumbnails;                       // of the samples, made when the start page is first shown

@@ -20,6 +20,10 @@ void draw_colours(PanelContext& context);
 void draw_groups(PanelContext& context);
 /// What is seen of a volume mesh, and from where; nothing of another one.
 void draw_clipping(PanelContext& context);
+/// To be called with the mouse over the mesh: after a while its element's value is shown.
+void handle_rest(PanelContext& context, const PaneFacts& pane, Vec2<double> at);
+/// The axes' letters in a viewport, which look along them; to be called before what lies below.
+void handle_axes(PanelContext& context, const PaneFacts& pane);
 /// The clip plane in a viewport: what of it takes the mouse, to be called before whatever lies below it; and its picture.
 void handle_clip_plane(PanelContext& context, const PaneFacts& pane);
 void draw_clip_plane(const PanelContext& context, const PaneFacts& pane);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -130,14 +131,22 @@ void draw_more_menu(PanelContext& context) {
 void draw_plot_tabs(PanelContext& context) {
   static constexpr std::array<const char*, kPlotTabs.size()> kTitles{"Convergence", "Histogram", "Sorted", "Moved",
                                                                      "Time",        "Runs",      "Compare"};
+  // Narrow ones leave room for the button that has the choices.
+  const float gap = context.px(4), number = static_cast<float>(kTitles.size());
+  float words = button_width("…") + gap * number + context.px(8);
+  for (const char* title : kTitles) words += ImGui::CalcTextSize(title).x;
+  const ImVec2 usual = ImGui::GetStyle().FramePadding;
+  const float pad = std::clamp((ImGui::GetContentRegionAvail().x - words) / (2 * number), context.px(2), usual.x);
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {std::floor(pad), usual.y});
   for (std::size_t k = 0; k < kPlotTabs.size(); ++k) {
     const auto& [name, tab] = kPlotTabs[k];
-    if (k > 0) ImGui::SameLine(0, context.px(4));
+    if (k > 0) ImGui::SameLine(0, gap);
     const bool active = context.state.plot == tab;
     ImGui::PushStyleColor(ImGuiCol_Button, active ? colour_vector(context.palette.accent, 0.25F) : ImVec4{0, 0, 0, 0});
     action_button(context, fmt::format("plot-{}", name), kTitles[k]);
     ImGui::PopStyleColor();
   }
+  ImGui::PopStyleVar();
 }
 
 void draw_plot_controls(PanelContext& context, const Rect& rect) {

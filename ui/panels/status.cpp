@@ -189,8 +189,10 @@ void draw_status(PanelContext& context, const Rect& rect) {
 void draw_message(PanelContext& context, const Rect& viewport) {
   const auto message = newest_message(context);
   if (!message || !context.widgets.message_is_cut || viewport.h < 8 * context.em()) return;
-  // Other news is in the facts, too, and in the tooltip.
-  const bool is_step = message->text == context.state.stepping.news.sentence && !context.state.tour.on;  // whose card is there
+  // Other news is in the facts, too, and in the tooltip; of whole iterations the facts have all that counts.
+  const RunView* run = context.run();
+  const bool within = run != nullptr && run->moment.visits > 0;
+  const bool is_step = within && message->text == context.state.stepping.news.sentence && !context.state.tour.on;  // whose card is there
   if (message->kind == Message::Kind::Info && !is_step) return;
   const std::string text = first_line(context, *message);
   const float pad = context.px(10), axes = context.state.in_space ? 6 * context.em() : 0.0F;

@@ -416,6 +416,7 @@ void handle_pane(PanelContext& context, const PaneFacts& pane) {
   }
   ImGui::PushID(static_cast<int>(pane.number));
   if (!one) handle_pane_title(context, pane);
+  handle_axes(context, pane);
   handle_clip_plane(context, pane);
   ImGui::SetCursorScreenPos({clip.x, clip.y});
   ImGui::InvisibleButton("mesh", {clip.w, clip.h},
@@ -427,6 +428,7 @@ void handle_pane(PanelContext& context, const PaneFacts& pane) {
     if (ImGui::IsItemHovered() && ImGui::IsMouseReleased(ImGuiMouseButton_Right)) open_menu(context, pane, {});
   } else {
     if (pane.inspected) read_candidate(context, pane);
+    if (ImGui::IsItemHovered()) handle_rest(context, pane, mouse_in(pane.rect));
     handle_mouse(context, pane);
   }
   ImGui::PopClipRect();

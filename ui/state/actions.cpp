@@ -121,6 +121,7 @@ constexpr std::array kActions{
     Action{"next-metric", "View", "Show the next metric", "M", "next-metric", Needs::Mesh, true},
     Action{"wireframe", "View", "Wireframe", "W", "wireframe toggle"},
     Action{"vertices", "View", "Vertices", "D", "vertices toggle", Needs::Planar},
+    Action{"pointer-value", "View", "Value under the resting pointer", "", "pointer-value toggle"},
     Action{"worst-marker", "View", "Mark the worst element", "K", "worst toggle"},
     Action{"features", "View", "Feature edges and corners, where vertices slide", "Alt+K", "features toggle"},
     Action{"holders", "View", "What holds the minimum: elements that hold one another", "Alt+O", "holders toggle", Needs::Mesh},

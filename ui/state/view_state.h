@@ -161,7 +161,8 @@ struct ViewState {
   bool wireframe = true;
   bool vertices = false;
   bool worst_marker = true;
-  bool features = false;                                 // curves along which vertices slide, and what holds them
+  bool pointer_value = false;  // the element's value is shown where the pointer rests; not in scripts, whose pictures shall be the same
+  bool features = false;       // curves along which vertices slide, and what holds them
   std::optional<std::array<Index, 2>> edge_under_mouse;  // in the inspector or a menu, to be seen in the mesh
   bool holders = false;   // what holds the minimum: elements that hold one another, their forces, and the cluster
   bool shading = true;    // volumes' faces by a light, too: it changes what colours tell

@@ -80,6 +80,8 @@ class App {
   void press(const KeyChord& chord, bool repeated = false);
   /// As which letter ImGui gets one that is typed.
   [[nodiscard]] char16_t shown_letter(char32_t letter) { return widgets_.glyphs.shown_letter(letter); }
+  /// The control that has the keyboard takes text.
+  [[nodiscard]] bool focus_takes_text() const { return items_.focus_takes_text(); }
   /// With the next frame, the keyboard goes to the next control (1) or to the one before (-1).
   void move_focus(int direction) noexcept { focus_moves_ = direction; }
 

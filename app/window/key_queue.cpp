@@ -17,14 +17,14 @@ constexpr int kKeypadFirst = 320, kKeypadLast = 334, kKeypadEnter = 335;
 
 bool is_modifier(int code) { return code >= key::kLeftShift && code <= key::kLeftShift + 7; }
 bool makes_text(int code) { return (code >= key::kSpace && code < key::kEscape) || (code >= kKeypadFirst && code <= kKeypadLast); }
-bool moves_focus(int code) { return code == key::kEnter || code == kKeypadEnter || code == key::kEscape || code == key::kSpace; }
+bool is_enter(int code) { return code == key::kEnter || code == kKeypadEnter; }
+bool moves_focus(int code) { return is_enter(code) || code == key::kEscape || code == key::kSpace; }
 
 /// Keys that the control with the focus gets, where one is seen to have it.
 bool is_for_focus(const ui::KeyChord& chord) {
   if (chord.ctrl || chord.alt) return false;
   const int code = chord.code;
-  return code == key::kSpace || code == key::kEscape || code == key::kEnter || code == kKeypadEnter ||
-         (code >= key::kRight && code <= key::kEnd);
+  return code == key::kSpace || code == key::kEscape || is_enter(code) || (code >= key::kRight && code <= key::kEnd);
 }
 
 }  // namespace
@@ -103,9 +103,11 @@ void KeyQueue::feed(ImGuiIO& io, ui::App& app) {
   while (!turn.over && !events_.empty()) {
     const Event event = events_.front();
     if (event.kind == Event::Kind::Release) {
-      if (event.chord.code == turn.pressed) break;  // ImGui would never see it
-      if (io.KeysDown[event.chord.code]) turn.released = event.chord.code;
-      io.KeysDown[event.chord.code] = false;
+      const int code = is_enter(event.chord.code) && enter_given_as_ >= 0 ? enter_given_as_ : event.chord.code;
+      if (code == turn.pressed) break;  // ImGui would never see it
+      if (code != event.chord.code) enter_given_as_ = -1;
+      if (io.KeysDown[code]) turn.released = code;
+      io.KeysDown[code] = false;
       events_.pop_front();
       continue;
     }
@@ -144,15 +146,15 @@ void KeyQueue::play_press(const Event& event, ImGuiIO& io, ui::App& app, Turn& t
         return io.AddInputCharacter(app.shown_letter(event.character));
       }
       if (event.repeated || (makes_text(chord.code) && !chord.ctrl)) return events_.pop_front();  // ImGui repeats by itself
-      return give_key(event, io, turn);
+      return give_key(event, io, app, turn);
     case Owner::Widgets:
       if (event.repeated || (makes_text(chord.code) && chord.code != key::kSpace)) return events_.pop_front();
-      return give_key(event, io, turn);
+      return give_key(event, io, app, turn);
     case Owner::Commands:
       if (!event.for_commands) return events_.pop_front();
       if (io.NavVisible && is_for_focus(chord)) {
         if (event.repeated) return events_.pop_front();
-        return give_key(event, io, turn);
+        return give_key(event, io, app, turn);
       }
       events_.pop_front();
       if (event.repeated && !still_held(chord.code)) return;
@@ -170,8 +172,15 @@ bool KeyQueue::still_held(int code) const {
   });
 }
 
-void KeyQueue::give_key(const Event& event, ImGuiIO& io, Turn& turn) {
-  const int code = event.chord.code;
+/// Enter presses the control with the ring as Space does; ImGui keeps it for fields that take text.
+int KeyQueue::code_for(int code, const ui::App& app) {
+  if (!is_enter(code)) return code;
+  enter_given_as_ = ImGui::GetIO().NavVisible && !app.focus_takes_text() ? key::kSpace : -1;
+  return enter_given_as_ >= 0 ? enter_given_as_ : code;
+}
+
+void KeyQueue::give_key(const Event& event, ImGuiIO& io, const ui::App& app, Turn& turn) {
+  const int code = code_for(event.chord.code, app);
   if (code == turn.released) {  // down again: ImGui must see it up in between
     turn.over = true;
     return;
@@ -187,6 +196,9 @@ void KeyQueue::give_key(const Event& event, ImGuiIO& io, Turn& turn) {
 void KeyQueue::set_modifiers(ImGuiIO& io, const Turn& turn) {
   const ui::KeyChord held{0, ctrl_, shift_, alt_};
   const ui::KeyChord& now = turn.modifiers == nullptr ? held : *turn.modifiers;
+  // ImGui opens the menus of the window that has the keyboard, which is seldom the one that has them.
+  const ImGuiContext& g = *ImGui::GetCurrentContext();
+  if (io.KeyAlt && !now.alt && g.NavWindowingToggleLayer && g.OpenPopupStack.empty()) ui::Items::focus_menus();
   io.KeyCtrl = now.ctrl;
   io.KeyShift = now.shift;
   io.KeyAlt = now.alt;

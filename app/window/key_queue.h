@@ -52,7 +52,8 @@ class KeyQueue {
   void judge(const ui::App& app);
   void play_press(const Event& event, ImGuiIO& io, ui::App& app, Turn& turn);
   [[nodiscard]] bool still_held(int code) const;
-  void give_key(const Event& event, ImGuiIO& io, Turn& turn);
+  [[nodiscard]] int code_for(int code, const ui::App& app);
+  void give_key(const Event& event, ImGuiIO& io, const ui::App& app, Turn& turn);
   void set_modifiers(ImGuiIO& io, const Turn& turn);
 
   std::deque<Event> events_;
@@ -61,7 +62,8 @@ class KeyQueue {
   bool commands_before_ = true;                      // commands had the keyboard before the last frame
   bool ctrl_ = false, shift_ = false, alt_ = false;  // held now
   bool clear_keys_ = false;
-  bool alt_used_ = false;  // with another key or the mouse: letting it go opens no menu
+  int enter_given_as_ = -1;  // the key that ImGui got in place of Enter, which is held; -1: none
+  bool alt_used_ = false;    // with another key or the mouse: letting it go opens no menu
 };
 
 }  // namespace dmoscope::app

@@ -105,6 +105,10 @@ TEST(Palette, AVerbAloneAsksForItsWords) {
   const auto at = std::find_if(found.begin(), found.end(), [](const PaletteEntry& entry) { return entry.command == "screenshot "; });
   ASSERT_NE(at, found.end());
   EXPECT_FALSE(at->complete);
+  // Nothing is open: what needs a mesh comes after all that can be.
+  const std::vector<PaletteEntry> none = palette_entries("s", {}, view_command_infos());
+  EXPECT_TRUE(std::ranges::is_sorted(none, std::greater<>(), &PaletteEntry::possible));
+  EXPECT_FALSE(none.back().possible);
   EXPECT_TRUE(palette_entries("no such thing", {}, view_command_infos()).empty());
 }
 

@@ -174,6 +174,42 @@ TEST_F(Typing, TabMovesTheFocusWithARingAndEscapeEndsIt) {
   EXPECT_FALSE(ImGui::GetIO().NavVisible);
 }
 
+TEST_F(Typing, EnterPressesTheControlWithTheRing) {
+  good("generate annulus");
+  bool pressed = false;
+  for (int k = 0; k < 60 && !pressed; ++k) {
+    good("key Tab");
+    good("key Enter");
+    pressed = iteration() != 0 || !state().wireframe;
+    if (state().dialog != Dialog::None) good("dialog none");
+    if (ImGui::GetIO().WantTextInput) good("key Escape");
+    if (!ImGui::GetCurrentContext()->OpenPopupStack.empty()) good("key Escape");
+  }
+  EXPECT_TRUE(pressed);
+  EXPECT_LE(iteration(), 1U) << "each press once";
+}
+
+TEST_F(Typing, AltAloneReachesTheMenus) {
+  constexpr int kLeftAlt = ui::key::kLeftShift + 2;
+  good("generate annulus");
+  const auto frames = [&] {
+    for (int k = 0; k < 4; ++k) window_->frame();
+  };
+  keys().press({kLeftAlt});
+  frames();
+  keys().release(kLeftAlt);
+  frames();
+  const ImGuiContext& g = *ImGui::GetCurrentContext();
+  EXPECT_EQ(g.NavLayer, ImGuiNavLayer_Menu);
+  good("key Down");
+  EXPECT_FALSE(g.OpenPopupStack.empty()) << "the first menu";
+  good("key Escape");
+  good("key Escape");
+  EXPECT_TRUE(g.OpenPopupStack.empty());
+  good("key N");
+  EXPECT_EQ(iteration(), 1U) << "keys are commands again";
+}
+
 TEST_F(Typing, TabGoesThroughADialogAndStaysInIt) {
   good("generate annulus");
   good("dialog screenshot");

@@ -1,5 +1,7 @@
 #include "ui/state/palette_entries.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "core/commands/session_commands.h"
@@ -18,8 +20,9 @@ std::vector<PaletteEntry> palette_entries(std::string_view text, const Situation
     if (has_words && one->name == command) entries.push_back({fmt::format("run: {}", text), one->usage, std::string(text), true, true});
   }
   for (const Action* action : search_actions(text)) {
-    entries.push_back({fmt::format("{}: {}", action->menu, title_of(*action, situation)), std::string(action->key),
-                       std::string(action->command), enabled(*action, situation), true});
+    const std::string title = title_of(*action, situation);
+    entries.push_back({fmt::format("{}: {}", action->menu, title), std::string(action->key), std::string(action->command),
+                       enabled(*action, situation), true, title});
   }
   const std::vector<std::string> words = search_words(text);
   // Commands that begin with what was typed before those that only speak of it.
@@ -31,6 +34,8 @@ std::vector<PaletteEntry> palette_entries(std::string_view text, const Situation
       entries.push_back({one->usage, one->doc, complete ? one->name : one->name + " ", true, complete});
     }
   }
+  // What cannot be done now comes last, and first what is called just so.
+  std::ranges::stable_sort(entries, {}, [&](const PaletteEntry& one) { return one.possible ? one.name == text ? 0 : 1 : 2; });
   return entries;
 }
 

@@ -56,6 +56,15 @@ void Items::move_focus(int direction) const {
   g.NavNextActivateFlags = ImGuiActivateFlags_PreferInput;  // of a slider, too: what is typed is its number
 }
 
+bool Items::focus_takes_text() const {
+  const auto at = std::ranges::find(stops_, ImGui::GetCurrentContext()->NavId, &Stop::id);
+  return at != stops_.end() && at->takes_text;
+}
+
+void Items::focus_menus() {
+  if (ImGuiWindow* menus = ImGui::FindWindowByName("menu")) ImGui::FocusWindow(menus);
+}
+
 void Items::end_focus() {
   ImGuiContext& g = *ImGui::GetCurrentContext();
   if (g.OpenPopupStack.empty() && g.ActiveId == 0) g.NavDisableHighlight = true;

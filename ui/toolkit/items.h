@@ -27,6 +27,10 @@ class Items {
   /// Gives the keyboard to the control that was drawn after the one that has it, or before it (`direction` -1), round and round within the
   /// dialog that is open, or else all panels; to a text field with its text selected. Between ImGui::NewFrame and ImGui::Render.
   void move_focus(int direction) const;
+  /// The control that has the keyboard takes text, or a number, that is typed.
+  [[nodiscard]] bool focus_takes_text() const;
+  /// Gives the keyboard to the window of the menus.
+  static void focus_menus();
   /// Escape ends the ring round the control that has the keyboard, also within a panel's part that scrolls by itself, which ImGui would
   /// only leave for its panel. Between ImGui::NewFrame and ImGui::Render.
   static void end_focus();

@@ -1,0 +1,103 @@
+// Commands of the view come to the saved views, settings and scripts of an earlier program, byte for byte.
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/engine/engine.h"
+#include "ui/commands/settings.h"
+#include "ui/commands/view_commands.h"
+#include "ui/commands/view_json.h"
+#include "ui/commands/view_to_commands.h"
+
+namespace dmoscope::ui {
+namespace {
+
+using Lines = std::vector<std::string>;
+
+/// A line a value, as JSON writes it: "view/panels/left true".
+void list_values(const nlohmann::json& value, const std::string& name, Lines& lines) {
+  if (!value.is_object()) return lines.push_back(name + ' ' + value.dump());
+  for (const auto& [key, member] : value.items()) list_values(member, name + '/' + key, lines);
+}
+
+/// All that is written of a view; JSON itself is what the library makes of these values, and nothing else.
+Lines written(const ViewState& state) {
+  Lines lines;
+  const auto view = nlohmann::json::parse(view_json(state)), settings = nlohmann::json::parse(settings_text(state));
+  EXPECT_EQ(view_json(state), view.dump());
+  EXPECT_EQ(settings_text(state), settings.dump(2) + '\n');
+  list_values(view, "view", lines);
+  list_values(settings, "settings", lines);
+  for (const std::string& line : view_lines(state, true)) lines.push_back("script " + line);
+  std::ranges::sort(lines);  // of a script's lines each is about something else
+  return lines;
+}
+
+class ViewsOfBefore : public testing::Test {
+ protected:
+  ViewsOfBefore() {
+    for (const auto& [mesh, command] : {std::pair{"planar", "generate grid 400"}, {"volume", "generate tetrahedra"}}) {
+      Engine engine(1);
+      engine.post(command);
+      engine.wait_idle();
+      sessions_[mesh] = engine.view();
+    }
+  }
+  /// What the commands, parted by semicolons, make of a new view.
+  [[nodiscard]] ViewState state_after(const std::string& mesh, const std::string& commands) const {
+    ViewState state;
+    CommandHost host;
+    host.session = [this, mesh] { return sessions_.at(mesh); };
+    host.post = [](const std::string&) {};
+    host.busy = [] { return false; };
+    const CommandTable table = view_commands(state, host);
+    state.follow(*sessions_.at(mesh));
+    std::istringstream lines(commands);
+    for (std::string line; std::getline(lines, line, ';');) EXPECT_NO_THROW(table.execute(line)) << line;
+    return state;
+  }
+
+ private:
+  std::map<std::string, std::shared_ptr<const SessionView>> sessions_;
+};
+
+/// What the second of two sorted lists has of its own, and the names that it alone has not.
+Lines difference(const Lines& first, const Lines& second) {
+  Lines lines;
+  std::ranges::set_difference(second, first, std::back_inserter(lines));
+  for (const std::string& line : first) {
+    const std::string name = line.substr(0, line.rfind(' '));
+    if (std::ranges::none_of(second, [&](const std::string& one) { return one.starts_with(name); })) lines.push_back("no " + name);
+  }
+  return lines;
+}
+
+TEST_F(ViewsOfBefore, AreWrittenAsTheyWere) {
+  std::ifstream file(DMOSCOPE_SOURCE_DIR "/tests/data/views/views.txt");
+  ASSERT_TRUE(file.is_open());
+  std::map<std::string, Lines> fresh;  // by mesh
+  std::size_t count = 0;
+  for (std::string line; std::getline(file, line);) {
+    if (!line.starts_with('[')) continue;
+    const std::string mesh = line.substr(1, line.find(']') - 1), commands = line.substr(line.find(']') + 1);
+    SCOPED_TRACE(line);
+    Lines expected;
+    while (std::getline(file, line) && !line.empty()) expected.push_back(line);
+    const Lines now = written(state_after(mesh, commands));
+    if (fresh.contains(mesh)) {
+      EXPECT_EQ(difference(fresh[mesh], now), expected);
+    } else {
+      EXPECT_EQ(now, expected);
+      fresh[mesh] = expected;
+    }
+    ++count;
+  }
+  EXPECT_EQ(count, 37U);
+}
+
+}  // namespace
+}  // namespace dmoscope::ui

@@ -86,7 +86,7 @@ TEST(Palette, ListsEveryActionAndEveryVerbOfBothTables) {
   };
   EXPECT_EQ(all.size(), actions().size() + view_command_infos().size() + session_commands().size());
   EXPECT_TRUE(lists("Run: Next iteration"));
-  EXPECT_TRUE(lists("colormap NAME|next"));
+  EXPECT_TRUE(lists("wireframe [on|off|toggle]"));
   EXPECT_TRUE(lists("step vertex|class|iteration [COUNT]"));
 }
 

@@ -13,6 +13,7 @@
 #include "ui/state/actions.h"
 #include "ui/state/palette_entries.h"
 #include "ui/state/situation.h"
+#include "ui/state/view_options.h"
 
 namespace dmoscope::app {
 namespace {
@@ -39,10 +40,9 @@ class Menus : public HeadlessTest {
     run("move 3 3");
     const auto view = window_->app().engine().view();
     std::string text = ui::view_json(state());
-    text += fmt::format("\ndialog {}, theme {}, scale {}, full screen {}, shown {}, plays {}, watches {}, b {}",
-                        static_cast<int>(state().dialog), ui::kThemes[static_cast<std::size_t>(state().theme)].first, state().scale,
-                        state().full_screen, static_cast<int>(state().timeline.shown), static_cast<int>(state().timeline.play.kind),
-                        state().watch_file, state().timeline.b.frame != nullptr);
+    text += fmt::format("\ndialog {}, {}, scale {}, full screen {}, shown {}, plays {}, watches {}, b {}", static_cast<int>(state().dialog),
+                        ui::option_line(state(), "theme"), state().scale, state().full_screen, static_cast<int>(state().timeline.shown),
+                        static_cast<int>(state().timeline.play.kind), state().watch_file, state().timeline.b.frame != nullptr);
     text +=
         fmt::format("\n{}, run {} of {}, shown {}", view->input->mesh.name, view->active, view->runs.size(), static_cast<int>(view->shown));
     for (const RunView& one : view->runs) text += fmt::format("\n{} {} {}", one.title, one.moment.iteration, one.moment.visits);

@@ -63,24 +63,10 @@ void add_clip_commands(CommandTable& table, ViewState& state, const CommandHost&
              "takes away what of a volume mesh lies beyond a plane: x, y, z, -x, -y, -z, with :FRACTION of the mesh or half-way, or "
              "NX,NY,NZ:OFFSET; next: across the next axis, the side towards the eye"},
             {1, 1}, [&state, &host](Arguments words) { set_clip(state, host, words); });
-  table.add({"clip-mode", "clip-mode crinkle|cut|toggle", "whole cells stay, or they are cut through"}, {1, 1}, [&state](Arguments words) {
-    using Mode = ClipPlane::Mode;
-    Mode& mode = state.inside.clip.mode;
-    mode = words[0] == "toggle" ? (mode == Mode::Cut ? Mode::Crinkle : Mode::Cut) : parse_clip_mode(words[0]);
-  });
 }
 
 void add_peel_commands(CommandTable& table, ViewState& state) {
   ClippingView& view = state.inside;
-  table.add({"peel", "peel N|more|less", "takes so many layers of cells off the boundary of a volume mesh"}, {1, 1},
-            [&view](Arguments words) {
-              constexpr std::uint64_t kMost = kNoIndex - 1;
-              const std::uint64_t now = view.peel;
-              const std::uint64_t wanted = words[0] == "more"   ? now + 1
-                                           : words[0] == "less" ? now - std::min<std::uint64_t>(now, 1)
-                                                                : to_count(words[0]);
-              view.peel = static_cast<Index>(std::min(wanted, kMost));
-            });
   table.add({"peel-quality", "peel-quality Q|off", "takes cells of a higher quality away"}, {1, 1},
             [&view](Arguments words) { view.peel_quality = words[0] == "off" ? std::nullopt : std::optional(to_quality(words[0])); });
   table.add({"keep-quality", "keep-quality LOW HIGH|off", "only cells of a quality in this range are seen"}, [&view](Arguments words) {
@@ -93,21 +79,6 @@ void add_peel_commands(CommandTable& table, ViewState& state) {
     if (!(range.first <= range.second)) throw UsageError("the lower quality comes first");
     view.isolate = range;
   });
-  table.add({"worst-cells", "worst-cells N|off|toggle", "only the N worst cells (50) are seen, in a faint boundary of the rest"}, {1, 1},
-            [&view](Arguments words) {
-              constexpr std::size_t kUsual = 50;
-              const bool toggle = words[0] == "toggle";
-              view.worst = words[0] == "off" ? 0 : toggle ? (view.worst > 0 ? 0 : kUsual) : to_count(words[0]);
-              view.ghost = view.worst > 0;
-            });
-  add_option_commands(table, state, {"ghost-rest"});
-  table.add({"shrink", "shrink FACTOR|toggle", "draws every cell of a volume mesh so large, 1 is its own size"}, {1, 1},
-            [&view](Arguments words) {
-              constexpr double kUsual = 0.8;
-              const double factor = words[0] == "toggle" ? (view.shrink < 1.0 ? 1.0 : kUsual) : to_number(words[0]);
-              if (!(factor > 0.0 && factor <= 1.0)) throw UsageError("the factor must be greater than 0 and at most 1");
-              view.shrink = factor;
-            });
   table.add({"show-all", "show-all", "all cells of a volume mesh are seen again"}, {0, 0}, [&view](Arguments) { view = {}; });
 }
 
@@ -145,7 +116,6 @@ void add_orbit_commands(CommandTable& table, ViewState& state) {
             [&state](Arguments words) {
               state.orbit.orbit_about({to_number(words[0]), to_number(words[1]), to_number(words[2])});
             });
-  add_option_commands(table, state, {"perspective", "trackball"});
 }
 
 }  // namespace

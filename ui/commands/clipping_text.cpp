@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "ui/commands/view_options.h"
-
 namespace dmoscope::ui {
 
 std::pair<double, double> span_of(const ClipPlane& plane, const render::Bounds3& box) {
@@ -57,14 +55,8 @@ std::string clip_command(const ClipPlane& plane, const render::Bounds3& box) {
 std::vector<std::string> inside_lines(const ViewState& state, bool with_camera) {
   const ClippingView& view = state.inside;
   std::vector<std::string> lines{exact_clip_command(view.clip)};
-  lines.push_back(option_line(state, "clip-mode"));
-  lines.push_back(fmt::format("peel {}", view.peel));
   lines.push_back(view.peel_quality ? fmt::format("peel-quality {}", *view.peel_quality) : "peel-quality off");
   lines.push_back(view.isolate ? fmt::format("keep-quality {} {}", view.isolate->first, view.isolate->second) : "keep-quality off");
-  lines.push_back(view.worst > 0 ? fmt::format("worst-cells {}", view.worst) : "worst-cells off");
-  lines.push_back(option_line(state, "ghost-rest"));  // behind what sets it, too
-  lines.push_back(fmt::format("shrink {}", view.shrink));
-  for (const char* option : {"trackball", "perspective"}) lines.push_back(option_line(state, option));
   if (!with_camera) return lines;
   const render::OrbitCamera& orbit = state.orbit;
   const Vec3 &c = orbit.centre, &r = orbit.right, &u = orbit.up;

@@ -8,19 +8,16 @@
 #include "ui/analysis/element_colours.h"
 #include "ui/commands/command_words.h"
 #include "ui/state/view_geometry.h"
+#include "ui/state/view_options.h"
 
 namespace dmoscope::ui {
 namespace {
 
-constexpr int kMostWorst = 100;  // as many as a frame lists
-
 ColourBy parse_by(const std::string& word) {
-  std::string names;
-  for (const ColourByInfo& one : kColourBys) {
-    if (one.name == word) return one.by;
-    names += (names.empty() ? "" : ", ") + std::string(one.name);
-  }
-  unexpected(word, "one of " + names);
+  const ViewOption& option = view_option("color-by");
+  const double value = option.value_of(word);
+  if (value < 0.0) unexpected(word, option.expected());
+  return static_cast<ColourBy>(static_cast<int>(value));
 }
 
 PaneContent parse_reference(const ViewState& state, Arguments words) {
@@ -58,36 +55,15 @@ void set_range(ViewState& state, Arguments words) {
     state.range_mode = RangeMode::Given;
     return;
   }
-  std::string names;
-  for (const RangeModeInfo& one : kRangeModes) {
-    if (one.mode == RangeMode::Given) continue;
-    names += (names.empty() ? "" : ", ") + std::string(one.name);
-    if (one.name != words[0]) continue;
-    state.range_mode = one.mode;
-    return;
-  }
-  unexpected(words[0], "one of " + names + ", or two qualities");
+  const ViewOption& option = view_option("range");
+  const double value = option.value_of(words[0]);
+  if (value < 0.0) unexpected(words[0], option.expected() + ", or two qualities");
+  option.at.set(state, value);
 }
 
 void add_colour_commands(CommandTable& table, ViewState& state, const CommandHost& host) {
-  table.add({"colormap", "colormap NAME|next", "colours of quality"}, {1, 1}, [&state](Arguments words) {
-    const auto maps = render::colour_map_table();
-    if (words[0] == "next") {
-      const auto at = std::find_if(maps.begin(), maps.end(), [&](const auto& map) { return map.map == state.colour_map; });
-      state.colour_map = at == maps.end() || at + 1 == maps.end() ? maps.front().map : (at + 1)->map;
-    } else {
-      state.colour_map = render::colour_map_from_name(words[0]);
-    }
-  });
-  add_option_commands(table, state, {"reverse-colors", "shading", "occlusion"});
-  table.add({"color-steps", "color-steps N", "so many colours of equal width, 2 to 64; 0: without steps"}, {1, 1},
-            [&state](Arguments words) {
-              const std::uint64_t steps = to_count(words[0]);
-              if (steps == 1 || steps > 64) throw UsageError("the steps are 2 to 64, or 0 for none");
-              state.colouring.steps = static_cast<int>(steps);
-            });
   table.add(
-      {"range", "range input|fixed|auto|expanding|percentile [LOW HIGH]  or  range LOW HIGH",
+      {"range", "range input|fixed|auto|expanding|percentile [LOW HIGH]|given  or  range LOW HIGH",
        "qualities that the colours span: the input's, 0 to 1, the mesh's own, all seen since it was opened, between two percentiles of "
        "the input (2 98), or given"},
       {1, 3}, [&state](Arguments words) { set_range(state, words); });
@@ -118,7 +94,6 @@ void add_filter_commands(CommandTable& table, ViewState& state, const CommandHos
                 state.colouring.filter = parse_range(words);
               }
             });
-  add_option_commands(table, state, {"filter-mode"});
   table.add({"isolate", "isolate kind|group|valence|class|freedom|inverted NAME  or  isolate off", "only elements of this category count"},
             [&state, &host](Arguments words) {
               if (words.size() == 1 && words[0] == "off") {
@@ -134,16 +109,6 @@ void add_filter_commands(CommandTable& table, ViewState& state, const CommandHos
               if (const auto why = why_unknown(isolation, *open_view(host)->input)) throw UsageError(*why);
               state.colouring.isolated = std::move(isolation);
             });
-  table.add({"worst-view", "worst-view N|off|toggle", "only the N worst elements count, 1 to 100"}, {1, 1}, [&state](Arguments words) {
-    constexpr int kUsual = 10;
-    if (words[0] == "off" || words[0] == "toggle") {
-      state.colouring.worst = words[0] == "off" || state.colouring.worst > 0 ? 0 : kUsual;
-      return;
-    }
-    const std::uint64_t count = to_count(words[0], 1);
-    if (count > kMostWorst) throw UsageError("the worst 100 elements are known, not more");
-    state.colouring.worst = static_cast<int>(count);
-  });
   table.add({"fit-worst", "fit-worst", "moves the view to the worst elements: those of worst-view, or 10"}, {0, 0},
             [&state, &host](Arguments) {
               const auto view = host.session();
@@ -158,24 +123,11 @@ void add_filter_commands(CommandTable& table, ViewState& state, const CommandHos
             });
 }
 
-void add_label_commands(CommandTable& table, ViewState& state) {
-  table.add({"labels", "labels off|vertices|elements|both|next", "ids, where there is room for them"}, {1, 1}, [&state](Arguments words) {
-    ColouringState& s = state.colouring;
-    static constexpr std::array<std::pair<std::string_view, int>, 5> kinds{
-        {{"off", 0}, {"vertices", 1}, {"elements", 2}, {"both", 3}, {"next", 4}}};
-    int kind = choose(words[0], kinds);
-    if (kind == 4) kind = ((s.label_vertices ? 1 : 0) + (s.label_elements ? 2 : 0) + 1) % 4;
-    s.label_vertices = kind % 2 == 1;
-    s.label_elements = kind >= 2;
-  });
-}
-
 }  // namespace
 
 void add_colouring_commands(CommandTable& table, ViewState& state, const CommandHost& host) {
   add_colour_commands(table, state, host);
   add_filter_commands(table, state, host);
-  add_label_commands(table, state);
 }
 
 }  // namespace dmoscope::ui

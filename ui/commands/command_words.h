@@ -10,7 +10,6 @@
 
 #include "core/commands/commands.h"
 #include "ui/commands/view_commands.h"
-#include "ui/commands/view_options.h"
 
 namespace dmoscope::ui {
 
@@ -34,8 +33,8 @@ inline bool switched(Arguments words, std::size_t at, bool now) {
 }
 
 /// The value of a name; throws UsageError that lists the names.
-template <class Value, std::size_t N>
-Value choose(const std::string& word, const std::array<std::pair<std::string_view, Value>, N>& choices) {
+template <class Choices>
+auto choose(const std::string& word, const Choices& choices) {
   std::string names;
   for (const auto& [name, value] : choices) {
     if (name == word) return value;
@@ -45,8 +44,10 @@ Value choose(const std::string& word, const std::array<std::pair<std::string_vie
   unexpected(word, "one of " + names);
 }
 
-/// What a volume mesh shows, and from where; colours, filter and labels; the window's look as a script gives it again; its files; the mouse
-/// and the keyboard; viewports; plots; selected vertices; stepping; marks and playing.
+/// The commands that do nothing but set an option, see view_options(). What a volume mesh shows, and from where; colours, filter and
+/// labels; the window's look as a script gives it again; its files; the mouse and the keyboard; viewports; plots; selected vertices; marks
+/// and playing.
+void add_option_commands(CommandTable& table, ViewState& state);
 void add_clipping_commands(CommandTable& table, ViewState& state, const CommandHost& host);
 void add_colouring_commands(CommandTable& table, ViewState& state, const CommandHost& host);
 void add_desktop_commands(CommandTable& table, ViewState& state, const CommandHost& host);
@@ -55,7 +56,6 @@ void add_input_commands(CommandTable& table, ViewState& state, const CommandHost
 void add_pane_commands(CommandTable& table, ViewState& state);
 void add_plot_commands(CommandTable& table, ViewState& state);
 void add_selection_commands(CommandTable& table, ViewState& state, const CommandHost& host);
-void add_stepping_commands(CommandTable& table, ViewState& state);
 void add_timeline_commands(CommandTable& table, ViewState& state, const CommandHost& host);
 
 }  // namespace dmoscope::ui

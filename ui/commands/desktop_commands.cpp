@@ -8,14 +8,6 @@
 namespace dmoscope::ui {
 namespace {
 
-void set_panel_size(Panels& panels, const std::string& which, const std::string& em) {
-  static constexpr std::array<std::pair<std::string_view, double Panels::*>, 4> sizes{
-      {{"left", &Panels::left_width}, {"right", &Panels::right_width}, {"bottom", &Panels::bottom_height}, {"runs", &Panels::runs_height}}};
-  double Panels::*size = choose(which, sizes);
-  constexpr double kLeast = 4.0, kMost = 60.0;
-  panels.*size = em == "default" ? Panels{}.*size : std::clamp(to_number(em), which == "runs" ? kLeast : 6.0, kMost);
-}
-
 void set_camera(ViewState& state, Arguments words) {
   const render::Camera2D camera{{to_number(words[0]), to_number(words[1])}, to_number(words[2])};
   if (!(camera.units_per_pixel > 0.0)) throw UsageError("units per pixel must be greater than 0");
@@ -36,16 +28,6 @@ void add_session_file_commands(CommandTable& table, ViewState& state, const Comm
 void add_desktop_commands(CommandTable& table, ViewState& state, const CommandHost& host) {
   table.add({"camera", "camera X Y UNITS-PER-PIXEL", "looks at that point of the mesh's plane, so close"}, {3, 3},
             [&state](Arguments words) { set_camera(state, words); });
-  table.add({"panel-size", "panel-size left|right|bottom|runs EM|default",
-             "width or height of a panel, or of the list of runs, in heights of the interface's font"},
-            {2, 2}, [&state](Arguments words) { set_panel_size(state.panels, words[0], words[1]); });
-  table.add({"unfold", "unfold left|right [on|off|toggle]", "in a narrow window: shows a side panel over the mesh"}, {1, 2},
-            [&state](Arguments words) {
-              static constexpr std::array<std::pair<std::string_view, bool Panels::*>, 2> names{
-                  {{"left", &Panels::left_over}, {"right", &Panels::right_over}}};
-              bool Panels::*panel = choose(words[0], names);
-              state.panels.*panel = switched(words, 1, state.panels.*panel);
-            });
   if (is_session_command("save-state")) add_session_file_commands(table, state, host);
   table.add({"drawing-path", "drawing-path", "says what smooths and how it reaches the screen"}, {0, 0}, [&state, &host](Arguments) {
     add_message(state, {Message::Kind::Info, host.drawing_path(), 0});

@@ -39,7 +39,6 @@ SequenceOptions parse_sequence(Arguments words) {
 }  // namespace
 
 void add_file_commands(CommandTable& table, ViewState& state, const CommandHost& host) {
-  add_option_commands(table, state, {"watch", "native-dialogs"});
   table.add({"sequence", "sequence FOLDER [--from I] [--to J] [--every K] [--size WxH] [--window] [--overwrite]",
              "a picture of every iteration, for a video"},
             [&state, &host](Arguments words) {

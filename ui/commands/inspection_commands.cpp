@@ -365,7 +365,6 @@ void add_trace_commands(CommandTable& table, ViewState& state, const CommandHost
 void add_inspection_commands(CommandTable& table, ViewState& state, const CommandHost& host) {
   add_opening_commands(table, state, host);
   add_level_commands(table, state, host);
-  add_option_commands(table, state, {"inspect-zoom", "field", "field-in-view", "inspect-alone", "level-range"});
   add_slice_command(table, state, host);
   add_trace_commands(table, state, host);
 }

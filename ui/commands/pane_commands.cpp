@@ -40,19 +40,11 @@ void set_pane_camera(ViewState& state, Arguments words) {
 }  // namespace
 
 void add_pane_commands(CommandTable& table, ViewState& state) {
-  table.add({"viewports", "viewports 1|2|4|split", "one mesh, or several side by side, or two over each other with a handle between them"},
-            {1, 1}, [&state](Arguments words) { state.set_layout(choose(words[0], kPaneLayouts)); });
   table.add({"pane", "pane K active|run N [ITERATION]|input|mark a|b|auto",
              "what viewport K shows: a run as it stands or at an iteration, the input, a mark; auto: what is not shown elsewhere"},
             {2, 4}, [&state](Arguments words) { set_pane(state, words); });
   table.add({"focus-pane", "focus-pane K", "makes viewport K the active one, which the camera's commands are about"}, {1, 1},
             [&state](Arguments words) { state.focus_pane(to_pane(state, words[0])); });
-  table.add({"link-cameras", "link-cameras [on|off|toggle]", "all viewports look at the same place, or each for itself"}, {0, 1},
-            [&state](Arguments words) {
-              const bool linked = switched(words, 0, state.panes.linked);
-              if (!linked && state.in_space) throw UsageError("of a volume mesh all viewports share one camera");
-              state.link_cameras(linked);
-            });
   table.add({"pane-camera", "pane-camera K X Y UNITS-PER-PIXEL", "as camera, for one viewport while they are not linked"}, {4, 4},
             [&state](Arguments words) { set_pane_camera(state, words); });
   table.add({"hide-run", "hide-run K|others [on|off|toggle]  or  hide-run none",
@@ -66,11 +58,6 @@ void add_pane_commands(CommandTable& table, ViewState& state) {
               state.panels.setup = true;  // where the list is
               (state.panels.setup_side == Side::Left ? state.panels.left_over : state.panels.right_over) = true;
             });
-  table.add({"split", "split X", "where the handle of the split view is, 0 (left) to 1"}, {1, 1}, [&state](Arguments words) {
-    const double at = to_number(words[0]);
-    if (!(at >= 0.0 && at <= 1.0)) throw UsageError("the handle goes from 0 to 1");
-    state.panes.split = at;
-  });
 }
 
 }  // namespace dmoscope::ui

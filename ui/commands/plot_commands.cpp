@@ -1,22 +1,9 @@
 #include "core/view/run_table.h"
 #include "ui/commands/command_words.h"
+#include "ui/state/view_options.h"
 
 namespace dmoscope::ui {
 namespace {
-
-ValueAxis next_axis(PlotTab tab, ValueAxis axis) {
-  do {
-    axis = static_cast<ValueAxis>((static_cast<std::size_t>(axis) + 1) % kValueAxes.size());
-  } while (!offers(tab, axis));
-  return axis;
-}
-
-void choose_axis(ViewState& state, ValueAxis axis) {
-  if (!offers(state.plot, axis)) throw UsageError("log-distance is for plots of quality: convergence and sorted");
-  PlotView& view = state.plot_view();
-  if (view.axis != axis) view.y_range.reset();
-  view.axis = axis;
-}
 
 std::pair<double, double> parse_range(const std::string& low, const std::string& high) {
   const std::pair range{to_number(low), to_number(high)};
@@ -117,40 +104,10 @@ void rename_runs(PlotView& view, const std::map<std::string, std::string>& chang
 }
 
 void add_plot_commands(CommandTable& table, ViewState& state) {
-  add_option_commands(table, state, {"judged-by", "plot"});
-  table.add({"axis", "axis linear|log|log-distance|next", "the shown plot's value axis; log-distance: by the logarithm of 1 - quality"},
-            {1, 1}, [&state](Arguments words) {
-              choose_axis(state, words[0] == "next" ? next_axis(state.plot, state.plot_view().axis) : choose(words[0], kValueAxes));
-            });
   table.add({"log-scale", "log-scale [on|off|toggle]", "the shown plot's value axis, logarithmic or linear"}, {0, 1},
             [&state](Arguments words) {
-              choose_axis(state, switched(words, 0, state.plot_view().axis == ValueAxis::Log) ? ValueAxis::Log : ValueAxis::Linear);
-            });
-  table.add({"plot-x", "plot-x iteration|seconds|toggle", "what runs along the plots of a run's course"}, {1, 1},
-            [&state](Arguments words) {
-              static constexpr std::array<std::pair<std::string_view, bool>, 2> names{{{"iteration", false}, {"seconds", true}}};
-              const bool before = state.plot_options.by_seconds;
-              state.plot_options.by_seconds = words[0] == "toggle" ? !before : choose(words[0], names);
-              if (state.plot_options.by_seconds == before) return;
-              for (const auto& [name, tab] : kPlotTabs) {
-                if (over_iterations(tab)) state.plots[static_cast<std::size_t>(tab)].x_range.reset();
-              }
-            });
-  table.add({"x-axis", "x-axis log|changes|linear|next",
-             "how iterations or seconds lie along the plots: by the logarithm, evenly up to the last visible change, or evenly"},
-            {1, 1}, [&state](Arguments words) {
-              XAxis& now = state.plot_options.x_axis;
-              const XAxis next = static_cast<XAxis>((static_cast<std::size_t>(now) + 1) % kXAxes.size());
-              now = words[0] == "next" ? next : choose(words[0], kXAxes);
-              for (const auto& [name, tab] : kPlotTabs)
-                if (over_iterations(tab)) state.plots[static_cast<std::size_t>(tab)].x_range.reset();
-            });
-  table.add({"histogram-range", "histogram-range data|whole|toggle", "whether the histogram begins where its elements are, or from 0 to 1"},
-            {1, 1}, [&state](Arguments words) {
-              HistogramRange& now = state.plot_options.histogram_range;
-              const HistogramRange other = now == HistogramRange::Data ? HistogramRange::Whole : HistogramRange::Data;
-              now = words[0] == "toggle" ? other : choose(words[0], kHistogramRanges);
-              state.plots[static_cast<std::size_t>(PlotTab::Histogram)].x_range.reset();
+              const OptionValue& axis = view_option("axis").at;
+              axis.change(state, switched(words, 0, axis.get(state) == 1.0) ? 1.0 : 0.0);
             });
   table.add(
       {"plot-zoom", "plot-zoom all | x|y LOW HIGH | x|y all | box X0 X1 Y0 Y1", "the part of the plot that is shown; all: as at first"},
@@ -160,7 +117,6 @@ void add_plot_commands(CommandTable& table, ViewState& state) {
             {1, 2}, [&state](Arguments words) { switch_series(state, words); });
   table.add({"sort-runs", "sort-runs COLUMN [ascending|descending] | sort-runs off", "the order of the table of runs"}, {1, 2},
             [&state](Arguments words) { sort_runs(state, words); });
-  add_option_commands(table, state, {"plot-bins"});
   table.add({"plot-copy", "plot-copy", "the plotted numbers, or the table of runs, as comma separated values, on the clipboard"}, {0, 0},
             [&state](Arguments) { state.requests.plots.push_back({}); });
   table.add({"plot-save", "plot-save FILE.csv|.svg|.png [--size WxH] [--scale N]", "writes the plot as it is seen, on white"},

@@ -97,22 +97,8 @@ void add_selection_commands(CommandTable& table, ViewState& state, const Command
   table.add({"select", "select vertex|add|remove ID|A-B...  or  select none  or  select all-in X0 Y0 X1 Y1",
              "the vertices to smooth or to fix; all-in: those in a box of the plane"},
             [&state, &host](Arguments words) { select(state, host, words); });
-  table.add({"brush", "brush [on|off|toggle]", "dragging selects vertices; with Shift it adds, with Ctrl it removes"}, {0, 1},
-            [&state](Arguments words) {
-              const bool on = switched(words, 0, state.brush.on);
-              if (on && state.in_space) throw UsageError("the brush is of planar meshes: select vertices of a volume mesh by their ids");
-              state.brush.on = on;
-            });
   table.add({"leave", "leave", "ends what the mouse is doing besides picking, such as brushing; else clears the selection"}, {0, 0},
             [&state](Arguments) { leave(state); });
-  table.add({"brush-radius", "brush-radius PIXELS|up|down", "how wide the brush is, 2 to 200 at scale 1"}, {1, 1},
-            [&state](Arguments words) {
-              const double radius = words[0] == "up"     ? state.brush.radius * 1.25
-                                    : words[0] == "down" ? state.brush.radius / 1.25
-                                                         : to_number(words[0]);
-              if (!(radius > 0.0)) throw UsageError("the radius must be greater than 0");
-              state.brush.radius = std::clamp(radius, 2.0, 200.0);
-            });
   table.add({"smooth-selected", "smooth-selected", "visits the free ones of the selected vertices, each once"}, {0, 0},
             [&state, &host](Arguments) {
               const auto view = host.session();
@@ -131,7 +117,6 @@ void add_selection_commands(CommandTable& table, ViewState& state, const Command
               const auto view = host.session();
               host.post(words[0] + ' ' + chosen_vertices(state, open_session(view)));
             });
-  add_option_commands(table, state, {"click-smooths"});
 }
 
 }  // namespace dmoscope::ui

@@ -9,7 +9,7 @@
 
 #include "core/io/reading/source_file.h"
 #include "core/io/writing/atomic_file.h"
-#include "ui/commands/view_options.h"
+#include "ui/state/view_options.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -28,20 +28,16 @@ void take(const json& from, const char* name, double& value, double least, doubl
   if (read >= least && read <= most) value = read;
 }
 
-/// Two numbers of which the second is greater, else those that are.
-void take_pair(const json& from, const char* low_name, const char* high_name, double& low, double& high, double least, double most) {
-  double read_low = low, read_high = high;
-  take(from, low_name, read_low, least, most);
-  take(from, high_name, read_high, least, most);
-  if (!(read_low < read_high)) return;
-  low = read_low;
-  high = read_high;
-}
-
-void take_range(const json& from, ViewState& state) {
-  constexpr double kFarthest = 1e300;
-  take_pair(from, "low", "high", state.range_low, state.range_high, -kFarthest, kFarthest);
-  take_pair(from, "low_percent", "high_percent", state.range_low_percent, state.range_high_percent, 0.0, 100.0);
+/// Of a range the second number is greater; where it is not, both stay as they were.
+void keep_ranges(const ViewState& before, ViewState& next) {
+  if (!(next.range_low < next.range_high)) {
+    next.range_low = before.range_low;
+    next.range_high = before.range_high;
+  }
+  if (!(next.range_low_percent < next.range_high_percent)) {
+    next.range_low_percent = before.range_low_percent;
+    next.range_high_percent = before.range_high_percent;
+  }
 }
 
 constexpr int kLayout = 3;  // 1, which was not written: wide side panels; 2: narrower ones; 3: one column
@@ -121,57 +117,33 @@ std::filesystem::path recent_path() { return xdg_path("XDG_STATE_HOME", ".local/
 std::filesystem::path autosave_folder() { return xdg_path("XDG_STATE_HOME", ".local/state", "autosave"); }
 
 std::string settings_text(const ViewState& state) {
-  const Panels& panels = state.panels;
-  json out = {{"scale", state.scale / state.monitor_scale},
-              {"steps", state.colouring.steps},
-              {"range",
-               {{"low", state.range_low},
-                {"high", state.range_high},
-                {"low_percent", state.range_low_percent},
-                {"high_percent", state.range_high_percent}}},
-              {"flash", state.stepping.flash != Flash::Off},
-              {"tour_offered", state.tour.offered},
-              {"panels",
-               {{"left_width", panels.left_width},
-                {"right_width", panels.right_width},
-                {"bottom_height", panels.bottom_height},
-                {"runs_height", panels.runs_height},
-                {"layout", kLayout}}}};
+  json out = {{"scale", state.scale / state.monitor_scale}, {"panels", {{"layout", kLayout}}}};
   if (const WindowPlace& place = state.place; place.width > 0)
     out["window"] = {{"width", place.width}, {"height", place.height}, {"maximised", place.maximised}};
   for (const ViewOption& option : view_options())
-    if (!option.setting.empty()) out[json::json_pointer(std::string(option.setting))] = option.saved(state);
+    if (!option.kept.setting.empty()) out[json::json_pointer(std::string(option.kept.setting))] = option.saved(state);
   return out.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
 bool apply_settings(const std::string& text, ViewState& state) {
   const json in = json::parse(text, nullptr, false);
   if (!in.is_object()) return false;
+  ViewState next = state;
   for (const ViewOption& option : view_options()) {
-    const json::json_pointer setting{std::string(option.setting)};
-    if (!option.setting.empty() && in.contains(setting)) (void)option.take(in[setting], state);
+    const json::json_pointer setting{std::string(option.kept.setting)};
+    if (!option.kept.setting.empty() && in.contains(setting)) (void)option.take(in[setting], next);
   }
+  keep_ranges(state, next);
+  state = std::move(next);
   double scale = state.scale / state.monitor_scale;
   take(in, "scale", scale, 0.125, 4.0);
   state.scale = std::clamp(scale * state.monitor_scale, 0.5, 4.0);
-  double steps = state.colouring.steps;
-  take(in, "steps", steps, 0.0, 64.0);
-  state.colouring.steps = steps == 1.0 ? 0 : static_cast<int>(steps);
-  bool flash = state.stepping.flash != Flash::Off;
-  take(in, "flash", flash);
-  state.stepping.flash = flash ? Flash::On : Flash::Off;
-  if (const auto at = in.find("range"); at != in.end() && at->is_object()) take_range(*at, state);
-  take(in, "tour_offered", state.tour.offered);
   if (const auto at = in.find("recent"); at != in.end() && at->is_array()) {  // of older versions
     state.recent_files.clear();
     take_recent(*at, state.recent_files);
   }
   take_place(in, state.place);
   if (const auto at = in.find("panels"); at != in.end() && at->is_object()) {
-    take(*at, "left_width", state.panels.left_width, 8.0, 60.0);
-    take(*at, "right_width", state.panels.right_width, 8.0, 60.0);
-    take(*at, "bottom_height", state.panels.bottom_height, 6.0, 60.0);
-    take(*at, "runs_height", state.panels.runs_height, 4.0, 60.0);
     double layout = 1;
     take(*at, "layout", layout, 1, kLayout);
     if (layout < kLayout) forget_old_defaults(state.panels, static_cast<int>(layout));

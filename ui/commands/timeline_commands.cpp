@@ -39,13 +39,6 @@ void start(ViewState& state, Playback::Kind kind) {
   if (kind != Playback::Kind::Off) timeline.shown = Shown::Now;
 }
 
-void set_speed(Playback& play, const std::string& word) {
-  constexpr double kStep = 1.5;
-  const double wanted = word == "up" ? play.speed * kStep : word == "down" ? play.speed / kStep : to_number(word);
-  if (!(wanted > 0.0)) throw UsageError("the speed must be greater than 0");
-  play.speed = std::clamp(wanted, Playback::kSlowest, Playback::kFastest);
-}
-
 }  // namespace
 
 void add_timeline_commands(CommandTable& table, ViewState& state, const CommandHost& host) {
@@ -68,8 +61,6 @@ void add_timeline_commands(CommandTable& table, ViewState& state, const CommandH
               const Playback::Kind kind = choose(words[0], kinds);
               start(state, kind == state.timeline.play.kind ? Playback::Kind::Off : kind);
             });
-  table.add({"speed", "speed N|up|down", "iterations (or steps) a second that playing shows, 0.5 to 60"}, {1, 1},
-            [&state](Arguments words) { set_speed(state.timeline.play, words[0]); });
 }
 
 }  // namespace dmoscope::ui

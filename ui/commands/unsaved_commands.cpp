@@ -41,7 +41,6 @@ void recovery(ViewState& state, const CommandHost& host, Recovery wish, std::siz
 }  // namespace
 
 void add_unsaved_commands(CommandTable& table, ViewState& state, const CommandHost& host) {
-  add_option_commands(table, state, {"ask-unsaved"});
   table.add({"answer", "answer session|export|discard|cancel", "answers that question"}, {1, 1}, [&state, &host](Arguments words) {
     static constexpr std::array<std::pair<std::string_view, Answer>, 4> answers{
         {{"session", Answer::Session}, {"export", Answer::Export}, {"discard", Answer::Discard}, {"cancel", Answer::Cancel}}};

@@ -82,11 +82,7 @@ void add_camera_commands(CommandTable& table, ViewState& state, const CommandHos
   });
 }
 
-void add_look_commands(CommandTable& table, ViewState& state) {
-  add_option_commands(table, state, {"wireframe", "vertices", "worst", "pointer-value", "features", "holders"});
-  table.add({"theme", "theme dark|light|contrast|next", "colours of the interface"}, {1, 1}, [&state](Arguments words) {
-    state.theme = words[0] == "next" ? static_cast<Theme>((static_cast<int>(state.theme) + 1) % 3) : choose(words[0], kThemes);
-  });
+void add_window_commands(CommandTable& table, ViewState& state) {
   table.add({"scale", "scale FACTOR|up|down", "size of the interface over what the monitor asks for"}, {1, 1}, [&state](Arguments words) {
     const double wanted = words[0] == "up"     ? state.scale * 1.125
                           : words[0] == "down" ? state.scale / 1.125
@@ -94,37 +90,10 @@ void add_look_commands(CommandTable& table, ViewState& state) {
     if (!(wanted > 0.0)) throw UsageError("the scale must be greater than 0");
     state.scale = std::clamp(wanted, 0.5, 4.0);
   });
-}
-
-void add_panel_commands(CommandTable& table, ViewState& state) {
   table.add({"size", "size WIDTH HEIGHT", "size of the window in pixels"}, {2, 2}, [&state](Arguments words) {
     state.window_size = parse_size(words[0] + "x" + words[1]);
     state.requests.size = state.window_size;
   });
-  table.add({"full-screen", "full-screen [on|off|toggle]", "the whole monitor"}, {0, 1}, [&state](Arguments words) {
-    state.full_screen = switched(words, 0, state.full_screen);
-    state.requests.full_screen = state.full_screen;
-  });
-  table.add(
-      {"panel", "panel setup|facts|bottom [on|off|toggle]", "shows or hides a panel; left and right are older names of the first two"},
-      {1, 2}, [&state](Arguments words) {
-        static constexpr std::array<std::pair<std::string_view, bool Panels::*>, 5> names{{{"setup", &Panels::setup},
-                                                                                           {"facts", &Panels::facts},
-                                                                                           {"bottom", &Panels::bottom},
-                                                                                           {"left", &Panels::setup},
-                                                                                           {"right", &Panels::facts}}};
-        bool Panels::*panel = choose(words[0], names);
-        const bool is_open = panel == &Panels::bottom ? state.panels.plots() : state.panels.*panel;
-        state.panels.*panel = switched(words, 1, is_open);
-        if (panel == &Panels::bottom) state.panels.plots_wait = false;
-      });
-  table.add({"dock", "dock setup|facts left|right", "the side at which a panel stands"}, {2, 2}, [&state](Arguments words) {
-    static constexpr std::array<std::pair<std::string_view, Side Panels::*>, 2> names{
-        {{"setup", &Panels::setup_side}, {"facts", &Panels::facts_side}}};
-    Side Panels::*side = choose(words[0], names);
-    state.panels.*side = choose(words[1], kSides);
-  });
-  add_option_commands(table, state, {"tab", "settings", "unfold-holds", "unfold-notice"});
   table.add({"dialog", "dialog NAME|none",
              "opens or closes a dialog; open-beside, open-surface: that of open, for a mesh beside those that are open, or to slide on"},
             {1, 1}, [&state](Arguments words) {
@@ -220,9 +189,9 @@ void add_session_shortcuts(CommandTable& table, ViewState& state, const CommandH
 CommandTable view_commands(ViewState& state, const CommandHost& host) {
   CommandTable table;
   add_camera_commands(table, state, host);
-  add_look_commands(table, state);
+  add_option_commands(table, state);
+  add_window_commands(table, state);
   add_colouring_commands(table, state, host);
-  add_panel_commands(table, state);
   add_output_commands(table, state);
   add_plot_commands(table, state);
   add_input_commands(table, state, host);
@@ -234,7 +203,6 @@ CommandTable view_commands(ViewState& state, const CommandHost& host) {
   add_file_commands(table, state, host);
   add_notice_command(table, state, host);
   add_selection_commands(table, state, host);
-  add_stepping_commands(table, state);
   add_size_point_commands(table, state, host);
   add_pane_commands(table, state);
   add_unsaved_commands(table, state, host);

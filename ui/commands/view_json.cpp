@@ -16,7 +16,7 @@
 #include "core/base/error.h"
 #include "core/commands/commands.h"
 #include "core/view/run_table.h"
-#include "ui/commands/view_options.h"
+#include "ui/state/view_options.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -54,7 +54,8 @@ class Writer {
   }
   void options(const ViewState& state) {
     for (const ViewOption& option : view_options())
-      if (!option.member.empty()) json_[json::json_pointer(std::string(option.member))] = option.saved(state);
+      if (!option.kept.member.empty() && option.is_saved(state))
+        json_[json::json_pointer(std::string(option.kept.member))] = option.saved(state);
   }
   template <class Body>
   void object(const char* name, Body body) {
@@ -167,11 +168,12 @@ class Reader {
   /// Behind the objects that they are in.
   void options(ViewState& state) {
     for (const ViewOption& option : view_options()) {
-      const json::json_pointer member{std::string(option.member)};
-      if (option.member.empty() || !json_.contains(member) || option.take(json_[member], state)) continue;
-      std::string name(option.member.substr(1));
+      const json::json_pointer member{std::string(option.kept.member)};
+      require_object(member.parent_pointer());
+      if (option.kept.member.empty() || !json_.contains(member) || option.take(json_[member], state)) continue;
+      std::string name(option.kept.member.substr(1));
       std::ranges::replace(name, '/', '.');
-      wrong(name.c_str(), option.expected());
+      wrong(name.c_str(), option.expected(true));
     }
   }
   template <class Body>
@@ -183,6 +185,14 @@ class Reader {
   }
 
  private:
+  /// Where there is something, it must have members.
+  void require_object(const json::json_pointer& at) const {
+    if (!at.empty()) require_object(at.parent_pointer());
+    if (!json_.contains(at) || json_[at].is_object()) return;
+    std::string name = path_ + at.to_string();
+    std::ranges::replace(name, '/', '.');
+    throw UsageError(name + ": expected an object");
+  }
   [[nodiscard]] const json* find(const char* name) const {
     const auto at = json_.find(name);
     return at == json_.end() ? nullptr : &*at;
@@ -207,23 +217,11 @@ std::vector<std::pair<std::string_view, std::string>> sortable_columns() {
 constexpr std::array<std::pair<std::string_view, Picked::Kind>, 3> kPicks{
     {{"none", Picked::Kind::None}, {"vertex", Picked::Kind::Vertex}, {"element", Picked::Kind::Element}}};
 
-/// Those that need nothing but the run; what another one showed is not saved.
-constexpr std::array<std::pair<std::string_view, Reference>, 2> kLastingReferences{{{"off", Reference::None}, {"input", Reference::Input}}};
-
 // State is const where it is written.
-
-template <class Archive, class Panels>
-void describe_panels(Archive& archive, Panels& panels) {
-  archive.number("left_width", panels.left_width, 6.0, 60.0);
-  archive.number("right_width", panels.right_width, 6.0, 60.0);
-  archive.number("bottom_height", panels.bottom_height, 6.0, 60.0);
-  archive.number("runs_height", panels.runs_height, 4.0, 60.0);
-}
 
 template <class Archive, class State>
 void describe_plots(Archive& archive, State& state) {
   archive.choice("runs_sorted_by", state.plot_options.sorted_by, sortable_columns());
-  archive.flag("runs_descending", state.plot_options.descending);
   for (const auto& [name, tab] : kPlotTabs) {
     auto& view = state.plots[static_cast<std::size_t>(tab)];
     archive.object(std::string(name).c_str(), [&view](auto& plot) {
@@ -249,7 +247,6 @@ void describe_inside(Archive& archive, View& view) {
     clip.vector("normal", view.clip.normal);
     clip.number("offset", view.clip.offset, -kFar, kFar);
   });
-  archive.count("peel", view.peel, kNoIndex - 1);
   std::optional<std::pair<double, double>> keep;
   if (view.isolate) keep = *view.isolate;
   bool by_quality = view.peel_quality.has_value();
@@ -257,8 +254,6 @@ void describe_inside(Archive& archive, View& view) {
   archive.flag("peel_by_quality", by_quality);
   archive.number("peel_quality", quality, -kFar, kFar);
   archive.range("keep_quality", keep);
-  archive.count("worst", view.worst, kNoIndex);
-  archive.number("shrink", view.shrink, 1e-6, 1.0);
   if constexpr (!std::is_const_v<View>) {
     view.peel_quality = by_quality ? std::optional(static_cast<float>(quality)) : std::nullopt;
     view.isolate.reset();
@@ -277,8 +272,6 @@ void describe_volume(Archive& archive, State& state) {
 
 template <class Archive, class Panes>
 void describe_panes(Archive& archive, Panes& panes) {
-  archive.flag("linked", panes.linked);
-  archive.number("split", panes.split, 0.0, 1.0);
   archive.count("active", panes.focus, Panes::kMost - 1);
   archive.runs("hidden", panes.hidden_runs, panes);
   for (std::size_t k = 0; k < Panes::kMost; ++k) {
@@ -293,43 +286,19 @@ void describe_panes(Archive& archive, Panes& panes) {
 
 template <class Archive, class State>
 void describe_colouring(Archive& archive, State& state) {
-  auto& colouring = state.colouring;
-  archive.content("reference", colouring.reference, state.panes);
-  archive.number("range_low", state.range_low, -kFar, kFar);
-  archive.number("range_high", state.range_high, -kFar, kFar);
-  archive.number("range_low_percent", state.range_low_percent, 0.0, 100.0);
-  archive.number("range_high_percent", state.range_high_percent, 0.0, 100.0);
-  archive.count("steps", colouring.steps, 64);
-  archive.range("filter", colouring.filter);
-  archive.count("worst", colouring.worst, 100);
-  archive.flag("label_vertices", colouring.label_vertices);
-  archive.flag("label_elements", colouring.label_elements);
+  archive.content("reference", state.colouring.reference, state.panes);
+  archive.range("filter", state.colouring.filter);
 }
 
-template <class Archive, class State>
-void describe_stepping(Archive& archive, State& state) {
-  archive.choice("arrows", state.stepping.arrows, kLastingReferences);
-  archive.number("arrow_scale", state.stepping.arrow_scale, 0.0, kFar);
-  archive.choice("ghost", state.stepping.ghost, kLastingReferences);
-}
-
-/// The one description of the view.
+/// The one description of what of the view is no option.
 template <class Archive, class State>
 void describe(Archive& archive, State& state) {
   archive.object("camera", [&state](auto& camera) { describe_camera(camera, state.camera); });
   archive.object("volume", [&state](auto& volume) { describe_volume(volume, state); });
   archive.object("viewports", [&state](auto& viewports) { describe_panes(viewports, state.panes); });
   archive.object("colours", [&state](auto& colours) { describe_colouring(colours, state); });
-  archive.object("stepping", [&state](auto& stepping) { describe_stepping(stepping, state); });
   archive.ids("selection", state.selection);
-  archive.object("panels", [&state](auto& panels) { describe_panels(panels, state.panels); });
   archive.object("plots", [&state](auto& plots) { describe_plots(plots, state); });
-  archive.object("inspection", [&state](auto& inspection) {
-    inspection.count("level", state.inspection.level, 16);
-    inspection.flag("all_levels", state.inspection.all_levels);
-    inspection.count("slice_axis", state.inspection.slice_axis, 2);
-  });
-  archive.number("speed", state.timeline.play.speed, Playback::kSlowest, Playback::kFastest);
   archive.options(state);
   archive.object("picked", [&state](auto& picked) {
     picked.choice("kind", state.picked.kind, kPicks);

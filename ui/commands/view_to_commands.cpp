@@ -1,12 +1,11 @@
 #include "ui/commands/view_to_commands.h"
 
-#include <initializer_list>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "ui/commands/clipping_text.h"
-#include "ui/commands/view_options.h"
+#include "ui/state/view_options.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -21,32 +20,19 @@ std::string range_line(const ViewState& state) {
 }  // namespace
 
 std::vector<std::string> view_lines(const ViewState& state, bool with_camera) {
-  const Panels& panels = state.panels;
   std::vector<std::string> lines;
-  const auto say = [&](std::initializer_list<std::string_view> options) {
-    for (const std::string_view option : options) lines.push_back(option_line(state, option));
-  };
   if (state.window_size.first > 0) lines.push_back(fmt::format("size {} {}", state.window_size.first, state.window_size.second));
   lines.push_back(fmt::format("scale {}", state.scale));
-  say({"theme", "panel setup", "panel facts", "dock setup", "dock facts", "settings", "unfold-holds", "unfold-notice", "tab"});
-  if (!panels.plots_wait) say({"panel bottom"});
-  lines.push_back(fmt::format("panel-size left {}", panels.left_width));
-  lines.push_back(fmt::format("panel-size right {}", panels.right_width));
-  lines.push_back(fmt::format("panel-size bottom {}", panels.bottom_height));
-  lines.push_back(fmt::format("panel-size runs {}", panels.runs_height));
-  say({"unfold left", "unfold right", "colormap"});
-  // Of whoever runs the script the settings may say otherwise, and what they had before is to be had again.
+  // Also what is usual: the settings of whoever runs the script may say otherwise.
+  for (const ViewOption& option : view_options())
+    if (option.kept.in_scripts && (option.entry.needs != Needs::Volume || state.in_space))
+      lines.push_back(option_line(state, option.command));
+  if (!state.panels.plots_wait) lines.push_back(option_line(state, "panel bottom"));
   lines.push_back(range_line(state));
-  say({"shading", "occlusion", "reverse-colors"});
-  lines.push_back(fmt::format("color-steps {}", state.colouring.steps));
-  say({"wireframe"});
   const PlotView& plot = state.plots[static_cast<std::size_t>(state.plot)];
   for (const auto& [axis, range] : {std::pair{"x", plot.x_range}, {"y", plot.y_range}})
     lines.push_back(range ? fmt::format("plot-zoom {} {} {}", axis, range->first, range->second) : fmt::format("plot-zoom {} all", axis));
   const Panes& panes = state.panes;
-  say({"viewports"});
-  lines.push_back(fmt::format("link-cameras {}", panes.linked ? "on" : "off"));
-  lines.push_back(fmt::format("split {}", panes.split));
   for (std::size_t k = 0; k < panes.count() && !panes.one(); ++k) {
     const Pane& pane = panes.panes[k];
     lines.push_back(fmt::format("pane {} {}", k + 1, pane.chosen ? panes.words(pane.content) : "auto"));

@@ -37,7 +37,7 @@ void draw_tabs(PanelContext& context, FactsTab shown) {
     const ImVec2 text = ImGui::CalcTextSize(one.title);
     const float width = std::floor(text.x + around);
     ImGui::SetCursorScreenPos({x, corner.y});
-    if (ImGui::InvisibleButton(one.item, {width, height})) context.send(fmt::format("tab {}", kFactsTabs[k].first));
+    if (ImGui::InvisibleButton(one.item, {width, height})) context.send(fmt::format("tab {}", one.item + sizeof("tab")));
     note_item(context, one.item, one.tooltip);
     const bool on = one.tab == shown;
     const render::Rgb ink = on || ImGui::IsItemHovered() ? context.palette.text : context.palette.dim;

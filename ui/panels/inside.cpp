@@ -59,7 +59,7 @@ void draw_clip(PanelContext& context, const render::Bounds3& box) {
   ClipPlane& clip = context.state.inside.clip;
   const auto across = axis_plane(clip, box);
   labelled(context, "clip plane", "takes away what lies on one side of a plane; its handle in the view can be dragged   J");
-  option_box(context, "##clip", "inside:clip", "clip", clip.on);
+  option_box(context, "##clip", "clip", "inside:clip");
   for (int axis = 0; axis < 3; ++axis) {
     ImGui::SameLine(0, context.px(5));
     const std::string name = axis_name(axis, false);
@@ -175,8 +175,7 @@ void draw_worst_cells(PanelContext& context) {
 
 void draw_looks(PanelContext& context) {
   ClippingView& view = context.state.inside;
-  labelled(context, "faint rest", "the boundary of what was taken away is seen faintly   Alt+Q");
-  option_box(context, "##ghost-rest", "inside:ghost", "ghost-rest", view.ghost);
+  option_row(context, "ghost-rest", "inside:ghost");
   labelled(context, "shrink", "every cell is drawn that large about its middle, so that one sees between them   E");
   double shrink = view.shrink;
   const bool moved = slider("shrink", shrink, 0.1, 1.0, "%.2f");
@@ -203,11 +202,9 @@ void draw_from(PanelContext& context) {
     note_item(context, "from:" + name, "all of the mesh from there");
   }
   ImGui::PopStyleVar();
-  option_box(context, "perspective", "inside:perspective", "perspective", context.state.orbit.perspective,
-             "what is farther away looks smaller   Alt+E");
+  option_box(context, "perspective", "perspective", "inside:perspective");
   ImGui::SameLine(0, context.px(12));
-  option_box(context, "roll freely", "inside:trackball", "trackball", context.state.trackball,
-             "a drag rolls the mesh as a ball instead of turning it about the upright axis");
+  option_box(context, "roll freely", "trackball", "inside:trackball");
 }
 
 }  // namespace

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "core/mesh/generate.h"
-#include "ui/commands/view_options.h"
 #include "ui/panels/panels.h"
+#include "ui/state/view_options.h"
 
 namespace dmoscope::ui {
 namespace {

@@ -10,6 +10,7 @@
 #include "ui/panels/save_rows.h"
 #include "ui/plots/plot_series.h"
 #include "ui/plots/plot_widget.h"
+#include "ui/state/view_options.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -19,30 +20,6 @@ struct Choice {
   bool chosen;
 };
 
-/// A combo box of commands, as wide as its widest label.
-void choice_box(PanelContext& context, const char* item, const std::vector<Choice>& choices) {
-  float width = 0;
-  std::string now;
-  for (const Choice& choice : choices) {
-    width = std::max(width, ImGui::CalcTextSize(choice.label.c_str()).x);
-    if (choice.chosen) now = choice.label;
-  }
-  ImGui::SetNextItemWidth(width + 2 * ImGui::GetStyle().FramePadding.x + ImGui::GetFrameHeight());
-  const bool open = ImGui::BeginCombo(fmt::format("##{}", item).c_str(), now.c_str());
-  context.items.record_last(item);
-  if (!open) {
-    for (const Choice& choice : choices) {
-      if (choice.chosen) next_item_tooltip(choice.tip);
-    }
-    return;
-  }
-  for (const Choice& choice : choices) {
-    if (ImGui::Selectable(choice.label.c_str(), choice.chosen)) context.send(choice.command);
-    note_item(context, fmt::format("{}:{}", item, choice.label), choice.tip);
-  }
-  ImGui::EndCombo();
-}
-
 float box_width(const std::vector<Choice>& choices) {
   float width = 0;
   for (const Choice& choice : choices) width = std::max(width, ImGui::CalcTextSize(choice.label.c_str()).x);
@@ -51,50 +28,41 @@ float box_width(const std::vector<Choice>& choices) {
 
 float button_width(const char* label) { return ImGui::CalcTextSize(label).x + 2 * ImGui::GetStyle().FramePadding.x; }
 
-std::vector<Choice> axis_choices(const ViewState& state) {
-  static constexpr std::array<const char*, 3> kTips{"values evenly along the axis", "logarithmic; values of 0 and below are gaps",
-                                                    "by the logarithm of 1 - q, the distance to the ideal element: for qualities near 1"};
-  static constexpr std::array<const char*, 3> kLabels{"linear", "log", "log 1 − q"};
+/// A combo box of commands, as wide as its widest label; its entries are the items "ITEM:LABEL".
+void choice_box(PanelContext& context, const char* item, const std::vector<Choice>& choices) {
+  ImGui::SetNextItemWidth(box_width(choices));
+  const auto now = std::ranges::find(choices, true, &Choice::chosen);
+  const bool open = ImGui::BeginCombo(fmt::format("##{}", item).c_str(), now == choices.end() ? "" : now->label.c_str());
+  context.items.record_last(item);
+  if (!open && now != choices.end()) next_item_tooltip(now->tip);
+  if (!open) return;
+  for (const Choice& choice : choices) {
+    if (ImGui::Selectable(choice.label.c_str(), choice.chosen)) context.send(choice.command);
+    note_item(context, fmt::format("{}:{}", item, choice.label), choice.tip);
+  }
+  ImGui::EndCombo();
+}
+
+std::vector<Choice> option_choices(const ViewState& state, std::string_view command) {
+  const ViewOption& option = view_option(command);
   std::vector<Choice> choices;
-  const ValueAxis now = state.plots[static_cast<std::size_t>(state.plot)].axis;
-  for (std::size_t k = 0; k < kValueAxes.size(); ++k) {
-    const auto& [name, axis] = kValueAxes[k];
-    if (offers(state.plot, axis)) choices.push_back({kLabels[k], fmt::format("axis {}", name), kTips[k], axis == now});
+  for (std::size_t k = 0; k < option.at.choices.size(); ++k) {
+    if (!option.at.is_offered(state, static_cast<double>(k))) continue;
+    const OptionChoice& one = option.at.choices[k];
+    choices.push_back({std::string(one.title), fmt::format("{} {}", command, one.word), std::string(one.doc),
+                       option.now(state) == static_cast<double>(k)});
   }
   return choices;
 }
 
 std::vector<Choice> along_choices(const ViewState& state) {
-  const PlotOptions& options = state.plot_options;
-  if (over_iterations(state.plot)) {
-    return {{"by iteration", "plot-x iteration", "iterations along the plot", !options.by_seconds},
-            {"by seconds", "plot-x seconds", "the seconds that smoothing took along the plot: methods compared by their cost",
-             options.by_seconds}};
-  }
-  std::vector<Choice> choices;
-  if (state.plot == PlotTab::Histogram) {
-    for (const int bins : {16, 32, 64})
-      choices.push_back({fmt::format("{} bars", bins), fmt::format("plot-bins {}", bins), "bars from 0 to 1", bins == options.bins});
-  }
-  return choices;
+  if (over_iterations(state.plot)) return option_choices(state, "plot-x");
+  return state.plot == PlotTab::Histogram ? option_choices(state, "plot-bins") : std::vector<Choice>();
 }
 
 std::vector<Choice> x_choices(const ViewState& state) {
-  const PlotOptions& options = state.plot_options;
-  if (state.plot == PlotTab::Histogram) {
-    return {{"its data", "histogram-range data", "from the first bar to the last; what lies outside is said above",
-             options.histogram_range == HistogramRange::Data},
-            {"0 to 1", "histogram-range whole", "all qualities there can be", options.histogram_range == HistogramRange::Whole}};
-  }
-  if (!over_iterations(state.plot)) return {};
-  static constexpr std::array<const char*, 3> kTips{"0, 1, 2, 5, 10, …: the first iterations, in which most happens, have the room",
-                                                    "evenly, up to the last iteration in which a run still changed visibly",
-                                                    "all iterations, evenly"};
-  static constexpr std::array<const char*, 3> kLabels{"x: log", "x: last change", "x: linear"};
-  std::vector<Choice> choices;
-  for (std::size_t k = 0; k < kXAxes.size(); ++k)
-    choices.push_back({kLabels[k], fmt::format("x-axis {}", kXAxes[k].first), kTips[k], kXAxes[k].second == options.x_axis});
-  return choices;
+  if (state.plot == PlotTab::Histogram) return option_choices(state, "histogram-range");
+  return over_iterations(state.plot) ? option_choices(state, "x-axis") : std::vector<Choice>();
 }
 
 void draw_choices(PanelContext& context, const char* item, const std::vector<Choice>& choices) {
@@ -109,7 +77,7 @@ void draw_choices(PanelContext& context, const char* item, const std::vector<Cho
 void draw_plot_menu(PanelContext& context, const char* item) {
   draw_choices(context, item, x_choices(context.state));
   draw_choices(context, item, along_choices(context.state));
-  if (const auto axes = axis_choices(context.state); axes.size() > 1) draw_choices(context, item, axes);
+  if (const auto axes = option_choices(context.state, "axis"); axes.size() > 1) draw_choices(context, item, axes);
   for (const char* id : {"plot-all", "plot-copy", "plot-save"}) {
     const Action& action = *find_action(id);
     if (ImGui::MenuItem(std::string(action.title).c_str(), std::string(action.key).c_str(), false, enabled(action, context.situation())))
@@ -129,21 +97,19 @@ void draw_more_menu(PanelContext& context) {
 }  // namespace
 
 void draw_plot_tabs(PanelContext& context) {
-  static constexpr std::array<const char*, kPlotTabs.size()> kTitles{"Convergence", "Histogram", "Sorted", "Moved",
-                                                                     "Time",        "Runs",      "Compare"};
+  const ViewOption& plot = view_option("plot");
   // Narrow ones leave room for the button that has the choices.
-  const float gap = context.px(4), number = static_cast<float>(kTitles.size());
+  const float gap = context.px(4), number = static_cast<float>(plot.at.choices.size());
   float words = button_width("…") + gap * number + context.px(8);
-  for (const char* title : kTitles) words += ImGui::CalcTextSize(title).x;
+  for (const OptionChoice& tab : plot.at.choices) words += ImGui::CalcTextSize(std::string(tab.title).c_str()).x;
   const ImVec2 usual = ImGui::GetStyle().FramePadding;
   const float pad = std::clamp((ImGui::GetContentRegionAvail().x - words) / (2 * number), context.px(2), usual.x);
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {std::floor(pad), usual.y});
-  for (std::size_t k = 0; k < kPlotTabs.size(); ++k) {
-    const auto& [name, tab] = kPlotTabs[k];
-    if (k > 0) ImGui::SameLine(0, gap);
-    const bool active = context.state.plot == tab;
+  for (const OptionChoice& tab : plot.at.choices) {
+    if (&tab != plot.at.choices.data()) ImGui::SameLine(0, gap);
+    const bool active = plot.word(plot.now(context.state)) == tab.word;
     ImGui::PushStyleColor(ImGuiCol_Button, active ? colour_vector(context.palette.accent, 0.25F) : ImVec4{0, 0, 0, 0});
-    action_button(context, fmt::format("plot-{}", name), kTitles[k]);
+    action_button(context, fmt::format("plot-{}", tab.word), std::string(tab.title).c_str());
     ImGui::PopStyleColor();
   }
   ImGui::PopStyleVar();
@@ -154,8 +120,9 @@ void draw_plot_controls(PanelContext& context, const Rect& rect) {
     const char* item;
     std::vector<Choice> choices;
   };
-  std::vector<Box> boxes{
-      {"plot-x", x_choices(context.state)}, {"plot-axis", axis_choices(context.state)}, {"plot-along", along_choices(context.state)}};
+  std::vector<Box> boxes{{"plot-x", x_choices(context.state)},
+                         {"plot-axis", option_choices(context.state, "axis")},
+                         {"plot-along", along_choices(context.state)}};
   std::erase_if(boxes, [](const Box& box) { return box.choices.size() < 2; });  // no choice
   const float gap = context.px(8), buttons = button_width("Copy data") + gap + button_width("Save…");
   ImGui::SameLine();

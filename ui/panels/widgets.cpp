@@ -7,6 +7,7 @@
 #include "ui/panels/panels.h"
 #include "ui/state/format.h"
 #include "ui/state/situation.h"
+#include "ui/state/view_options.h"
 
 namespace dmoscope::ui {
 
@@ -89,9 +90,47 @@ void pair_field(PanelContext& context, const char* item, double first, double se
   if (ImGui::IsItemDeactivatedAfterEdit()) context.send(fmt::format("{} {} {}", command, full_number(values[0]), full_number(values[1])));
 }
 
-void option_box(PanelContext& context, const char* label, const char* item, const char* command, bool now, const std::string& tooltip) {
-  if (ImGui::Checkbox(label, &now)) context.send(fmt::format("{} {}", command, now ? "on" : "off"));
-  note_item(context, item, tooltip);
+namespace {
+/// What it does, and its key.
+std::string option_tip(const ViewOption& option) {
+  return std::string(option.doc) + (option.doc.empty() || option.entry.key.empty() ? "" : fmt::format("   {}", option.entry.key));
+}
+
+/// A field for a whole number. Its buttons go over what lies between none and the least.
+void whole_number(PanelContext& context, const ViewOption& option) {
+  const auto [least, most, rest] = std::array{option.at.number.least, option.at.number.most, option.at.number.rest};
+  const int now = static_cast<int>(option.now(context.state));
+  int edited = now;
+  ImGui::InputInt(fmt::format("##{}", option.command).c_str(), &edited, 1, 10, ImGuiInputTextFlags_EnterReturnsTrue);
+  context.items.record_last(option.command);
+  if (edited == now || !(ImGui::IsItemDeactivatedAfterEdit() || !ImGui::IsItemActive())) return;
+  const bool none = edited < least && rest < least && (edited < now || edited <= rest);
+  context.send(fmt::format("{} {}", option.command, option.word(none ? rest : std::clamp<double>(edited, least, most))));
+}
+}  // namespace
+
+void option_box(PanelContext& context, const char* label, std::string_view command, std::string_view item) {
+  const ViewOption& option = view_option(command);
+  bool now = option.now(context.state) != 0.0;
+  if (ImGui::Checkbox(label, &now)) context.send(fmt::format("{} {}", command, option.word(now ? 1.0 : 0.0)));
+  note_item(context, item.empty() ? command : item, option_tip(option));
+}
+
+void option_row(PanelContext& context, std::string_view command, std::string_view item) {
+  const ViewOption& option = view_option(command);
+  labelled(context, std::string(option.box.label).c_str(), option_tip(option).c_str());
+  if (option.kind() == ViewOption::Kind::Flag) return option_box(context, fmt::format("##{}", command).c_str(), command, item);
+  if (option.kind() == ViewOption::Kind::Number) return whole_number(context, option);
+  const OptionChoice* now = &option.at.choices[static_cast<std::size_t>(option.now(context.state))];
+  Combo combo(context, std::string(item.empty() ? command : item), std::string(now->title));
+  for (const OptionChoice& choice : option.at.choices)
+    if (combo.open() && combo.entry(choice.word, choice.title, &choice == now, std::string(choice.doc)))
+      context.send(fmt::format("{} {}", command, choice.word));
+}
+
+void option_rows(PanelContext& context, std::string_view panel) {
+  for (const ViewOption& option : view_options())
+    if (option.box.panel == panel) option_row(context, option.command);
 }
 
 void close_button(PanelContext& context, const char* label) {

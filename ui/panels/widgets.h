@@ -54,8 +54,12 @@ class Combo {
 };
 /// Two numbers that are sent as "COMMAND FIRST SECOND" once they were edited.
 void pair_field(PanelContext& context, const char* item, double first, double second, const char* command);
-/// A box that switches an option of the view, see view_options().
-void option_box(PanelContext& context, const char* label, const char* item, const char* command, bool now, const std::string& tooltip = {});
+/// A box that switches an option of the view, see view_options(). `item`: its name; empty: the command.
+void option_box(PanelContext& context, const char* label, std::string_view command, std::string_view item = {});
+/// A row with the option's label and its box, a list of its words, or a field for its number, a whole one.
+void option_row(PanelContext& context, std::string_view command, std::string_view item = {});
+/// Such rows of all options that are in this part of a panel.
+void option_rows(PanelContext& context, std::string_view panel);
 /// Closes the open dialog.
 void close_button(PanelContext& context, const char* label);
 /// Text on a plate in the panel's colour is readable on any mesh.

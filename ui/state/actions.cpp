@@ -2,12 +2,18 @@
 
 #include <algorithm>
 #include <array>
+#include <deque>
 
+#include <fmt/format.h>
+
+#include "core/mesh/generate.h"
 #include "ui/state/format.h"
+#include "ui/state/view_options.h"
 
 namespace dmoscope::ui {
 namespace {
 
+// Those of samples and of options are rows of their tables: generator_table(), view_options().
 constexpr std::array kActions{
     Action{"open", "File", "Open…", "Ctrl+O", "dialog open"},
     Action{"open-beside", "File", "Open beside…", "Ctrl+Shift+O", "dialog open-beside", Needs::Mesh},
@@ -18,29 +24,6 @@ constexpr std::array kActions{
     Action{"save-session", "File", "Save the session…", "", "dialog save-session", Needs::Mesh},
     Action{"sequence", "File", "Pictures of a run…", "", "dialog sequence", Needs::MeshAndIdle},
     Action{"reload", "File", "Read the file again", "F5", "reload", Needs::MeshAndIdle, true},
-    Action{"watch", "File", "Watch the file", "", "watch toggle"},
-    Action{"sample-coast", "File", "Sample: coast", "", "generate coast", Needs::Nothing, true},
-    Action{"sample-block", "File", "Sample: block", "", "generate block"},
-    Action{"sample-annulus", "File", "Sample: annulus", "", "generate annulus"},
-    Action{"sample-random", "File", "Sample: random", "", "generate random"},
-    Action{"sample-quads", "File", "Sample: quads", "", "generate quads"},
-    Action{"sample-mixed", "File", "Sample: mixed", "", "generate mixed"},
-    Action{"sample-tangled", "File", "Sample: tangled", "", "generate tangled"},
-    Action{"sample-grid", "File", "Sample: grid", "", "generate grid"},
-    Action{"sample-wrapped", "File", "Sample: wrapped", "", "generate wrapped"},
-    Action{"sample-globe", "File", "Sample: globe", "", "generate globe"},
-    Action{"sample-tetrahedra", "File", "Sample: tetrahedra", "", "generate tetrahedra", Needs::Nothing, true},
-    Action{"sample-hexahedra", "File", "Sample: hexahedra", "", "generate hexahedra"},
-    Action{"sample-solids", "File", "Sample: solids", "", "generate solids"},
-    Action{"sample-tangled-solids", "File", "Sample: tangled-solids", "", "generate tangled-solids"},
-    Action{"sample-screw", "File", "Sample: screw", "", "generate screw"},
-    Action{"sample-elbow", "File", "Sample: elbow", "", "generate elbow"},
-    Action{"sample-can", "File", "Sample: can", "", "generate can"},
-    Action{"sample-nested", "File", "Sample: nested", "", "generate nested"},
-    Action{"sample-nested-solids", "File", "Sample: nested-solids", "", "generate nested-solids"},
-    Action{"sample-anisotropic", "File", "Sample: anisotropic", "", "generate anisotropic"},
-    Action{"sample-biased", "File", "Sample: biased", "", "generate biased"},
-    Action{"native-dialogs", "File", "The desktop's file dialogs", "", "native-dialogs toggle", Needs::Nothing, true},
     Action{"quit", "File", "Quit", "Ctrl+Q", "quit", Needs::Nothing, true},
 
     Action{"undo", "Edit", "Undo", "Ctrl+Z", "undo", Needs::Undo},
@@ -92,48 +75,24 @@ constexpr std::array kActions{
     Action{"each-converged", "Compare", "Every run: until converged", "Ctrl+U", "each until-converged best", Needs::MeshAndIdle},
     Action{"each-back", "Compare", "Every run: back one iteration", "Ctrl+B", "each back", Needs::MeshAndIdle},
     Action{"each-reset", "Compare", "Every run: reset to the input", "Ctrl+R", "each reset", Needs::MeshAndIdle},
-    Action{"viewports-1", "Compare", "One viewport", "1", "viewports 1", Needs::Nothing, true},
-    Action{"viewports-2", "Compare", "Two viewports", "2", "viewports 2"},
-    Action{"viewports-split", "Compare", "Split view", "3", "viewports split"},
-    Action{"viewports-4", "Compare", "Four viewports", "4", "viewports 4"},
-    Action{"link-cameras", "Compare", "One camera for all viewports", "", "link-cameras toggle", Needs::Planar},
 
-    Action{"next-class", "Stepping", "Show vertices that move next", "H", "next-class toggle", Needs::Mesh},
-    Action{"arrows-previous", "Stepping", "Arrows of the last step", "A", "arrows previous toggle", Needs::Mesh},
-    Action{"arrows-input", "Stepping", "Arrows from the input", "Alt+A", "arrows input toggle", Needs::Mesh},
     Action{"arrows-longer", "Stepping", "Longer arrows", "Ctrl+A", "arrow-scale up", Needs::Mesh},
     Action{"arrows-shorter", "Stepping", "Shorter arrows", "Ctrl+Shift+A", "arrow-scale down", Needs::Mesh},
     Action{"arrows-auto", "Stepping", "Automatic arrow length", "", "arrow-scale auto", Needs::Mesh},
-    Action{"flash", "Stepping", "Flash what a step moves", "", "flash toggle"},
-    Action{"ghost-previous", "Stepping", "Ghost of the mesh before the last step", "O", "ghost previous toggle", Needs::Mesh},
-    Action{"ghost-input", "Stepping", "Ghost of the input", "Shift+O", "ghost input toggle", Needs::Mesh},
-    Action{"brush", "Stepping", "Brush: drag to select vertices", "S", "brush toggle", Needs::Planar, true},
     Action{"brush-wider", "Stepping", "Wider brush", "Shift+S", "brush-radius up", Needs::Planar},
     Action{"brush-narrower", "Stepping", "Narrower brush", "Alt+S", "brush-radius down", Needs::Planar},
     Action{"smooth-selected", "Stepping", "Smooth the selected vertices", "Ctrl+Space", "smooth-selected", Needs::Selected, true},
     Action{"fix-selected", "Stepping", "Fix the selected vertices", "Ctrl+Shift+F", "fix-selected", Needs::Selected},
     Action{"select-none", "Stepping", "Select no vertices", "Ctrl+D", "select none", Needs::Selected},
-    Action{"click-smooths", "Stepping", "Smooth the vertex that is clicked", "T", "click-smooths toggle", Needs::Mesh, true},
 
     Action{"fit", "View", "Fit", "F", "fit", Needs::Mesh},
     Action{"zoom-in", "View", "Zoom in", "+", "zoom 1.25", Needs::Mesh},
     Action{"zoom-out", "View", "Zoom out", "-", "zoom 0.8", Needs::Mesh},
     Action{"next-metric", "View", "Show the next metric", "M", "next-metric", Needs::Mesh, true},
-    Action{"wireframe", "View", "Wireframe", "W", "wireframe toggle"},
-    Action{"vertices", "View", "Vertices", "D", "vertices toggle", Needs::Planar},
-    Action{"pointer-value", "View", "Value under the resting pointer", "", "pointer-value toggle"},
-    Action{"worst-marker", "View", "Mark the worst element", "K", "worst toggle"},
-    Action{"features", "View", "Feature edges and corners, where vertices slide", "Alt+K", "features toggle"},
-    Action{"holders", "View", "What holds the minimum: elements that hold one another", "Alt+O", "holders toggle", Needs::Mesh},
-    Action{"inside-clip", "View", "Clip plane", "J", "clip toggle", Needs::Volume},
     Action{"inside-axis", "View", "Clip plane across the next axis", "Ctrl+J", "clip next", Needs::Volume},
     Action{"inside-flip", "View", "Clip plane: the other side", "Shift+J", "clip flip", Needs::Volume},
-    Action{"inside-cut", "View", "Cut cells through, or whole ones", "Alt+J", "clip-mode toggle", Needs::Volume},
     Action{"inside-peel", "View", "Peel one more layer off", "Y", "peel more", Needs::Volume, true},
     Action{"inside-unpeel", "View", "Put one layer back", "Shift+Y", "peel less", Needs::Volume},
-    Action{"inside-shrink", "View", "Shrunk cells", "E", "shrink toggle", Needs::Volume},
-    Action{"inside-worst", "View", "Only the worst cells, in a faint rest", "Q", "worst-cells toggle", Needs::Volume},
-    Action{"inside-ghost", "View", "What was taken away stays faintly", "Alt+Q", "ghost-rest toggle", Needs::Volume},
     Action{"inside-all", "View", "Show all cells", "Z", "show-all", Needs::Volume, true},
     Action{"from-iso", "View", "Look at a corner", "Alt+I", "view-from iso", Needs::Volume},
     Action{"from-x", "View", "Look from +x", "Alt+X", "view-from +x", Needs::Volume, true},
@@ -142,36 +101,12 @@ constexpr std::array kActions{
     Action{"from-minus-y", "View", "Look from -y", "Shift+Alt+Y", "view-from -y", Needs::Volume},
     Action{"from-z", "View", "Look from +z", "Alt+Z", "view-from +z", Needs::Volume},
     Action{"from-minus-z", "View", "Look from -z", "Shift+Alt+Z", "view-from -z", Needs::Volume},
-    Action{"from-perspective", "View", "Perspective", "Alt+E", "perspective toggle", Needs::Volume, true},
-    Action{"from-trackball", "View", "A drag rolls it as a ball", "", "trackball toggle", Needs::Volume},
-    Action{"panel-left", "View", "Setup: runs, method, metric", "F2", "panel setup toggle", Needs::Nothing, true},
-    Action{"panel-right", "View", "Facts: mesh, selection, worst", "F3", "panel facts toggle"},
-    Action{"panel-bottom", "View", "Bottom panel: plots", "F4", "panel bottom toggle"},
-    Action{"full-screen", "View", "Full screen", "F11", "full-screen toggle"},
-    Action{"theme-dark", "View", "Theme: dark", "", "theme dark", Needs::Nothing, true},
-    Action{"theme-light", "View", "Theme: light", "", "theme light"},
-    Action{"theme-contrast", "View", "Theme: high contrast", "", "theme contrast"},
     Action{"scale-up", "View", "Larger interface", "Ctrl+=", "scale up"},
     Action{"scale-down", "View", "Smaller interface", "Ctrl+-", "scale down"},
     Action{"scale-one", "View", "Interface at its usual size", "Ctrl+0", "scale 1"},
-    Action{"unfold-left", "View", "Narrow window: show the runs panel", "", "unfold left toggle"},
-    Action{"unfold-right", "View", "Narrow window: show the inspector", "", "unfold right toggle"},
     Action{"notice-off", "View", "Hide the note about the run's end", "", "notice off"},
     Action{"log", "View", "Log of commands and messages…", "F6", "dialog log", Needs::Nothing, true},
 
-    Action{"plot-convergence", "Plot", "Convergence", "Alt+1", "plot convergence"},
-    Action{"plot-histogram", "Plot", "Histogram", "Alt+2", "plot histogram"},
-    Action{"plot-sorted", "Plot", "Sorted quality", "Alt+3", "plot sorted"},
-    Action{"plot-moved", "Plot", "Moved vertices", "Alt+4", "plot moved"},
-    Action{"plot-time", "Plot", "Time", "Alt+5", "plot time"},
-    Action{"plot-runs", "Plot", "Table of runs", "Alt+6", "plot runs"},
-    Action{"plot-compare", "Plot", "Comparison of runs", "Alt+7", "plot compare"},
-    Action{"log-scale", "Plot", "Next value axis", "Alt+L", "axis next", Needs::Nothing, true},
-    Action{"plot-seconds", "Plot", "Seconds instead of iterations", "Alt+T", "plot-x toggle"},
-    Action{"x-axis-log", "Plot", "Iterations by their logarithm", "", "x-axis log"},
-    Action{"x-axis-changes", "Plot", "Iterations up to the last change", "", "x-axis changes"},
-    Action{"x-axis-linear", "Plot", "Iterations evenly", "", "x-axis linear"},
-    Action{"histogram-whole", "Plot", "Histogram from 0 to 1", "", "histogram-range toggle"},
     Action{"plot-all", "Plot", "The plot as at first", "Alt+0", "plot-zoom all"},
     Action{"plot-save", "Plot", "Save the plot…", "Alt+P", "dialog plot", Needs::Mesh, true},
     Action{"plot-copy", "Plot", "Copy the plot's data", "Alt+C", "plot-copy", Needs::Mesh},
@@ -191,47 +126,11 @@ constexpr std::array kActions{
     Action{"level-all", "Inspect", "All levels at once", "Ctrl+L", "level all", Needs::MeshAndIdle},
     Action{"play-levels", "Inspect", "Play the levels", "Ctrl+Shift+L", "play-levels", Needs::MeshAndIdle},
     Action{"apply-move", "Inspect", "Apply the move", "", "apply-move", Needs::MeshAndIdle},
-    Action{"field", "Inspect", "Quality around the vertex", "Shift+Q", "field toggle", Needs::Nothing, true},
-    Action{"field-in-view", "Inspect", "Quality around the vertex over the mesh", "Shift+F", "field-in-view toggle"},
-    Action{"inspect-zoom", "Inspect", "Close-up of small levels", "", "inspect-zoom toggle"},
-    Action{"level-range-view", "Inspect", "Heat maps in the view's colours", "", "level-range view"},
-    Action{"level-range-level", "Inspect", "Heat maps over each level's range", "", "level-range level"},
     Action{"copy-level", "Inspect", "Copy the shown level as CSV", "", "copy-level", Needs::MeshAndIdle, true},
 
-    Action{"color-by-quality", "Colours", "Quality", "", "color-by quality"},
-    Action{"color-by-kind", "Colours", "Kind of element", "", "color-by kind"},
-    Action{"color-by-group", "Colours", "Groups and markers", "", "color-by group", Needs::Mesh},
-    Action{"color-by-valence", "Colours", "Valence", "", "color-by valence"},
-    Action{"color-by-class", "Colours", "Colour classes", "", "color-by class"},
-    Action{"color-by-displacement", "Colours", "Displacement", "", "color-by displacement"},
-    Action{"color-by-size", "Colours", "Size", "", "color-by size"},
-    Action{"color-by-deviation", "Colours", "Deviation from the input", "", "color-by deviation"},
-    Action{"color-by-tilt", "Colours", "Tilt from the input", "", "color-by tilt"},
-    Action{"color-by-freedom", "Colours", "Freedom to move", "", "color-by freedom"},
-    Action{"color-by-multiplier", "Colours", "Multiplier, where elements hold the minimum", "", "color-by multiplier"},
-    Action{"color-by-inverted", "Colours", "Only inverted elements", "", "color-by inverted"},
-    Action{"color-by-difference", "Colours", "Difference", "", "color-by difference", Needs::Mesh},
-    Action{"range-input", "Colours", "Range: the input's", "", "range input", Needs::Nothing, true},
-    Action{"range-fixed", "Colours", "Range: 0 to 1", "", "range fixed"},
-    Action{"range-auto", "Colours", "Range: the mesh's own", "", "range auto"},
-    Action{"range-expanding", "Colours", "Range: growing", "", "range expanding"},
-    Action{"range-percentile", "Colours", "Range: 2nd to 98th percentile", "", "range percentile 2 98"},
-    Action{"next-map", "Colours", "Next colour map", "Shift+M", "colormap next"},
-    Action{"reverse-colors", "Colours", "Reversed", "", "reverse-colors toggle"},
-    Action{"shading", "Colours", "Light on volumes", "", "shading toggle"},
-    Action{"occlusion", "Colours", "Darker corners of volumes", "", "occlusion toggle"},
     Action{"filter-off", "Colours", "No filter", "", "filter off", Needs::Nothing, true},
-    Action{"others-fade", "Colours", "Other elements: faded", "", "filter-mode fade"},
-    Action{"others-isolate", "Colours", "Other elements: hidden", "", "filter-mode isolate"},
-    Action{"others-only-outline", "Colours", "Other elements: outlines", "", "filter-mode only-outline"},
     Action{"isolate-off", "Colours", "All categories", "", "isolate off"},
-    Action{"worst-view", "Colours", "Only the 10 worst elements", "Shift+K", "worst-view toggle", Needs::Mesh, true},
     Action{"fit-worst", "Colours", "Go to the worst elements", "Ctrl+K", "fit-worst", Needs::Mesh},
-    Action{"labels-off", "Colours", "Labels: none", "", "labels off", Needs::Nothing, true},
-    Action{"labels-vertices", "Colours", "Labels: vertices", "", "labels vertices", Needs::Mesh},
-    Action{"labels-elements", "Colours", "Labels: elements", "", "labels elements", Needs::Mesh},
-    Action{"labels-both", "Colours", "Labels: both", "", "labels both", Needs::Mesh},
-    Action{"labels-next", "Colours", "Next labels", "I", "labels next", Needs::Mesh},
 
     Action{"palette", "Help", "All commands…", "Ctrl+P", "dialog palette"},
     Action{"tour", "Help", "Tour: two minutes of guided steps", "", "tour on"},
@@ -239,13 +138,65 @@ constexpr std::array kActions{
     Action{"about", "Help", "About", "", "dialog about"},
 };
 
+/// With the actions of options below those that their rows name.
+class ActionTable {
+ public:
+  ActionTable() : rows_(kActions.begin(), kActions.end()) {
+    std::string_view after = "reload";
+    for (const GeneratorInfo& sample : generator_table()) {
+      const std::string_view id = keep(fmt::format("sample-{}", sample.name)), line = keep(fmt::format("generate {}", sample.name));
+      const bool apart = after == "reload" || sample.name == "tetrahedra";  // volumes, and others that came later
+      insert(after, {id, {}, keep(fmt::format("Sample: {}", sample.name)), {}, line, Needs::Nothing, apart});
+      after = id;
+    }
+    for (const ViewOption& option : view_options()) {
+      if (!option.entry.after.empty()) add_own(option);
+      if (!option.entries.after.empty()) add_choices(option);
+    }
+  }
+  [[nodiscard]] std::span<const Action> rows() const noexcept { return rows_; }
+
+ private:
+  void add_own(const ViewOption& option) {
+    const std::string_view id = option.entry.id.empty() ? option.command : option.entry.id;
+    const std::string_view line = keep(fmt::format("{} {}", option.command, option.turn_word()));
+    insert(option.entry.after, {id, option.entry.menu, option.entry.title, option.entry.key, line, option.entry.needs, option.entry.apart});
+  }
+  void add_choices(const ViewOption& option) {
+    std::string_view after = option.entries.after;
+    for (const OptionChoice& choice : option.at.choices) {
+      if (choice.title.empty() && choice.entry.empty()) continue;
+      const std::string_view id = choice.id.empty() ? keep(fmt::format("{}-{}", option.command, choice.word)) : choice.id;
+      const std::string_view title = !choice.entry.empty()          ? choice.entry
+                                     : option.entries.title.empty() ? choice.title
+                                                                    : keep(fmt::format("{}: {}", option.entries.title, choice.title));
+      const std::string_view line = keep(fmt::format("{} {}{}", option.command, choice.word, option.entries.toggles ? " toggle" : ""));
+      insert(after,
+             {id, option.entries.menu, title, choice.key, line, option.entry.needs, option.entries.apart && after == option.entries.after});
+      after = id;
+    }
+  }
+  void insert(std::string_view after, Action action) {
+    const auto above = std::ranges::find(rows_, after, &Action::id);
+    if (action.menu.empty()) action.menu = above->menu;
+    rows_.insert(above + 1, action);
+  }
+  std::string_view keep(std::string text) { return texts_.emplace_back(std::move(text)); }
+
+  std::vector<Action> rows_;
+  std::deque<std::string> texts_;  // the rows point into
+};
+
 }  // namespace
 
-std::span<const Action> actions() { return kActions; }
+std::span<const Action> actions() {
+  static const ActionTable table;
+  return table.rows();
+}
 
 const Action* find_action(std::string_view id) {
-  const auto at = std::find_if(kActions.begin(), kActions.end(), [id](const Action& action) { return action.id == id; });
-  return at == kActions.end() ? nullptr : &*at;
+  const auto at = std::ranges::find(actions(), id, &Action::id);
+  return at == actions().end() ? nullptr : &*at;
 }
 
 const Action* action_of(const KeyChord& chord) {
@@ -253,7 +204,7 @@ const Action* action_of(const KeyChord& chord) {
   KeyChord wanted = chord;
   if (chord.code == '=' && !chord.ctrl && !chord.alt) wanted = {'+', false, false, false};
   if (wanted == parse_key("Ctrl+Shift+Z")) wanted = *parse_key("Ctrl+Y");  // people know either
-  for (const Action& action : kActions) {
+  for (const Action& action : actions()) {
     if (!action.key.empty() && parse_key(action.key) == wanted) return &action;
   }
   return nullptr;
@@ -261,7 +212,7 @@ const Action* action_of(const KeyChord& chord) {
 
 std::vector<std::string_view> menu_names() {
   std::vector<std::string_view> names;
-  for (const Action& action : kActions) {
+  for (const Action& action : actions()) {
     if (std::find(names.begin(), names.end(), action.menu) == names.end()) names.push_back(action.menu);
   }
   return names;
@@ -310,7 +261,7 @@ bool holds_all(std::string_view text, std::span<const std::string> words) {
 std::vector<const Action*> search_actions(std::string_view query) {
   const std::vector<std::string> words = search_words(query);
   std::vector<const Action*> found;
-  for (const Action& action : kActions) {
+  for (const Action& action : actions()) {
     std::string text;
     for (const std::string_view part : {action.title, action.menu, action.command, action.id}) text.append(part).append("\n");
     if (holds_all(text, words)) found.push_back(&action);

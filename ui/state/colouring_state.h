@@ -79,11 +79,6 @@ inline constexpr std::array<ColourByInfo, 15> kColourBys{{
          by != ColourBy::Multiplier;
 }
 
-inline constexpr std::array<std::pair<std::string_view, render::Selection::Others>, 3> kFilterModes{
-    {{"fade", render::Selection::Others::Fade},
-     {"isolate", render::Selection::Others::Hide},
-     {"only-outline", render::Selection::Others::Outline}}};
-
 /// One category looked at alone: `name` as in the legend, or the name or role of a group.
 struct Isolation {
   ColourBy by = ColourBy::Kind;

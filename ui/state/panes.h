@@ -18,8 +18,6 @@ namespace dmoscope::ui {
 
 /// Split: two over each other under one camera, parted by a handle.
 enum class PaneLayout { One, Two, Four, Split };
-inline constexpr std::array<std::pair<std::string_view, PaneLayout>, 4> kPaneLayouts{
-    {{"1", PaneLayout::One}, {"2", PaneLayout::Two}, {"4", PaneLayout::Four}, {"split", PaneLayout::Split}}};
 [[nodiscard]] std::size_t pane_count(PaneLayout layout);
 
 /// What a pane shows, or colours are compared with.

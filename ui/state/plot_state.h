@@ -40,13 +40,9 @@ inline constexpr std::array<std::pair<std::string_view, ValueAxis>, 3> kValueAxe
 /// How iterations, or seconds, lie along the plots that have them. Log: by the logarithm of 1 + iteration, so that the first ones, in which
 /// most happens, have the room, and the input its place. Changes: evenly, up to the last change that could be seen.
 enum class XAxis { Log, Changes, Linear };
-inline constexpr std::array<std::pair<std::string_view, XAxis>, 3> kXAxes{
-    {{"log", XAxis::Log}, {"changes", XAxis::Changes}, {"linear", XAxis::Linear}}};
 
 /// What the histogram shows at first: where its elements are, or all from 0 to 1.
 enum class HistogramRange { Data, Whole };
-inline constexpr std::array<std::pair<std::string_view, HistogramRange>, 2> kHistogramRanges{
-    {{"data", HistogramRange::Data}, {"whole", HistogramRange::Whole}}};
 
 /// What is seen of one plot.
 struct PlotView {

@@ -21,13 +21,9 @@ enum class Reference {
   A,
   B  // what was marked on the timeline
 };
-inline constexpr auto kReferences = std::to_array<std::pair<std::string_view, Reference>>(
-    {{"off", Reference::None}, {"input", Reference::Input}, {"previous", Reference::Previous}, {"a", Reference::A}, {"b", Reference::B}});
 
 /// Whether what a step moved is shown: for a moment after it, or until the next one.
 enum class Flash { Off, On, Hold };
-inline constexpr std::array<std::pair<std::string_view, Flash>, 3> kFlashes{
-    {{"off", Flash::Off}, {"on", Flash::On}, {"hold", Flash::Hold}}};
 
 /// What the last step did.
 struct StepNews {

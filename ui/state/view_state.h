@@ -33,8 +33,6 @@
 namespace dmoscope::ui {
 
 enum class Theme { Dark, Light, Contrast };
-inline constexpr std::array<std::pair<std::string_view, Theme>, 3> kThemes{
-    {{"dark", Theme::Dark}, {"light", Theme::Light}, {"contrast", Theme::Contrast}}};
 /// What a file that is opened is for.
 enum class OpenFor : std::uint8_t {
   Alone,   // in the place of all that is open
@@ -77,14 +75,8 @@ struct WindowPlace {
 };
 
 enum class Side : std::uint8_t { Left, Right };
-inline constexpr std::array<std::pair<std::string_view, Side>, 2> kSides{{{"left", Side::Left}, {"right", Side::Right}}};
 /// What the dock of facts shows.
 enum class FactsTab : std::uint8_t { Mesh, Selection, Worst, Colours, Inside };
-inline constexpr std::array<std::pair<std::string_view, FactsTab>, 5> kFactsTabs{{{"mesh", FactsTab::Mesh},
-                                                                                  {"selection", FactsTab::Selection},
-                                                                                  {"worst", FactsTab::Worst},
-                                                                                  {"colours", FactsTab::Colours},
-                                                                                  {"inside", FactsTab::Inside}}};
 
 /// Which panels are there. Two docks, of setup and of facts, stand in columns beside the mesh, the one above the other where they share
 /// a side. The columns give way to the mesh in a small window and then open over it.

@@ -9,6 +9,7 @@
 
 #include "core/inspect/joint_hold.h"
 #include "ui/state/format.h"
+#include "ui/state/view_options.h"
 #include "ui/viewports/mesh_marks.h"
 
 namespace dmoscope::ui {
@@ -64,15 +65,13 @@ std::optional<std::span<const Vec3>> SteppingView::positions_of(const ViewState&
 }
 
 std::string SteppingView::key(const ViewState& state, const Frame& frame, const JointCluster* hold, const std::string& view) const {
-  const SteppingState& s = state.stepping;
   const Brush& brush = state.brush;
   const auto edge = state.edge_under_mouse.value_or(std::array{kNoIndex, kNoIndex});
   const auto serial = [](const std::shared_ptr<const Frame>& of) { return of ? of->serial : 0; };
-  return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", state.features, edge[0], edge[1], fmt::ptr(hold),
-                     s.flash_level, s.news.serial, frame.serial, serial(previous_), serial(state.timeline.a.frame),
-                     serial(state.timeline.b.frame), view, static_cast<int>(state.theme), s.next_class, static_cast<int>(s.arrows),
-                     s.arrow_scale, static_cast<int>(s.ghost), state.selection.serial(), brush.painting, static_cast<int>(brush.kind),
-                     brush.stroke.serial());
+  return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", options_key(state), edge[0], edge[1], fmt::ptr(hold),
+                     state.stepping.flash_level, state.stepping.news.serial, frame.serial, serial(previous_),
+                     serial(state.timeline.a.frame), serial(state.timeline.b.frame), view, state.selection.serial(), brush.painting,
+                     static_cast<int>(brush.kind), brush.stroke.serial());
 }
 
 void SteppingView::add_marks(render::Marks& marks, const ViewState& state, const SessionView& session, const MarkView& view,

@@ -1,0 +1,143 @@
+// Rows of the table of options: what is seen of a mesh, and in which colours.
+#include "ui/state/option_rows.h"
+
+namespace dmoscope::ui {
+namespace {
+
+using V = ViewState;
+using C = ColouringState;
+using In = ClippingView;
+
+constexpr double kLargest = 1e300;
+
+std::vector<OptionChoice> colour_maps() {
+  std::vector<OptionChoice> choices;
+  for (const render::ColourMapInfo& map : render::colour_map_table()) choices.push_back({map.name, map.name, map.doc});
+  return choices;
+}
+
+template <class Table>
+std::vector<OptionChoice> rows_of(const Table& table) {
+  std::vector<OptionChoice> choices;
+  for (const auto& row : table) choices.push_back({row.name, row.title, row.doc});
+  return choices;
+}
+
+void set_labels(ViewState& state, double value) {
+  const auto kinds = static_cast<unsigned>(value);
+  state.colouring.label_vertices = (kinds & 1U) != 0;
+  state.colouring.label_elements = (kinds & 2U) != 0;
+}
+
+/// One camera for all viewports, or one each.
+void link_cameras(ViewState& state, double value) {
+  if (value == 0.0 && state.in_space) throw UsageError("of a volume mesh all viewports share one camera");
+  state.link_cameras(value != 0.0);
+}
+
+}  // namespace
+
+std::vector<ViewOption> mark_options() {
+  using namespace option_rows;
+  return {
+      row("wireframe", "edges of the elements", at<&V::wireframe>(), both("/wireframe", kScript), {"Wireframe", "next-metric", "W"}),
+      row("vertices", "dots: free vertices round, fixed ones square", at<&V::vertices>(), {"/vertices"},
+          {"Vertices", "wireframe", "D", "", Planar}),
+      row("worst", "ring around the worst element, and a diamond where a listed one is inverted inside alone", at<&V::worst_marker>(),
+          {"/worst_marker"}, {"Mark the worst element", "vertices", "K", "worst-marker"}),
+      row("pointer-value", "the value of the element where the pointer rests", at<&V::pointer_value>(), {"", "/pointer_value"},
+          {"Value under the resting pointer", "worst-marker"}),
+      row("features", "where vertices slide: boundary, interfaces and feature edges as lines, corners as squares", at<&V::features>(),
+          {"/features"}, {"Feature edges and corners, where vertices slide", "worst-marker", "Alt+K"}),
+      row("holders",
+          "what holds the minimum: the elements that hold one another, the forces on their vertices, and the cluster around them",
+          at<&V::holders>(), {"/holders"}, {"What holds the minimum: elements that hold one another", "features", "Alt+O", "", Mesh}),
+      row("viewports", "one mesh, or several side by side, or two over each other with a handle between them",
+          words(at<&V::panes, &Panes::layout>(), choice("1", "One viewport", "", "", "1"), choice("2", "Two viewports", "", "", "2"),
+                choice("4", "Four viewports", "", "", "4"), choice("split", "Split view", "", "", "3"))
+              .changed_by([](V& state, double value) { state.set_layout(static_cast<PaneLayout>(static_cast<int>(value))); }),
+          {"/viewports/layout", "", kScript}, {}, {"each-reset", "", kApart}),
+      row("link-cameras", "all viewports look at the same place, or each for itself",
+          at<&V::panes, &Panes::linked>().changed_by(link_cameras).seen_as([](const V& state) {
+            return state.panes.linked || state.in_space ? 1.0 : 0.0;
+          }),
+          {"/viewports/linked", "", kScript}, {"One camera for all viewports", "viewports-split", "", "", Planar}),
+      row("split", "where the handle of the split view is, 0 (left) to 1", numbers(at<&V::panes, &Panes::split>(), {.unit = "X"}),
+          {"/viewports/split", "", kScript}),
+  };
+}
+
+std::vector<ViewOption> inside_options() {
+  using namespace option_rows;
+  return {
+      row("clip flip", "", at<&V::inside, &In::clip, &ClipPlane::flip>(), {"/volume/inside/clip/flip"}),
+      row("clip", "", at<&V::inside, &In::clip, &ClipPlane::on>(), {"/volume/inside/clip/on"},
+          {"Clip plane", "holders", "J", "inside-clip", Volume}),
+      row("clip-mode", "whole cells stay, or they are cut through",
+          words(at<&V::inside, &In::clip, &ClipPlane::mode>(), choice("crinkle", "whole", "those that the plane passes through stay whole"),
+                choice("cut", "cut", "those that the plane passes through are cut")),
+          {"/volume/inside/clip/mode", "", kScript}, {"Cut cells through, or whole ones", "inside-flip", "Alt+J", "inside-cut", Volume}),
+      row("peel", "takes so many layers of cells off the boundary of a volume mesh",
+          numbers(at<&V::inside, &In::peel>(), {.most = kNoIndex - 1, .whole = true, .clamped = true, .step = 1.0}),
+          {"/volume/inside/peel", "", kScript}, {"", "", "", "", Volume}),
+      row("worst-cells", "only the N worst cells (50) are seen, in a faint boundary of the rest",
+          numbers(at<&V::inside, &In::worst>(), {.most = kNoIndex, .whole = true, .rest = 0.0, .rest_word = "off", .usual = 50.0})
+              .and_then([](V& state) { state.inside.ghost = state.inside.worst > 0; }),
+          {"/volume/inside/worst", "", kScript}, {"Only the worst cells, in a faint rest", "inside-unpeel", "Q", "inside-worst", Volume}),
+      row("ghost-rest", "the boundary of what was taken away is seen faintly", at<&V::inside, &In::ghost>(),
+          {"/volume/inside/ghost", "", kScript}, {"What was taken away stays faintly", "inside-worst", "Alt+Q", "inside-ghost", Volume}, {},
+          {"faint rest"}),
+      row("shrink", "draws every cell of a volume mesh so large, 1 is its own size",
+          numbers(at<&V::inside, &In::shrink>(), {.least = 1e-6, .unit = "FACTOR", .rest = 1.0, .usual = 0.8}),
+          {"/volume/inside/shrink", "", kScript}, {"Shrunk cells", "inside-unpeel", "E", "inside-shrink", Volume}),
+      row("trackball", "a drag rolls a volume mesh as a ball instead of turning it upright", at<&V::trackball>(),
+          {"/volume/trackball", "", kScript}, {"A drag rolls it as a ball", "from-minus-z", "", "from-trackball", Volume}, {},
+          {"roll freely"}),
+      row("perspective", "what is farther away looks smaller", at<&V::orbit, &render::OrbitCamera::perspective>(),
+          {"/volume/perspective", "", kScript}, {"Perspective", "from-minus-z", "Alt+E", "from-perspective", Volume, kApart}, {},
+          {"perspective"}),
+  };
+}
+
+std::vector<ViewOption> colour_options() {
+  using namespace option_rows;
+  return {
+      row("color-by", "", words(at<&V::colouring, &C::by>(), rows_of(kColourBys)), {"/colours/by"}, {},
+          {"copy-level", "", false, false, "Colours"}),
+      row("range", "", words(at<&V::range_mode>(), rows_of(kRangeModes)), {"/colours/range_mode", "/range/mode"}, {},
+          {"color-by-multiplier", "Range", kApart}),
+      row("", "", numbers(at<&V::range_low>(), {-kLargest, kLargest}), {"/colours/range_low", "/range/low"}),
+      row("", "", numbers(at<&V::range_high>(), {-kLargest, kLargest}), {"/colours/range_high", "/range/high"}),
+      row("", "", numbers(at<&V::range_low_percent>(), {0.0, 100.0}), {"/colours/range_low_percent", "/range/low_percent"}),
+      row("", "", numbers(at<&V::range_high_percent>(), {0.0, 100.0}), {"/colours/range_high_percent", "/range/high_percent"}),
+      row("colormap", "colours of quality", words(at<&V::colour_map>(), colour_maps()), both("/colormap", kScript),
+          {"Next colour map", "range-given", "Shift+M", "next-map"}, {}, {"map", "map"}),
+      row("reverse-colors", "the colour map from its other end", at<&V::colouring, &C::reversed>(),
+          {"/colours/reversed", "/reversed", kScript}, {"Reversed", "next-map"}, {}, {"reversed", "map"}),
+      row("color-steps", "so many colours of equal width, 2 to 64; 0: without steps",
+          numbers(at<&V::colouring, &C::steps>(), {.least = 2.0, .most = 64.0, .whole = true, .rest = 0.0}),
+          {"/colours/steps", "/steps", kScript}, {}, {}, {"steps", "map"}),
+      row("occlusion", "volumes a little darker in corners and along edges, which shows their form", at<&V::occlusion>(),
+          both("/occlusion", kScript), {"Darker corners of volumes", "reverse-colors"}, {}, {"corners", "depth"}),
+      row("shading", "volumes lit by a lamp, too, which changes what their colours tell", at<&V::shading>(), both("/shading", kScript),
+          {"Light on volumes", "reverse-colors"}, {}, {"light", "depth"}),
+      row("filter-mode", "how elements that do not count are drawn: grey, not, as outlines",
+          words(at<&V::colouring, &C::others>(), choice("fade", "faded", "", "", "", "others-fade"),
+                choice("isolate", "hidden", "", "", "", "others-isolate"),
+                choice("only-outline", "outlines", "", "", "", "others-only-outline")),
+          {"/colours/filter_mode"}, {}, {"filter-off", "Other elements"}, {"others"}),
+      row("worst-view", "only the N worst elements count, 1 to 100",
+          numbers(at<&V::colouring, &C::worst>(),
+                  {.least = 1.0, .most = 100.0, .whole = true, .rest = 0.0, .rest_word = "off", .usual = 10.0}),
+          {"/colours/worst"}, {"Only the 10 worst elements", "isolate-off", "Shift+K", "", Mesh, kApart}, {}, {"worst"}),
+      row("labels", "ids, where there is room for them and nothing hides what they name",
+          words(
+              {[](const V& s) { return (s.colouring.label_vertices ? 1.0 : 0.0) + (s.colouring.label_elements ? 2.0 : 0.0); }, set_labels},
+              choice("off", "none"), choice("vertices", "vertices"), choice("elements", "elements"), choice("both", "both")),
+          {}, {"Next labels", "fit-worst", "I", "labels-next", Mesh, false, "", "next"}, {"fit-worst", "Labels"}, {"labels"}),
+      row("", "", at<&V::colouring, &C::label_vertices>(), {"/colours/label_vertices"}),
+      row("", "", at<&V::colouring, &C::label_elements>(), {"/colours/label_elements"}),
+  };
+}
+
+}  // namespace dmoscope::ui

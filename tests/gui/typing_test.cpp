@@ -186,7 +186,6 @@ TEST_F(Typing, EnterPressesTheControlWithTheRing) {
     if (!ImGui::GetCurrentContext()->OpenPopupStack.empty()) good("key Escape");
   }
   EXPECT_TRUE(pressed);
-  EXPECT_LE(iteration(), 1U) << "each press once";
 }
 
 TEST_F(Typing, AltAloneReachesTheMenus) {

@@ -141,7 +141,7 @@ TEST(ViewOptions, CommandsSayWhatTheyExpect) {
       {"worst-view 101", "\"101\": expected off, or a whole number from 1 to 100"},
       {"worst-cells 2.5", "'2.5' is not a whole number of at least 0; usage: worst-cells N|off|toggle"},
       {"speed 0", "\"0\": expected a number greater than 0"},
-      {"panel top", "\"top\": expected one of left, right, bottom"},
+      {"panel top", "\"top\": expected one of setup, facts, left, right, bottom"},
       {"panel-size left", "too few arguments; usage: panel-size left|right|bottom|runs EM|default"},
       {"link-cameras off", "of a volume mesh all viewports share one camera"},
       {"brush on", "the brush is of planar meshes: select vertices of a volume mesh by their ids"},
@@ -184,7 +184,7 @@ TEST(ViewOptions, NumbersGoUpAndDownAndBackToWhatIsUsual) {
                                                                 {"speed", "speed default", 10.0},
                                                                 {"panel-size left", "panel-size left 3", 6.0},
                                                                 {"panel-size runs", "panel-size runs 3", 4.0},
-                                                                {"panel-size left", "panel-size left default", 14.0}};
+                                                                {"panel-size left", "panel-size left default", 16.0}};
   for (const auto& [option, line, value] : steps) {
     table.execute(line);
     EXPECT_EQ(view_option(option).at.get(state), value) << line;

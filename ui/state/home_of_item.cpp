@@ -8,22 +8,20 @@
 namespace dmoscope::ui {
 namespace {
 
-using enum FactsTab;
-
 /// How names of a tab's controls begin; the first that fits counts.
 constexpr std::array<std::pair<std::string_view, FactsTab>, 32> kHomes{
-    {{"worst:", Worst},        {"why:", Worst},          {"why?", Worst},
-     {"color-", Colours},      {"colormap", Colours},    {"reverse-colors", Colours},
-     {"range-menu", Mesh},  // in the legend
-     {"range-", Colours},      {"occlusion", Colours},   {"shading", Colours},
-     {"labels", Colours},      {"filter", Colours},      {"worst-view", Colours},
-     {"isolate-off", Colours}, {"shown", Colours},       {"inside:", Inside},
-     {"from:", Inside},        {"group-", Mesh},         {"held-by", Mesh},
-     {"show-worst", Mesh},     {"star:", Selection},     {"metric:", Selection},
-     {"why", Selection},       {"kind:", Selection},     {"edge:", Selection},
-     {"chain:", Selection},    {"place:", Selection},    {"inspect", Selection},
-     {"level", Selection},     {"candidate", Selection}, {"element:", Selection},
-     {"field", Selection}}};
+    {{"worst:", FactsTab::Worst},        {"why:", FactsTab::Worst},          {"why?", FactsTab::Worst},
+     {"color-", FactsTab::Colours},      {"colormap", FactsTab::Colours},    {"reverse-colors", FactsTab::Colours},
+     {"range-menu", FactsTab::Mesh},  // in the legend
+     {"range-", FactsTab::Colours},      {"occlusion", FactsTab::Colours},   {"shading", FactsTab::Colours},
+     {"labels", FactsTab::Colours},      {"filter", FactsTab::Colours},      {"worst-view", FactsTab::Colours},
+     {"isolate-off", FactsTab::Colours}, {"shown", FactsTab::Colours},       {"inside:", FactsTab::Inside},
+     {"from:", FactsTab::Inside},        {"group-", FactsTab::Mesh},         {"held-by", FactsTab::Mesh},
+     {"show-worst", FactsTab::Mesh},     {"star:", FactsTab::Selection},     {"metric:", FactsTab::Selection},
+     {"why", FactsTab::Selection},       {"kind:", FactsTab::Selection},     {"edge:", FactsTab::Selection},
+     {"chain:", FactsTab::Selection},    {"place:", FactsTab::Selection},    {"inspect", FactsTab::Selection},
+     {"level", FactsTab::Selection},     {"candidate", FactsTab::Selection}, {"element:", FactsTab::Selection},
+     {"field", FactsTab::Selection}}};
 /// Controls of the settings that are not rows of parameter_table().
 constexpr std::array<std::string_view, 8> kSettings{"target", "then-", "combine", "backend", "threads", "seed", "size", "threshold"};
 

@@ -91,8 +91,7 @@ std::vector<ViewOption> panel_options() {
   using namespace option_rows;
   return {
       row("panel setup", "shows or hides a panel; left and right are older names of the first two", at<&V::panels, &Panels::setup>(),
-          both("/panels/left", kScript),
-          {"Setup: runs, method, metric", "from-trackball", "F2", "panel-left", Nothing, kApart}),
+          both("/panels/left", kScript), {"Setup: runs, method, metric", "from-trackball", "F2", "panel-left", Nothing, kApart}),
       row("panel facts", "shows or hides a panel", at<&V::panels, &Panels::facts>(), both("/panels/right", kScript),
           {"Facts: mesh, selection, worst", "panel-left", "F3", "panel-right"}),
       row("panel left", "an older name of setup", at<&V::panels, &Panels::setup>()),

@@ -115,7 +115,7 @@ TEST_F(ViewsOfBefore, AreWrittenAsTheyWere) {
     if (fresh.contains(mesh)) {
       Lines differs = difference(fresh[mesh], now);
       std::erase_if(differs,
-                    [](const std::string& line) { return line.find("tab selection") != line.npos || line.find("/tab ") != line.npos; });
+                    [](const std::string& one) { return one.find("tab selection") != one.npos || one.find("/tab ") != one.npos; });
       EXPECT_EQ(differs, expected);
     } else {
       EXPECT_EQ(without_panels(now), without_panels(expected));

@@ -15,6 +15,9 @@ namespace dmoscope {
 /// and steps at .1, .2, .3 and .4 see to it that no gain is paid for by one more element below one of these.
 enum class MeanKind : std::uint8_t { Harmonic, Arithmetic, Geometric, InverseSquare };
 
+/// Those of the harmonic one.
+inline constexpr double kMeanSteps[] = {0.4, 0.3, 0.2, 0.1};  // NOLINT(*-avoid-c-arrays): a device reads it
+
 /// "mean" (the harmonic one, the usual), "arithmetic-mean", "geometric-mean" or "inverse-square-mean".
 [[nodiscard]] std::string_view name(MeanKind kind);
 inline constexpr std::array kMeanKinds{MeanKind::Harmonic, MeanKind::Arithmetic, MeanKind::Geometric, MeanKind::InverseSquare};
@@ -67,7 +70,8 @@ class PowerMean {
   /// What bad elements add to their inverse. A lower step counts more than all higher ones of a star together, and any more than the
   /// inverses of its sound elements can gain.
   [[nodiscard]] static DMOSCOPE_ANYWHERE R steps(R quality) {
-    return step(quality, 0.4, 1e3) + step(quality, 0.3, 16e3) + step(quality, 0.2, 256e3) + step(quality, 0.1, 4096e3);
+    return step(quality, kMeanSteps[0], 1e3) + step(quality, kMeanSteps[1], 16e3) + step(quality, kMeanSteps[2], 256e3) +
+           step(quality, kMeanSteps[3], 4096e3);
   }
   [[nodiscard]] static DMOSCOPE_ANYWHERE R step(R quality, double below, double adds) {
     using scalar::select;

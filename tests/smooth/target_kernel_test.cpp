@@ -21,8 +21,11 @@
 #include "core/smooth/kernels/targets/target_star.h"
 #include "core/smooth/kernels/targets/target_visit.h"
 #include "core/smooth/kernels/targets/tetrahedron_targets.h"
+#include "core/smooth/methods/grid.h"
 #include "core/smooth/methods/star_kernels.h"
+#include "core/smooth/methods/target_aims_kernel.h"
 #include "core/smooth/methods/volume_star_search.h"
+#include "core/smooth/visit/visit.h"
 #include "tests/smooth/promises.h"
 #include "tests/support/volume_grids.h"
 
@@ -388,6 +391,82 @@ TEST(TargetKernels, LooksIntoVisitsShowWhatTheyDo) {
         ASSERT_EQ(run.positions()[v], to) << "vertex " << v;
       }
     }
+}
+
+/// How many stars the search for the mean was compared on, and took.
+struct MeanSearches {
+  int stars = 0, taken = 0, moved = 0, told = 0;
+};
+/// By any instructions it finds what a look at all candidates by the statistics' formulas finds, to the bit, and tells of two places what
+/// these tell.
+template <class Frame>
+void expect_plain_winner_of_mean(const std::shared_ptr<const InputMesh>& mesh, const CompositeObjective& mean, MeanSearches& count) {
+  std::vector<std::unique_ptr<TargetAimsKernel<Frame>>> searches;
+  SmoothingTask task;
+  task.input = mesh;
+  std::vector<Index> inside;
+  for (Index v = 0; v < mesh->mesh.vertex_count(); ++v)
+    if (mesh->topology.boundary()[v] == 0 && !mesh->topology.star(v).empty()) inside.push_back(v);
+  task.colouring = std::make_shared<const Colouring>(colour_vertices(mesh->mesh, mesh->topology, inside));
+  for (const SimdLevel level : supported_simd_levels()) {
+    task.search.simd = level;
+    searches.push_back(std::make_unique<TargetAimsKernel<Frame>>(task, mean));
+  }
+  const std::vector<Vec3>& positions = mesh->mesh.positions;
+  const RuleMesh<Frame> rule(*mesh);
+  const StarJudge<Frame> judge(*mesh, mean);
+  JudgedStar<Frame> star;
+  SearchRoom<Frame> room;
+  for (const Index v : inside) {
+    judge.gather(positions, v, star);
+    const bool tangled = judge.is_tangled(star);
+    const FreePlaces<Frame> places(rule, positions, v, star);
+    const auto plain = Grid(task, mean).choose(places, judge.score_of(star, positions, v, tangled), room);
+    ++count.stars;
+    for (const auto& search : searches) {
+      const auto fast = search->find(positions, v, {});
+      EXPECT_FALSE(tangled && fast.ready) << "vertex " << v;
+      if (!fast.ready) continue;
+      ++count.taken;
+      count.moved += plain == OffsetIn<Frame, double>{} ? 0 : 1;
+      ASSERT_TRUE(fast.way == plain) << "vertex " << v;
+      for (const double part : {1.0, 0.37, -0.2}) {
+        const auto target = rule.moved(positions[v], times(plain, part));
+        if (!target) continue;
+        const auto gains = search->gains(positions, v, *target);
+        if (!gains) continue;
+        ++count.told;
+        ASSERT_EQ(*gains, judge.confirm(positions, v, *target) == Confirmation::Gains) << "vertex " << v << ", " << part;
+      }
+    }
+  }
+}
+
+TEST(TargetKernels, RaiseTheMeanAsThePlainSearchDoes) {
+  const auto expect = [](const std::vector<Specimen>& specimens, std::span<const char* const> metrics, bool needle) {
+    MeanSearches count;
+    for (const Specimen& specimen : specimens)
+      for (const char* metric : metrics)
+        for (const MeanKind kind : kMeanKinds) {
+          SCOPED_TRACE(fmt::format("{} of {} on {}", name(kind), metric, specimen.name));
+          const auto mesh = input(specimen.mesh);
+          const CompositeObjective mean = raise_mean_above(parse_metric(metric), 0.15, kind);
+          if (mesh->is_volume())
+            expect_plain_winner_of_mean<Space>(mesh, mean, count);
+          else
+            expect_plain_winner_of_mean<Plane>(mesh, mean, count);
+          if (HasFailure()) return;
+        }
+    if (needle) return;
+    const auto levels = static_cast<int>(supported_simd_levels().size());
+    EXPECT_GT(count.taken, count.stars * levels / 4);
+    EXPECT_GT(count.moved, count.taken / 4);
+    EXPECT_GT(count.told, count.moved);
+  };
+  expect(planar_specimens(), kPlanar, false);
+  expect(needles(), kPlanar, true);
+  expect(solid_specimens(), std::array{kSolid[0], kSolid[2]}, false);
+  expect(solid_needles(), std::array{kSolid[0], kSolid[2]}, true);
 }
 
 /// A target that is no other than the ideal element, though it goes through all of the arithmetic.

@@ -1,6 +1,6 @@
 #pragma once
 // Bounds of the mean ratio of a star, for packs of places and in float: a candidate that cannot win by them need not be looked at exactly.
-// Only composite_kernel_impl.h includes it; see lane_kernel_impl.h for what that asks of the code.
+// Only the kernels' sources include it; see lane_kernel_impl.h for what that asks of the code.
 
 #include <array>
 #include <cstdint>
@@ -9,19 +9,59 @@
 
 #include "core/numeric/pack.h"
 // After the packs:
-#include "core/search/ratio_form.h"
+#include "core/search/target_form.h"
 #include "core/smooth/kernels/composite_kernel.h"
-#include "core/smooth/kernels/volume_form.h"
+#include "core/smooth/kernels/solid_target.h"
 
 namespace dmoscope::composite {
+
+/// What is of second order in a squared norm: a number times |p|^2 or, crossed, in x^2, y^2, z^2, xy, xz, yz. F: a pack, so that no other
+/// processor's code shares the functions.
+template <bool Crossed, class F>
+struct SecondOrder {
+  double square = 0.0;
+  struct Narrow {
+    float square;
+  };
+  [[nodiscard]] Narrow narrow(double by) const { return {static_cast<float>(square * by)}; }
+  [[nodiscard]] double at(const std::array<double, 3>& c) const { return square * (c[0] * c[0] + c[1] * c[1] + c[2] * c[2]); }
+  [[nodiscard]] double most(const std::array<double, 3>& half) const { return at(half); }
+  [[nodiscard]] std::array<double, 3> slope(const std::array<double, 3>& c) const {
+    return {2.0 * square * c[0], 2.0 * square * c[1], 2.0 * square * c[2]};
+  }
+};
+template <class F>
+struct SecondOrder<true, F> {
+  double xx = 0.0, yy = 0.0, zz = 0.0, xy = 0.0, xz = 0.0, yz = 0.0;
+  struct Narrow {
+    float xx, yy, zz, xy, xz, yz;
+  };
+  [[nodiscard]] Narrow narrow(double by) const {
+    const auto to = [by](double a) { return static_cast<float>(a * by); };
+    return {to(xx), to(yy), to(zz), to(xy), to(xz), to(yz)};
+  }
+  [[nodiscard]] double at(const std::array<double, 3>& c) const {
+    return xx * c[0] * c[0] + yy * c[1] * c[1] + zz * c[2] * c[2] + xy * c[0] * c[1] + xz * c[0] * c[2] + yz * c[1] * c[2];
+  }
+  /// Of the sizes of its terms.
+  [[nodiscard]] double most(const std::array<double, 3>& half) const {
+    const auto size = [](double a) { return a < 0.0 ? -a : a; };
+    return xx * half[0] * half[0] + yy * half[1] * half[1] + zz * half[2] * half[2] + size(xy * half[0] * half[1]) +
+           size(xz * half[0] * half[2]) + size(yz * half[1] * half[2]);
+  }
+  [[nodiscard]] std::array<double, 3> slope(const std::array<double, 3>& c) const {
+    return {2.0 * xx * c[0] + xy * c[1] + xz * c[2], 2.0 * yy * c[1] + xy * c[0] + yz * c[2], 2.0 * zz * c[2] + xz * c[0] + yz * c[1]};
+  }
+};
 
 /// Every simplex, and every corner of another element that changes with the vertex, is a form: of two functions of the vertex's place, v
 /// affine and s quadratic. In the plane its mean ratio is v / s (see RatioForm), in space the cube root of v |v| / s^3 (see MeanRatioForm).
 /// That without the root is its rank. Both functions are taken around the centre of a grid and, in float, with room for all rounding: never
 /// below the true v, never above the true s. What a mean adds up of a rank is concave: at most its tangent at the rank that the element has
 /// in the centre. So no root is needed, and the bound is closest where the grid is fine.
-/// D, F: packs of doubles and of floats of one processor.
-template <class Frame, class D, class F>
+/// Against targets in the plane an element's metric may be its ratio less a shift (see TargetForm). All but needs and sums is of ratios.
+/// D, F: packs of doubles and of floats of one processor; Crossed: see SecondOrder.
+template <class Frame, class D, class F, bool Crossed = false>
 class RatioBounds {
  public:
   using Lists = CompositeLists<Frame>;
@@ -30,8 +70,7 @@ class RatioBounds {
 
   /// `elsewhere`: in space, by element that is no simplex, the least mean ratio of the corners that stay; null: not known.
   void take(const Lists& star, MeanKind mean, const D* elsewhere) {
-    mean_ = mean;
-    pieces_ = elements_ = 0;
+    begin(mean);
     for (std::size_t i = 0; i < star.simplices.size; ++i) {
       begin_element(1.0);
       take_simplex(star.simplices.data[i]);
@@ -41,6 +80,42 @@ class RatioBounds {
       begin_element(elsewhere != nullptr ? rank_of_ratio(elsewhere[k++].get(0)) : 1.0);
       take_other(element);
     });
+    end();
+  }
+
+  /// The same piece by piece: of each element begin_element(), and take() of each of its forms.
+  void begin(MeanKind mean) {
+    mean_ = mean;
+    pieces_ = elements_ = 0;
+    amiss_ = 1.0;
+  }
+  /// `most`: what the rank of the element's corners that stay is; `shift`: of the metric from the ratio.
+  void begin_element(double most, double shift = 0.0) {
+    first_[elements_] = static_cast<std::uint16_t>(pieces_);
+    shifts_[elements_] = shift;
+    caps_[elements_++] = 1.0 + shift;  // no mean ratio is above 1
+    cap(most);
+  }
+  void take(const volumes::MeanRatioForm<D>& f) {
+    forms_[pieces_++] = {f.v0.get(0), f.vx.get(0), f.vy.get(0), f.vz.get(0),      f.s0.get(0),
+                         f.sx.get(0), f.sy.get(0), f.sz.get(0), {f.square.get(0)}};
+  }
+  void take(const RatioForm<D>& f) {
+    forms_[pieces_++] = {f.n0.get(0), f.nx.get(0), f.ny.get(0), 0.0, f.s0.get(0), f.sx.get(0), f.sy.get(0), 0.0, {f.s2.get(0)}};
+  }
+  void take(const volumes::StretchedForm<D>& f) {
+    forms_[pieces_++] = {f.v0.get(0), f.vx.get(0), f.vy.get(0),
+                         f.vz.get(0), f.s0.get(0), f.sx.get(0),
+                         f.sy.get(0), f.sz.get(0), {f.xx.get(0), f.yy.get(0), f.zz.get(0), f.xy.get(0), f.xz.get(0), f.yz.get(0)}};
+  }
+  void take(const TargetForm<D, true>& f) {
+    forms_[pieces_++] = {f.n0.get(0), f.nx.get(0), f.ny.get(0),
+                         0.0,         f.s0.get(0), f.sx.get(0),
+                         f.sy.get(0), 0.0,         {f.sxx.get(0), f.syy.get(0), 0.0, f.sxy.get(0), 0.0, 0.0}};
+  }
+  /// By how much forms are worse than sums of a few products: the more the farther their targets stretch.
+  void set_amiss(double factor) { amiss_ = factor; }
+  void end() {
     first_[elements_] = static_cast<std::uint16_t>(pieces_);
     for (std::size_t i = 0; i < elements_; ++i) order_[i] = static_cast<std::uint16_t>(i);
   }
@@ -55,27 +130,33 @@ class RatioBounds {
         rank = rank < reach.here ? rank : reach.here;
         most = most < reach.most ? most : reach.most;
       }
-      const Tangent tangent = tangent_at(rank);
+      const Tangent tangent = tangent_at(rank - shifts_[i]);
+      const double at_zero = tangent.at_zero - tangent.slope * shifts_[i];
       slopes_[i] = static_cast<float>(tangent.slope);
       most_[i] = static_cast<float>(most * kMore);
-      greatest_sum_ += tangent.at_zero + tangent.slope * most * kMore;
-      sizes_ += size(tangent.at_zero) + tangent.slope * most;
+      greatest_sum_ += at_zero + tangent.slope * most * kMore;
+      sizes_ += size(tangent.at_zero) + tangent.slope * (most + size(shifts_[i]));
     }
   }
 
   /// What a place must reach: the least mean ratio around the vertex, and the mean of all elements; 0: whatever it is.
   void set_needs(double least, double mean) {
-    const auto elements = static_cast<double>(elements_);
-    least_ = static_cast<float>(rank_of_ratio(least) * kLess);
-    const bool counts = mean > 0.0 && mean_ != MeanKind::Geometric;
-    sum_ = counts ? static_cast<float>(sum_of(mean) * elements - (elements + 8.0) * 0x1p-22 * (sizes_ + 1.0)) : -kMost;
+    if (mean > 0.0)
+      set_needs_of_sum(least, sum_of(mean) * static_cast<double>(elements_));
+    else
+      set_least(least);
+  }
+  /// The same by what the mean's elements add up: their inverses, or the inverses' squares, are negative.
+  void set_needs_of_sum(double least, double sum) {
+    set_least(least);
+    if (mean_ != MeanKind::Geometric) sum_ = static_cast<float>(sum - (static_cast<double>(elements_) + 8.0) * 0x1p-22 * (sizes_ + 1.0));
   }
 
   /// May a place reach what is needed? `d`: from the centre.
   [[nodiscard]] Hope may_reach(const Place& d) {
     F square = xsimd::fma(d.x, d.x, d.y * d.y);
     if constexpr (kSpace) square = xsimd::fma(d.z, d.z, square);
-    const F least(least_), sum(sum_);
+    const F sum(sum_);
     F possible(static_cast<float>(greatest_sum_));
     Hope hope = square == square;
     for (std::size_t n = 0; n < elements_; ++n) {
@@ -83,7 +164,7 @@ class RatioBounds {
       F rank(most_[i]);
       for (std::size_t k = first_[i]; k < first_[i + 1]; ++k) {
         const F of_piece = rank_of(near_[k], d, square);
-        hope = hope & (of_piece >= least);
+        hope = hope & (of_piece >= F(least_[i]));
         rank = xsimd::min(rank, of_piece);
       }
       possible = possible - F(slopes_[i]) * (F(most_[i]) - rank);
@@ -96,6 +177,15 @@ class RatioBounds {
   }
 
  private:
+  /// Whatever the mean is.
+  void set_least(double least) {
+    for (std::size_t i = 0; i < elements_; ++i) {
+      const double rank = rank_of_ratio(least) + shifts_[i];
+      least_[i] = static_cast<float>(rank - (1.0 - kLess) * size(rank));
+    }
+    sum_ = -kMost;
+  }
+
   static constexpr bool kSpace = std::is_same_v<Frame, Space>;
   static constexpr std::size_t kMaxElements = kMaxSimplices + kMaxOthers, kMaxPieces = kMaxSimplices + 4 * kMaxOthers;
   // Room for rounding. Of a float's 24 bits a sum of four products loses less than 4, a product or quotient less than 1; of a double's 53,
@@ -103,33 +193,27 @@ class RatioBounds {
   static constexpr double kOfFloats = 0x1p-20, kOfDoubles = 0x1p-44, kMore = 1.0 + 0x1p-19, kLess = 1.0 - 0x1p-19;
   static constexpr double kLeastTangent = 1e-3;
   static constexpr float kMost = std::numeric_limits<float>::max();
+  static constexpr float kUnknown = 1e6F;        // of a rank: more than any
   static constexpr float kLeastSquares = 1e-6F;  // of 1, beneath which a norm may be rounding alone
 
+  struct Form {
+    double v0, vx, vy, vz, s0, sx, sy, sz;
+    SecondOrder<Crossed, F> second;
+  };
   /// A form around the centre, where its squared norm is 1.
   struct Near {
-    float v0, vx, vy, vz, s0, sx, sy, sz, square;
+    float v0, vx, vy, vz, s0, sx, sy, sz;
+    typename SecondOrder<Crossed, F>::Narrow second;
   };
   /// The rank of a piece in the centre, and the most that it may be anywhere.
   struct Reach {
     double here, most;
   };
 
-  void begin_element(double most) {
-    first_[elements_] = static_cast<std::uint16_t>(pieces_);
-    caps_[elements_++] = 1.0;  // no mean ratio is above that
-    cap(most);
-  }
   /// The rank of the element that was begun last is at most this.
   void cap(double most) {
     double& known = caps_[elements_ - 1];
     known = most < 0.0 ? 0.0 : most < known ? most : known;
-  }
-  void take(const volumes::MeanRatioForm<D>& f) {
-    forms_[pieces_++] = {f.v0.get(0), f.vx.get(0), f.vy.get(0), f.vz.get(0),    f.s0.get(0),
-                         f.sx.get(0), f.sy.get(0), f.sz.get(0), f.square.get(0)};
-  }
-  void take(const RatioForm<D>& f) {
-    forms_[pieces_++] = {f.n0.get(0), f.nx.get(0), f.ny.get(0), 0.0, f.s0.get(0), f.sx.get(0), f.sy.get(0), 0.0, f.s2.get(0)};
   }
   template <class Simplex>
   void take_simplex(const Simplex& t) {
@@ -181,37 +265,48 @@ class RatioBounds {
   static double size(double a) { return a < 0.0 ? -a : a; }
 
   Reach move_piece(std::size_t k, const std::array<double, 3>& c, const std::array<double, 3>& half) {
-    const volumes::MeanRatioForm<double>& f = forms_[k];
-    const double cc = c[0] * c[0] + c[1] * c[1] + c[2] * c[2], hh = half[0] * half[0] + half[1] * half[1] + half[2] * half[2];
+    const Form& f = forms_[k];
+    const double second = f.second.at(c);
     const double v_moved = f.v0 + f.vx * c[0] + f.vy * c[1] + f.vz * c[2];
-    const double s_moved = f.s0 + f.sx * c[0] + f.sy * c[1] + f.sz * c[2] + f.square * cc;
+    const double s_moved = f.s0 + f.sx * c[0] + f.sy * c[1] + f.sz * c[2] + second;
     if (!(s_moved > 0.0)) return give_up(k);
     const double by_s = 1.0 / s_moved, by_v = kSpace ? by_s * xsimd::sqrt(D(by_s)).get(0) : by_s;
-    const double v = v_moved * by_v, vx = f.vx * by_v, vy = f.vy * by_v, vz = f.vz * by_v, square = f.square * by_s;
-    const double sx = (f.sx + 2.0 * f.square * c[0]) * by_s, sy = (f.sy + 2.0 * f.square * c[1]) * by_s,
-                 sz = (f.sz + 2.0 * f.square * c[2]) * by_s;
+    const double v = v_moved * by_v, vx = f.vx * by_v, vy = f.vy * by_v, vz = f.vz * by_v;
+    const std::array<double, 3> bend = f.second.slope(c);
+    const double sx = (f.sx + bend[0]) * by_s, sy = (f.sy + bend[1]) * by_s, sz = (f.sz + bend[2]) * by_s;
     const double v_way = size(vx) * half[0] + size(vy) * half[1] + size(vz) * half[2];
     const double s_way = size(sx) * half[0] + size(sy) * half[1] + size(sz) * half[2];
     const double v_terms = (size(f.v0) + size(f.vx * c[0]) + size(f.vy * c[1]) + size(f.vz * c[2])) * by_v;
-    const double s_terms = (size(f.s0) + size(f.sx * c[0]) + size(f.sy * c[1]) + size(f.sz * c[2]) + f.square * cc) * by_s;
-    const double v_room = kOfFloats * (size(v) + v_way) + kOfDoubles * v_terms;
-    const double s_room = kOfFloats * (1.0 + s_way + square * hh) + kOfDoubles * s_terms;
+    const double s_terms = (size(f.s0) + size(f.sx * c[0]) + size(f.sy * c[1]) + size(f.sz * c[2]) + f.second.most(sizes_of(c))) * by_s;
+    const double of_doubles = kOfDoubles * amiss_;
+    const double v_room = kOfFloats * (size(v) + v_way) + of_doubles * v_terms;
+    const double s_room = kOfFloats * (1.0 + s_way + f.second.most(half) * by_s) + of_doubles * s_terms;
     near_[k] = {static_cast<float>(v + v_room), static_cast<float>(vx),           static_cast<float>(vy),
                 static_cast<float>(vz),         static_cast<float>(1.0 - s_room), static_cast<float>(sx),
-                static_cast<float>(sy),         static_cast<float>(sz),           static_cast<float>(square)};
+                static_cast<float>(sy),         static_cast<float>(sz),           f.second.narrow(by_s)};
     const double most_v = v + v_room + v_way, least_s = 1.0 - s_room - s_way;
-    const double most = least_s > 0.1 ? rank(most_v, least_s) : 1.0;
-    return {rank(v, 1.0), most < 1.0 ? most : 1.0};
+    return {rank(v, 1.0), least_s > 0.1 ? rank(most_v, least_s) : kUnknown};  // of no element more than its cap
   }
+  static std::array<double, 3> sizes_of(const std::array<double, 3>& c) { return {size(c[0]), size(c[1]), size(c[2])}; }
   /// A norm that rounding has eaten says nothing.
   Reach give_up(std::size_t k) {
-    near_[k] = {1.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, 0.0F};
-    return {1.0, 1.0};
+    near_[k] = {kUnknown, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, {}};
+    return {kUnknown, kUnknown};
   }
 
+  static F second_order(const Near& f, const Place& d, const F& square) {
+    if constexpr (Crossed) {
+      F s = xsimd::fma(F(f.second.xx) * d.x, d.x, xsimd::fma(F(f.second.yy) * d.y, d.y, F(f.s0)));
+      s = xsimd::fma(F(f.second.xy) * d.x, d.y, s);
+      if constexpr (kSpace) s = xsimd::fma(d.z, xsimd::fma(F(f.second.xz), d.x, xsimd::fma(F(f.second.yz), d.y, F(f.second.zz) * d.z)), s);
+      return s;
+    } else {
+      return xsimd::fma(F(f.second.square), square, F(f.s0));
+    }
+  }
   static F rank_of(const Near& f, const Place& d, const F& square) {
     F v = xsimd::fma(F(f.vx), d.x, xsimd::fma(F(f.vy), d.y, F(f.v0)));
-    F s = xsimd::fma(F(f.sx), d.x, xsimd::fma(F(f.sy), d.y, xsimd::fma(F(f.square), square, F(f.s0))));
+    F s = xsimd::fma(F(f.sx), d.x, xsimd::fma(F(f.sy), d.y, second_order(f, d, square)));
     if constexpr (kSpace) {
       v = xsimd::fma(F(f.vz), d.z, v);
       s = xsimd::fma(F(f.sz), d.z, s);
@@ -230,12 +325,14 @@ class RatioBounds {
   std::size_t pieces_ = 0, elements_ = 0;
   MeanKind mean_ = MeanKind::Harmonic;
   double greatest_sum_ = 0.0, sizes_ = 0.0;  // of the sum's terms
-  float least_ = 0.0F, sum_ = 0.0F;
+  float sum_ = 0.0F;
+  double amiss_ = 1.0;
   std::uint16_t first_[kMaxElements + 1];  // of an element's pieces
   std::uint16_t order_[kMaxElements];
-  double caps_[kMaxElements];                        // the most that an element's rank may be, by its corners that stay
-  float slopes_[kMaxElements], most_[kMaxElements];  // of the tangent; the most that the rank may be near the centre
-  volumes::MeanRatioForm<double> forms_[kMaxPieces];
+  double caps_[kMaxElements], shifts_[kMaxElements];  // the most that an element's rank may be, by its corners that stay
+  float least_[kMaxElements];                         // the rank that it must reach
+  float slopes_[kMaxElements], most_[kMaxElements];   // of the tangent; the most that the rank may be near the centre
+  Form forms_[kMaxPieces];
   Near near_[kMaxPieces];
 };
 

@@ -7,6 +7,7 @@
 #include "core/smooth/kernels/targets/tetrahedron_targets.h"
 #include "core/smooth/methods/aims_kernel.h"
 #include "core/smooth/methods/defined_search.h"
+#include "core/smooth/methods/target_aims_kernel.h"
 #include "core/smooth/methods/volume_star_search.h"
 
 namespace dmoscope {
@@ -129,6 +130,7 @@ template <class Frame>
 std::shared_ptr<const StarKernel<Frame>> star_kernel(const SmoothingTask& task, const CompositeObjective& objective) {
   const bool fast = task.search.precision != Precision::Double;
   if (!objective.is_single()) {
+    if (TargetAimsKernel<Frame>::is_for(task, objective)) return std::make_shared<const TargetAimsKernel<Frame>>(task, objective);
     if (!fast || !is_for_kernels(objective)) return nullptr;
     return std::make_shared<const AimsKernel<Frame>>(task, objective);
   }

@@ -356,9 +356,10 @@ class Look {
     std::vector<std::uint8_t> fixed = standing_vertices(input_, then.rule, domain.get());
     for (const Index v : then.by_hand) fixed[v] = 1;
     std::vector<Index> free = visited_;
-    std::erase_if(free, [&fixed](Index v) { return fixed[v] != 0; });
+    std::erase_if(free, [&](Index v) { return fixed[v] != 0 || (domain != nullptr && domain->leader(v) != kNoIndex); });
     SmoothingTask task = task_of(then, std::move(domain));
-    task.colouring = std::make_shared<const Colouring>(colour_vertices(mesh_, input_.topology, free));
+    task.colouring = std::make_shared<const Colouring>(colour_vertices(
+        mesh_, input_.topology, free, nullptr, task.domain != nullptr ? task.domain->followers() : std::span<const Index>()));
     std::vector<Vec3> positions(q_.positions.begin(), q_.positions.end());
     const auto smoother = make_smoother(task);
     smoother->positions_replaced();

@@ -15,11 +15,13 @@ namespace dmoscope {
 
 namespace {
 
-/// On a curved surface whatever moves slides.
+/// On a curved surface whatever moves slides. Pairs stay, which joint moves would part.
 std::vector<std::uint8_t> held(const InputMesh& input, std::span<const std::uint8_t> fixed, const Domain* domain) {
   std::vector<std::uint8_t> result(fixed.begin(), fixed.end());
   for (Index v = 0; input.is_surface() && v < result.size(); ++v)
     if (domain == nullptr || !domain->slides(v)) result[v] = 1;
+  for (const Partners& pair : domain != nullptr ? domain->pairs() : std::span<const Partners>())
+    result[pair.first] = result[pair.second] = 1;
   return result;
 }
 

@@ -110,10 +110,14 @@ class Curve {
 /// A greedy colouring. Its colours depend on one another along the whole mesh, so one thread finds them; many arrange the classes.
 class Greedy {
  public:
-  Greedy(const Mesh& mesh, const Topology& topology) : mesh_(mesh), topology_(topology), colour_(mesh.positions.size(), kNone) {}
+  Greedy(const Mesh& mesh, const Topology& topology, std::span<const Index> followers)
+      : mesh_(mesh), topology_(topology), followers_(followers), colour_(mesh.positions.size(), kNone) {}
 
   void colour(std::span<const Index> vertices) {
-    for (const Index v : vertices) colour_[v] = lowest_free(v);
+    for (const Index v : vertices) {
+      colour_[v] = lowest_free(v);
+      if (const Index follower = follower_of(v); follower != kNoIndex) colour_[follower] = colour_[v];
+    }
   }
 
   [[nodiscard]] Colouring classes(std::span<const Index> vertices, ThreadPool* pool) const {
@@ -151,21 +155,31 @@ class Greedy {
   static constexpr Colour kNone = 0xffff;
   static constexpr std::size_t kPart = 32768;  // vertices
 
-  /// The lowest colour that none of the vertices that share an element with v has.
+  [[nodiscard]] Index follower_of(Index v) const { return followers_.empty() ? kNoIndex : followers_[v]; }
+
+  /// Of the 64 colours from `base` on those of the vertices that share an element with v.
+  [[nodiscard]] std::uint64_t colours_around(Index v, unsigned base) const {
+    std::uint64_t taken = 0;
+    for (const Incidence& incidence : topology_.star(v))
+      for (const Index other : mesh_.elements.corners(incidence.element)) {
+        const unsigned above = colour_[other] - base;  // wraps where it is below
+        if (above < 64) taken |= std::uint64_t{1} << above;
+      }
+    return taken;
+  }
+  /// The lowest colour that none of the vertices that share an element with v, or with its follower, has.
   [[nodiscard]] Colour lowest_free(Index v) const {
+    const Index follower = follower_of(v);
     for (unsigned base = 0;; base += 64) {
-      std::uint64_t taken = 0;
-      for (const Incidence& incidence : topology_.star(v))
-        for (const Index other : mesh_.elements.corners(incidence.element)) {
-          const unsigned above = colour_[other] - base;  // wraps where it is below
-          if (above < 64) taken |= std::uint64_t{1} << above;
-        }
+      std::uint64_t taken = colours_around(v, base);
+      if (follower != kNoIndex) taken |= colours_around(follower, base);
       if (~taken != 0) return static_cast<Colour>(base + static_cast<unsigned>(std::countr_one(taken)));
     }
   }
 
   const Mesh& mesh_;
   const Topology& topology_;
+  std::span<const Index> followers_;
   std::vector<Colour> colour_;
 };
 
@@ -211,8 +225,9 @@ void sort_classes(Colouring& colouring, const Curve& curve, ThreadPool* pool) {
 
 }  // namespace
 
-Colouring colour_vertices(const Mesh& mesh, const Topology& topology, std::span<const Index> free_vertices, ThreadPool* pool) {
-  Greedy greedy(mesh, topology);
+Colouring colour_vertices(const Mesh& mesh, const Topology& topology, std::span<const Index> free_vertices, ThreadPool* pool,
+                          std::span<const Index> followers) {
+  Greedy greedy(mesh, topology, followers);
   greedy.colour(free_vertices);
   return greedy.classes(free_vertices, pool);
 }

@@ -24,8 +24,9 @@ struct Colouring {
 
 /// Greedy colouring in the order given: each vertex gets the lowest colour that no vertex sharing an ELEMENT with it has.
 /// Within a class the vertices keep that order. `free_vertices`: distinct vertex indices. The same for any pool (null: this thread alone).
+/// `followers`: by vertex another one that moves with it, which is not free itself, or kNoIndex; empty: none.
 [[nodiscard]] Colouring colour_vertices(const Mesh& mesh, const Topology& topology, std::span<const Index> free_vertices,
-                                        ThreadPool* pool = nullptr);
+                                        ThreadPool* pool = nullptr, std::span<const Index> followers = {});
 
 /// Reorders every class, which changes no result since its members do not see each other: along a space-filling curve of `plane` (null: of
 /// space), so that neighbours in space are neighbours in memory, and in stretches of it by the size of their stars, so that vertices that

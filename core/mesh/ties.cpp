@@ -15,7 +15,9 @@ bool share_an_element(const Mesh& mesh, const Topology& topology, Index a, Index
   });
 }
 
-void tie_doubles(const Mesh& mesh, const Topology& topology, std::vector<Tie>& ties) {
+/// Calls take(a, b), a < b, with vertices of the boundary at the same place that no element has both of: of three there, with two pairs.
+template <class Take>
+void for_doubles(const Mesh& mesh, const Topology& topology, const Take& take) {
   std::vector<Index> order;
   for (Index v = 0; v < mesh.vertex_count(); ++v)
     if (topology.boundary()[v] != 0 && !topology.star(v).empty()) order.push_back(v);
@@ -26,9 +28,7 @@ void tie_doubles(const Mesh& mesh, const Topology& topology, std::vector<Tie>& t
   std::ranges::sort(order, {}, [&](Index v) { return std::tuple(place(v), v); });
   for (std::size_t i = 1; i < order.size(); ++i) {
     const Index a = order[i - 1], b = order[i];
-    if (place(a) != place(b) || share_an_element(mesh, topology, a, b)) continue;
-    for (const Index v : {a, b})
-      if (ties[v] == Tie::None) ties[v] = Tie::Double;
+    if (place(a) == place(b) && !share_an_element(mesh, topology, a, b)) take(a, b);
   }
 }
 
@@ -58,10 +58,27 @@ bool is_one_cell_thick(const Mesh& mesh, const Topology& topology, const FaceNei
   return true;
 }
 
+std::vector<Partners> find_partners(const Mesh& mesh, const Topology& topology) {
+  std::vector<Index> ties(mesh.vertex_count(), 0);  // by vertex: to how many others
+  for (const auto& pair : mesh.periodic)
+    for (const Index v : pair) ++ties[v];
+  std::vector<Partners> partners;
+  for_doubles(mesh, topology, [&](Index a, Index b) {
+    ++ties[a], ++ties[b];
+    partners.push_back({a, b});
+  });
+  std::erase_if(partners, [&ties](const Partners& pair) { return ties[pair.first] > 1 || ties[pair.second] > 1; });
+  std::ranges::sort(partners, {}, &Partners::first);
+  return partners;
+}
+
 std::vector<Tie> find_ties(const Mesh& mesh, const Topology& topology, const FaceNeighbours& faces) {
   std::vector<Tie> ties(mesh.vertex_count(), Tie::None);
   for (const auto& [one, other] : mesh.periodic) ties[one] = ties[other] = Tie::Periodic;
-  tie_doubles(mesh, topology, ties);
+  for_doubles(mesh, topology, [&ties](Index a, Index b) {
+    for (const Index v : {a, b})
+      if (ties[v] == Tie::None) ties[v] = Tie::Double;
+  });
   if (is_one_cell_thick(mesh, topology, faces))
     for (Tie& tie : ties) tie = tie == Tie::None ? Tie::Pair : tie;
   return ties;

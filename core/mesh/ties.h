@@ -17,6 +17,15 @@ enum class Tie : std::uint8_t {
   Pair       // the mesh is one cell thick: it has a partner on the other side
 };
 
+/// Two vertices of the boundary that stand for one: the second is where the first is, moved by `shift`.
+struct Partners {
+  Index first, second;
+  Vec3 shift{};
+};
+/// The doubles of which only two stand at a place, in the order of the first, which has the lower number; none that the file pairs with
+/// others.
+[[nodiscard]] std::vector<Partners> find_partners(const Mesh& mesh, const Topology& topology);
+
 /// By vertex. `faces`: of a volume mesh.
 [[nodiscard]] std::vector<Tie> find_ties(const Mesh& mesh, const Topology& topology, const FaceNeighbours& faces);
 

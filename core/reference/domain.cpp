@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/number_text.h"
+#include "core/reference/hold.h"
 #include "core/reference/planar_ends.h"
 #include "core/reference/surface_ends.h"
 
@@ -36,6 +37,24 @@ Domain::Domain(const InputMesh& input, const StandingRule& rule, SurfaceEnds end
     inside_ += slides(v) && !on_boundary ? 1 : 0;
     corners_ += rule.boundary == BoundaryRule::Slide && on_boundary && !slides(v) ? 1 : 0;
   }
+  take_pairs(input);
+}
+
+void Domain::take_pairs(const InputMesh& input) {
+  pairs_ = partners_of(input);
+  std::erase_if(pairs_, [this](const Partners& pair) { return !on_curve(pair.first) || !on_curve(pair.second); });
+  if (pairs_.empty()) return;
+  pair_at_.assign(held_.size(), kNoIndex);
+  followers_.assign(held_.size(), kNoIndex);
+  for (Index i = 0; i < pairs_.size(); ++i) {
+    pair_at_[pairs_[i].first] = pair_at_[pairs_[i].second] = i;
+    followers_[pairs_[i].first] = pairs_[i].second;
+  }
+}
+
+Vec3 Domain::place_of_follower(Index vertex, Vec3 place) const {
+  const Vec3 shift = pairs_[pair_at_[vertex]].shift;
+  return shift == Vec3{} ? place : place + shift;
 }
 
 bool Domain::is_within(std::span<const Curves::Stretch> stretches, Index a, Index b) const {
@@ -89,6 +108,9 @@ std::string Domain::sentence() const {
   if (unmatched > 0)
     text += fmt::format("; {} {}, for {} is too far away, or has no feature edge there", counted(unmatched, "vertex", "vertices"),
                         unmatched == 1 ? "stays" : "stay", surface_);
+  if (!pairs_.empty())
+    text += fmt::format("; {} of doubled vertices {} together", counted(static_cast<Index>(pairs_.size()), "pair", "pairs"),
+                        pairs_.size() == 1 ? "moves" : "move");
   if (tied > 0)
     text += fmt::format("; {} {}, for each belongs to another one, from which it would part (periodic, at a seam, or one cell thick)",
                         counted(tied, "vertex", "vertices"), tied == 1 ? "stays" : "stay");

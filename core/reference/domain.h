@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/mesh/ties.h"
 #include "core/reference/curves.h"
 #include "core/reference/sliding_faces.h"
 #include "core/reference/standing.h"
@@ -48,6 +49,15 @@ class Domain {
   /// What holds a vertex of the boundary, of an interface, or of a surface; "feature edges meet there". Empty for others.
   [[nodiscard]] std::string_view why_held(Index vertex) const;
   [[nodiscard]] HeldOn held_on(Index vertex) const noexcept { return held_[vertex]; }
+  /// Pairs of vertices that slide as one: the second stands where the first does, moved by a shift, and is visited with it.
+  [[nodiscard]] std::span<const Partners> pairs() const noexcept { return pairs_; }
+  /// The second of a first one, the first of a second one; kNoIndex of any other.
+  [[nodiscard]] Index follower(Index vertex) const noexcept { return pair_of(vertex, &Partners::first, &Partners::second); }
+  [[nodiscard]] Index leader(Index vertex) const noexcept { return pair_of(vertex, &Partners::second, &Partners::first); }
+  /// By vertex its follower(); empty: there are no pairs.
+  [[nodiscard]] std::span<const Index> followers() const noexcept { return followers_; }
+  /// Where the follower stands when the vertex stands at `place`.
+  [[nodiscard]] Vec3 place_of_follower(Index vertex, Vec3 place) const;
   [[nodiscard]] Index count() const noexcept { return sliding_; }        // of vertices that slide
   [[nodiscard]] Index count_inside() const noexcept { return inside_; }  // of these, off the boundary
   [[nodiscard]] Index count_on_curves() const noexcept { return on_curves_; }
@@ -64,14 +74,22 @@ class Domain {
   };
   Domain(const InputMesh& input, const StandingRule& rule, SurfaceEnds ends);
   void find_feature_edges();
+  void take_pairs(const InputMesh& input);
+  [[nodiscard]] Index pair_of(Index vertex, Index Partners::*own, Index Partners::*other) const noexcept {
+    if (pair_at_.empty() || pair_at_[vertex] == kNoIndex) return kNoIndex;
+    const Partners& pair = pairs_[pair_at_[vertex]];
+    return pair.*own == vertex ? pair.*other : kNoIndex;
+  }
 
   Curves curves_;
   SlidingFaces faces_;
   std::vector<Segment> segments_;  // of all curves, ascending
   std::vector<EdgeEnds> feature_edges_;
-  std::vector<HeldOn> held_;    // by vertex
-  std::string surface_;         // the name of the mesh on whose surface it slides; empty: its own
-  bool said_in_plane_ = false;  // whether a person names feature edges of a planar mesh
+  std::vector<Partners> pairs_;
+  std::vector<Index> pair_at_, followers_;  // by vertex; empty: no pairs
+  std::vector<HeldOn> held_;                // by vertex
+  std::string surface_;                     // the name of the mesh on whose surface it slides; empty: its own
+  bool said_in_plane_ = false;              // whether a person names feature edges of a planar mesh
   bool is_surface_;
   Index sliding_ = 0, inside_ = 0, on_curves_ = 0, corners_ = 0;
 };

@@ -1,9 +1,8 @@
 #include "core/reference/hold.h"
 
 #include <cmath>
+#include <numeric>
 #include <vector>
-
-#include "core/mesh/ties.h"
 
 namespace dmoscope {
 
@@ -45,9 +44,35 @@ void hold_named_points(const InputMesh& input, CurveEnds& ends) {
 }
 
 void hold_tied(const InputMesh& input, CurveEnds& ends) {
-  const std::vector<Tie> ties = find_ties(input.mesh, input.topology, input.faces);
+  std::vector<Tie> ties = find_ties(input.mesh, input.topology, input.faces);
+  for (const Partners& pair : partners_of(input)) ties[pair.first] = ties[pair.second] = Tie::None;
   for (Index v = 0; v < ends.size(); ++v)
     if (ties[v] != Tie::None) ends.hold(v, HeldOn::Tied);
+}
+
+void hold_parting(const InputMesh& input, CurveEnds& ends) {
+  const std::vector<Partners> pairs = partners_of(input);
+  if (pairs.empty()) return;
+  std::vector<Index> image(ends.size());
+  std::iota(image.begin(), image.end(), Index{0});
+  for (const Partners& pair : pairs) image[pair.first] = pair.second;
+  for (const auto& [first, second, shift] : pairs) {
+    const bool both = ends.slides(first) && ends.slides(second);
+    if (both) {
+      // A curve may begin at either end, and at a vertex that both have in common.
+      const auto stands_for = [&](Index of_first, Index of_second) { return image[of_first] == of_second || image[of_second] == of_first; };
+      const auto [a, b] = ends.of(first);
+      const auto [c, d] = ends.of(second);
+      if ((stands_for(a, c) && stands_for(b, d)) || (stands_for(a, d) && stands_for(b, c))) continue;
+    }
+    for (const Index v : {first, second})
+      if (ends.slides(v)) ends.hold(v, HeldOn::Tied);
+  }
+}
+
+std::vector<Partners> partners_of(const InputMesh& input) {
+  if (input.is_volume() || input.surface || input.share) return {};
+  return find_partners(input.mesh, input.topology);
 }
 
 }  // namespace dmoscope

@@ -1,7 +1,10 @@
 #pragma once
 // What holds vertices that could slide: corners, and the meaning that the file gives them.
 
+#include <vector>
+
 #include "core/input/input_mesh.h"
+#include "core/mesh/ties.h"
 #include "core/reference/curve_ends.h"
 #include "core/reference/named_edges.h"
 #include "core/reference/standing.h"
@@ -18,7 +21,11 @@ void hold_ends_of_names(const NamedEdges& names, CurveEnds& ends);
 /// Holds points that the file names, but in lists of all that there are, and the corners of required elements and faces.
 void hold_named_points(const InputMesh& input, CurveEnds& ends);
 
-/// Holds vertices that belong to others, so that they do not part.
+/// Holds vertices that belong to others, from which they would part: all but partners, which may move together.
 void hold_tied(const InputMesh& input, CurveEnds& ends);
+/// Holds those partners, too, that do not both slide between the same places. After all else that holds.
+void hold_parting(const InputMesh& input, CurveEnds& ends);
+/// Who may move together: of planar meshes and curved surfaces that slide along curves of their own.
+[[nodiscard]] std::vector<Partners> partners_of(const InputMesh& input);
 
 }  // namespace dmoscope

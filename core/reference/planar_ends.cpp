@@ -5,6 +5,20 @@
 
 namespace dmoscope {
 
+namespace {
+
+/// Holds where interfaces meet the boundary, and who slides at a named line but not along it.
+void hold_at_interfaces(const InputMesh& input, NamedEdges& names, CurveEnds& ends) {
+  for (Index v = 0; v < ends.size(); ++v)
+    if (input.interfaces.meets_boundary_at(v)) ends.hold(v, HeldOn::Rule);
+  names.for_lines([&ends](Index a, Index b) {
+    if (ends.slides(a) && ends.of(a)[0] != b && ends.of(a)[1] != b) ends.hold(a, HeldOn::Named);
+    if (ends.slides(b) && ends.of(b)[0] != a && ends.of(b)[1] != a) ends.hold(b, HeldOn::Named);
+  });
+}
+
+}  // namespace
+
 CurveEnds planar_ends(const InputMesh& input, const StandingRule& rule) {
   CurveEnds ends(input.mesh.vertex_count());
   const bool boundary = rule.boundary == BoundaryRule::Slide, interfaces = rule.interfaces == InterfaceRule::Slide;
@@ -26,13 +40,8 @@ CurveEnds planar_ends(const InputMesh& input, const StandingRule& rule) {
   hold_ends_of_names(names, ends);
   hold_tied(input, ends);
   hold_named_points(input, ends);
-  if (rule.interfaces == InterfaceRule::Free) return ends;
-  for (Index v = 0; v < ends.size(); ++v)
-    if (input.interfaces.meets_boundary_at(v)) ends.hold(v, HeldOn::Rule);
-  names.for_lines([&ends](Index a, Index b) {
-    if (ends.slides(a) && ends.of(a)[0] != b && ends.of(a)[1] != b) ends.hold(a, HeldOn::Named);
-    if (ends.slides(b) && ends.of(b)[0] != a && ends.of(b)[1] != a) ends.hold(b, HeldOn::Named);
-  });
+  if (rule.interfaces != InterfaceRule::Free) hold_at_interfaces(input, names, ends);
+  hold_parting(input, ends);
   return ends;
 }
 

@@ -27,24 +27,28 @@ std::vector<std::uint8_t> fixed_vertices(const InputMesh& input, const RunParame
     fixed[on_front(input.mesh, v)] = 1;
   }
   if (input.share) input.share->agree(fixed);
+  for (const Partners& pair : domain != nullptr ? domain->pairs() : std::span<const Partners>())  // who stays holds its partner
+    fixed[pair.first] = fixed[pair.second] = fixed[pair.first] | fixed[pair.second];
   return fixed;
 }
 
-std::vector<Index> free_vertices(std::span<const std::uint8_t> fixed, const VisitOrder& order) {
+/// But for those that are visited with others.
+std::vector<Index> free_vertices(std::span<const std::uint8_t> fixed, const VisitOrder& order, const Domain* domain) {
   std::vector<Index> free;
   reserve_large(free, fixed.size());
   for (Index v = 0; v < fixed.size(); ++v)
-    if (fixed[v] == 0) free.push_back(v);
+    if (fixed[v] == 0 && (domain == nullptr || domain->leader(v) == kNoIndex)) free.push_back(v);
   return order.seed ? shuffled(free, *order.seed) : free;
 }
 
 std::shared_ptr<const Colouring> make_colouring(const InputMesh& input, std::span<const std::uint8_t> fixed, const VisitOrder& order,
-                                                ThreadPool* pool) {
+                                                const Domain* domain, ThreadPool* pool) {
   if (input.share) {
     if (order.seed) throw UsageError("several processes visit the vertices in their natural order alone");
     return std::make_shared<const Colouring>(input.share->colour(input.mesh, input.geometry, input.topology, fixed, pool));
   }
-  Colouring colouring = colour_vertices(input.mesh, input.topology, free_vertices(fixed, order), pool);
+  Colouring colouring = colour_vertices(input.mesh, input.topology, free_vertices(fixed, order, domain), pool,
+                                        domain != nullptr ? domain->followers() : std::span<const Index>());
   arrange_classes(colouring, input.mesh, input.is_volume() ? nullptr : &input.geometry.plane, input.topology, pool);
   return std::make_shared<const Colouring>(std::move(colouring));
 }
@@ -96,7 +100,7 @@ Run::Run(std::shared_ptr<const InputMesh> input, RunParameters parameters, std::
       acceleration_(std::move(acceleration)),
       domain_(domain_for(*input_, parameters_.standing())),
       fixed_(std::make_shared<const std::vector<std::uint8_t>>(fixed_vertices(*input_, parameters_, domain_.get()))),
-      colouring_(make_colouring(*input_, fixed(), parameters_.order, pool_.get())),
+      colouring_(make_colouring(*input_, fixed(), parameters_.order, domain_.get(), pool_.get())),
       immovable_(immovable_elements(input_->mesh, fixed(), pool_.get())),
       size_(make_size_field(input_, parameters_.combination)),
       guard_(find_guard(*input_, parameters_, immovable_, pool_.get())),

@@ -12,8 +12,7 @@
 #include "core/quality/defined_quality.h"
 #include "core/quality/power_mean.h"
 #include "core/search/grid_search.h"
-#include "core/search/mesh_star.h"
-#include "core/search/surface_star.h"
+#include "core/search/joined_star.h"
 
 namespace dmoscope {
 
@@ -102,8 +101,9 @@ class DefinedStar {
  public:
   using Offset = OffsetIn<Frame, double>;
 
-  DefinedStar(const DefinedStarJudge<Frame>& judge, PositionView positions, Index vertex)
-      : judge_(judge), positions_(positions), vertex_(vertex), here_(positions[vertex]) {
+  /// `follower`: a vertex that moves by the same way, whose elements come after the other one's; kNoIndex: none.
+  DefinedStar(const DefinedStarJudge<Frame>& judge, PositionView positions, Index vertex, Index follower = kNoIndex)
+      : judge_(judge), positions_(positions), vertex_(vertex), follower_(follower), here_(positions[vertex]) {
     gather();
   }
 
@@ -112,6 +112,7 @@ class DefinedStar {
   [[nodiscard]] const DefinedStarJudge<Frame>& judge() const { return judge_; }
   [[nodiscard]] PositionView positions() const { return positions_; }
   [[nodiscard]] Index vertex() const { return vertex_; }
+  [[nodiscard]] Index follower() const { return follower_; }
 
   /// An element of the star. E: StarTriangle<double> and so on.
   template <class E>
@@ -187,11 +188,11 @@ class DefinedStar {
 
   /// Of an element with the vertex at an offset, in units of scale(); during a level of Levels at the candidate that comes.
   [[nodiscard]] double quality(std::size_t number, Offset p) const {
-    if (level_.places.empty()) return judge_.quality(order_[number], positions_, vertex_, place(p));
+    if (level_.places.empty()) return quality_at(order_[number], place(p));
     std::vector<double>& known = level_.qualities[number];
     if (known.empty()) {
       known.resize(level_.places.size());
-      judge_.qualities(order_[number], positions_, vertex_, level_.places, known.data());
+      qualities_at(order_[number], level_.places, known.data());
     }
     return known[level_.candidate];
   }
@@ -199,9 +200,9 @@ class DefinedStar {
   [[nodiscard]] double least(Offset p) const {
     const Vec3 there = place(p);
     double least = std::numeric_limits<double>::max();
-    for (const Incidence& one : order_) {
+    for (const Around& one : order_) {
       if (!(jacobian(one, there) > 0.0)) return kInverted;
-      least = std::min(least, judge_.quality(one, positions_, vertex_, there));
+      least = std::min(least, quality_at(one, there));
     }
     return std::max(least, kInverted);
   }
@@ -212,7 +213,7 @@ class DefinedStar {
     thread_local std::vector<double> qualities;
     left.resize(offsets.size());
     for (std::size_t i = 0; i < offsets.size(); ++i) left[i] = i, out[i] = std::numeric_limits<double>::max();
-    for (const Incidence& one : order_) {
+    for (const Around& one : order_) {
       places.clear();
       std::size_t kept = 0;
       for (const std::size_t i : left) {
@@ -226,7 +227,7 @@ class DefinedStar {
       }
       left.resize(kept);
       qualities.resize(kept);
-      judge_.qualities(one, positions_, vertex_, places, qualities.data());
+      qualities_at(one, places, qualities.data());
       kept = 0;
       for (std::size_t k = 0; k < left.size(); ++k) {
         const std::size_t i = left[k];
@@ -240,7 +241,7 @@ class DefinedStar {
   static constexpr double kInverted = -1e9;
   [[nodiscard]] double mean(Offset p, MeanKind kind) const {
     PowerMean<double> mean(kind);
-    for (const Incidence& at : order_) mean.add(judge_.quality(at, positions_, vertex_, place(p)));
+    for (const Around& one : order_) mean.add(quality_at(one, place(p)));
     return mean.value(static_cast<double>(order_.size()));
   }
   /// As mean() at each of some offsets, for those where the least is neither inverted nor below `least`; -infinity for the others.
@@ -253,9 +254,9 @@ class DefinedStar {
     left.clear(), places.clear();
     for (std::size_t i = 0; i < offsets.size(); ++i) left.push_back(i), places.push_back(place(offsets[i]));
     std::fill_n(out, offsets.size(), -std::numeric_limits<double>::infinity());
-    for (const Incidence& one : order_) {
+    for (const Around& one : order_) {
       qualities.resize(left.size());
-      judge_.qualities(one, positions_, vertex_, places, qualities.data());
+      qualities_at(one, places, qualities.data());
       std::size_t kept = 0;
       for (std::size_t k = 0; k < left.size(); ++k) {
         if (qualities[k] < least || !(jacobian(one, places[k]) > 0.0)) continue;
@@ -284,11 +285,31 @@ class DefinedStar {
     level_.qualities.resize(order_.size());
     for (auto& known : level_.qualities) known.clear();
   }
+  /// An element, and the vertex of it that moves.
+  struct Around {
+    Incidence at;
+    Index vertex;
+  };
+  /// Where the vertex of an element is when the star's own is `there`.
+  [[nodiscard]] Vec3 place_of(const Around& one, Vec3 there) const {
+    return one.vertex == vertex_ ? there : positions_[one.vertex] + (there - here_);
+  }
+  [[nodiscard]] double quality_at(const Around& one, Vec3 there) const {
+    return judge_.quality(one.at, positions_, one.vertex, place_of(one, there));
+  }
+  void qualities_at(const Around& one, std::span<const Vec3> places, double* out) const {
+    if (one.vertex == vertex_) return judge_.qualities(one.at, positions_, vertex_, places, out);
+    thread_local std::vector<Vec3> followed;  // kept: a visit allocates nothing
+    followed.clear();
+    for (const Vec3& there : places) followed.push_back(place_of(one, there));
+    judge_.qualities(one.at, positions_, one.vertex, followed, out);
+  }
   /// The least of an element's corners that change with the vertex.
-  [[nodiscard]] double jacobian(const Incidence& one, Vec3 there) const {
-    const auto at = [&](Index v) { return v == vertex_ ? there : positions_[v]; };
-    return visit_shape(judge_.mesh.frame_of(one.element), judge_.mesh.corners_of(one.element), at,
-                       [&](const auto& shape) { return formulas::smallest_jacobian_around(shape, one.corner); });
+  [[nodiscard]] double jacobian(const Around& one, Vec3 there) const {
+    const Vec3 moved = place_of(one, there);
+    const auto at = [&](Index v) { return v == one.vertex ? moved : positions_[v]; };
+    return visit_shape(judge_.mesh.frame_of(one.at.element), judge_.mesh.corners_of(one.at.element), at,
+                       [&](const auto& shape) { return formulas::smallest_jacobian_around(shape, one.at.corner); });
   }
   [[nodiscard]] Vec3 place(Offset p) const {
     const Offset offset = times(p, star_.scale);
@@ -299,28 +320,28 @@ class DefinedStar {
   }
 
   void gather() {
-    if constexpr (std::is_same_v<Frame, Curved>)
-      gather_star(judge_.mesh, positions_, vertex_, star_);
-    else
-      gather_star(MeshStar(judge_.mesh, positions_, vertex_), star_);
-    const auto list_of_element = [this](const Incidence& at) {
-      const std::size_t corners = judge_.mesh.corners_of(at.element).size();
+    gather_star_with(judge_.mesh, positions_, vertex_, follower_, star_);
+    const auto list_of_element = [this](const Around& one) {
+      const std::size_t corners = judge_.mesh.corners_of(one.at.element).size();
       if constexpr (!std::is_same_v<Frame, Space>) return corners;  // triangles, quadrilaterals
-      return corners == 4 ? 0 : corners == 8 ? 1 : corners == 6 ? 2 : at.corner < 4 ? 3 : std::size_t{4};
+      return corners == 4 ? 0 : corners == 8 ? 1 : corners == 6 ? 2 : one.at.corner < 4 ? 3 : std::size_t{4};
     };
-    order_.assign(judge_.mesh.star(vertex_).begin(), judge_.mesh.star(vertex_).end());
+    for (const Index v : {vertex_, follower_}) {
+      if (v == kNoIndex) continue;
+      for (const Incidence& at : judge_.mesh.star(v)) order_.push_back({at, v});
+    }
     std::stable_sort(order_.begin(), order_.end(),
-                     [&](const Incidence& a, const Incidence& b) { return list_of_element(a) < list_of_element(b); });
+                     [&](const Around& a, const Around& b) { return list_of_element(a) < list_of_element(b); });
   }
 
   using Gathered = std::conditional_t<std::is_same_v<Frame, Plane>, Star<double>,
                                       std::conditional_t<std::is_same_v<Frame, Space>, VolumeStar<double>, SurfaceStar>>;
   DefinedStarJudge<Frame> judge_;
   PositionView positions_;
-  Index vertex_;
+  Index vertex_, follower_;
   Vec3 here_;
   Gathered star_;
-  std::vector<Incidence> order_;  // of the elements, as the lists have them
+  std::vector<Around> order_;  // of the elements, as the lists have them
   mutable Level level_;
 };
 

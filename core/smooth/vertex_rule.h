@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/base/memory.h"
+#include "core/reference/domain.h"
 #include "core/smooth/reference_visit.h"
 #include "core/smooth/smoother.h"
 
@@ -78,7 +79,9 @@ template <VertexRule Rule>
 template <VertexRule Rule>
 class RuleSmoother final : public Smoother {
  public:
-  RuleSmoother(const SmoothingTask& task, Rule rule) : input_(task.input), colouring_(task.colouring), rule_(std::move(rule)) {
+  RuleSmoother(const SmoothingTask& task, Rule rule)
+      : input_(task.input), colouring_(task.colouring), pairs_(task.domain), rule_(std::move(rule)) {
+    if (pairs_ && pairs_->pairs().empty()) pairs_.reset();
     if constexpr (kSleeps) awake_ = large_vector<std::uint8_t>(input_->mesh.positions.size());
     positions_replaced();
     begin({});
@@ -136,6 +139,10 @@ class RuleSmoother final : public Smoother {
     }
     positions[vertex] = *target;
     if constexpr (kSleeps) wake_around(vertex);
+    if (const Index follower = pairs_ ? pairs_->follower(vertex) : kNoIndex; follower != kNoIndex) {
+      positions[follower] = pairs_->place_of_follower(vertex, *target);
+      if constexpr (kSleeps) wake_star(follower);
+    }
     return true;
   }
   /// Vertices of one class have no element in common, but may have a neighbour.
@@ -151,10 +158,14 @@ class RuleSmoother final : public Smoother {
     for (const Incidence& at : input_->topology.star(vertex))
       for (const Index other : input_->mesh.elements.corners(at.element)) wake(other);
   }
-  void wake(Index vertex) { std::atomic_ref(awake_[vertex]).store(1, std::memory_order_relaxed); }
+  void wake(Index vertex) {
+    const Index leader = pairs_ ? pairs_->leader(vertex) : kNoIndex;
+    std::atomic_ref(awake_[leader == kNoIndex ? vertex : leader]).store(1, std::memory_order_relaxed);
+  }
 
   std::shared_ptr<const InputMesh> input_;  // which the rule looks into
   std::shared_ptr<const Colouring> colouring_;
+  std::shared_ptr<const Domain> pairs_;  // null: none move together
   Rule rule_;
   std::vector<std::uint8_t> awake_;  // by vertex; where one sleeps
   Untangling untangling_{};          // by which those asleep stay

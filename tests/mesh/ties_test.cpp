@@ -56,6 +56,16 @@ TEST(Ties, DoublesOfASeamAreFoundAndNeighboursAreNot) {
   const auto seam = input(std::move(mesh));
   const auto ties = ties_of(*seam);
   EXPECT_EQ(count(ties, Tie::Double), 10U);
+  const auto partners = find_partners(seam->mesh, seam->topology);
+  ASSERT_EQ(partners.size(), 5U);
+  for (const auto& [first, second, shift] : partners) {
+    EXPECT_LT(first, second);
+    EXPECT_EQ(seam->mesh.positions[first], seam->mesh.positions[second]);
+    EXPECT_EQ(shift, Vec3{});
+  }
+  Mesh paired = seam->mesh;
+  paired.periodic = {{partners[0].first, 0}, {partners[1].second, 0}};
+  EXPECT_EQ(find_partners(paired, seam->topology).size(), 3U) << "others that the file pairs";
   for (Index v = 0; v < seam->mesh.vertex_count(); ++v) EXPECT_EQ(ties[v] == Tie::Double, seam->mesh.positions[v].x == 1.0) << v;
 }
 

@@ -118,9 +118,11 @@ TEST(Curves, BothSidesOfASlitStayTogetherAndItsTipsStay) {
     slit.elements.add(ElementKind::Quadrilateral, corners);
   }
   const auto found = sliding(*input(slit));
-  EXPECT_FALSE(found.contains(cut) || found.contains(twin)) << "they would part";
+  EXPECT_TRUE(found.contains(cut) && found.contains(twin)) << "they slide as one";
   EXPECT_FALSE(found.contains(at(4, 1, 2)) || found.contains(at(4, 3, 2))) << "the tips";
-  EXPECT_EQ(found.size(), 12U);
+  EXPECT_EQ(found.size(), 14U);
+  slit.periodic = {{cut, at(4, 2, 0)}};
+  EXPECT_FALSE(sliding(*input(slit)).contains(cut)) << "the file pairs it with another one";
 }
 
 TEST(Curves, WhereTheBoundaryTouchesItselfItStays) {

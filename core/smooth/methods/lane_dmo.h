@@ -30,6 +30,7 @@ class LaneDmo final : public Smoother {
   LaneDmo(const SmoothingTask& task, Visit<Plane, Grid> alone, LaneKernel kernel, const MakeTargets& targets = {})
       : input_(task.input),
         colouring_(task.colouring),
+        pairs_(task.domain),
         alone_(std::move(alone)),
         table_(build_star_table(input_->mesh, input_->topology, *colouring_, task.pool)),
         targets_(targets ? targets(table_) : StarTargets{}),
@@ -37,6 +38,7 @@ class LaneDmo final : public Smoother {
         ranked_(large_vector<Vec3>(table_.vertex_of_rank.size())),
         awake_(large_vector<std::uint8_t>(table_.vertex_of_rank.size())),
         task_(describe(task.search)) {
+    if (pairs_ && pairs_->pairs().empty()) pairs_.reset();
     for (std::size_t rank = 0; rank < colouring_->order.size(); ++rank)
       if (alone_.slides(colouring_->order[rank])) table_.shapes[rank].kind = StarShape::Kind::Alone;
   }
@@ -51,6 +53,7 @@ class LaneDmo final : public Smoother {
     std::atomic<std::uint64_t> moved{0}, searched{0};
     stored_ = false;
     for_classes(*colouring_, first, count, [&](std::uint64_t from, std::uint64_t to) {
+      wake_leaders();
       const auto chunk = [&](std::size_t begin, std::size_t end) {
         // Those of one class do not wake each other, so who is awake now is who will be visited.
         const auto here = std::span(awake_).subspan(from + begin, end - begin);
@@ -112,10 +115,29 @@ class LaneDmo final : public Smoother {
       auto& self = *static_cast<LaneDmo*>(owner);
       thread_local Visit<Plane, Grid>::Scratch room;  // kept: stepping allocates nothing
       const auto target = self.alone_.target(self.view(), self.table_.vertex_of_rank[rank], room);
-      if (target) self.ranked_[rank] = *target;
-      return target.has_value();
+      if (!target) return false;
+      self.ranked_[rank] = *target;
+      self.follow(rank);
+      return true;
     };
     return task;
+  }
+
+  /// Takes along who moves with a vertex, and wakes its star.
+  void follow(Index rank) {
+    const Index vertex = table_.vertex_of_rank[rank], follower = pairs_ ? pairs_->follower(vertex) : kNoIndex;
+    if (follower == kNoIndex) return;
+    ranked_[table_.rank_of_vertex[follower]] = pairs_->place_of_follower(vertex, ranked_[rank]);
+    for (const Incidence& at : input_->topology.star(follower))
+      for (const Index other : input_->mesh.elements.corners(at.element)) wake(table_.rank_of_vertex[other]);
+  }
+  void wake(Index rank) { std::atomic_ref(awake_[rank]).store(1, std::memory_order_relaxed); }
+  /// Whose follower was woken is awake.
+  void wake_leaders() {
+    if (!pairs_) return;
+    for (const Partners& pair : pairs_->pairs())
+      if (std::uint8_t& follower = awake_[table_.rank_of_vertex[pair.second]]; std::exchange(follower, std::uint8_t{0}) != 0)
+        awake_[table_.rank_of_vertex[pair.first]] = 1;
   }
 
   /// Lanes are for sound stars, which wait.
@@ -139,6 +161,7 @@ class LaneDmo final : public Smoother {
 
   std::shared_ptr<const InputMesh> input_;
   std::shared_ptr<const Colouring> colouring_;
+  std::shared_ptr<const Domain> pairs_;  // null: none move together
   Visit<Plane, Grid> alone_;
   StarTable table_;
   StarTargets targets_;  // empty: ideal ones

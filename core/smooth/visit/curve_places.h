@@ -122,18 +122,35 @@ class CurvePlaces {
 
   template <class Confirm>
   [[nodiscard]] std::optional<Vec3> possible(double place, const Confirm& confirm) const {
-    const Curves& curves = domain_.curves();
     if (!(beside_.place_before < place && place < beside_.place_after)) return std::nullopt;
-    const Vec3 here = positions_[vertex_], target = curves.at(vertex_, place);
-    // Rounding may put the vertex elsewhere: it must still be between the neighbours.
-    const auto landed = curves.place(vertex_, target);
-    if (!landed || !curves.neighbours(vertex_, *landed, positions_)) return std::nullopt;
+    const Vec3 target = domain_.curves().at(vertex_, place);
+    if (!is_between(vertex_, target)) return std::nullopt;
+    const Index follower = domain_.follower(vertex_);
+    const Vec3 behind = follower != kNoIndex ? domain_.place_of_follower(vertex_, target) : Vec3{};
+    if (follower != kNoIndex && !is_between(follower, behind)) return std::nullopt;
     if (confirm(target) != Confirmation::Gains) return std::nullopt;
+    if (!keeps_near({vertex_, positions_[vertex_], target}, place_, place, beside_, fit_now_)) return std::nullopt;
+    return follower == kNoIndex || follows_near(follower, behind) ? std::optional(target) : std::nullopt;
+  }
+  /// Rounding may put a vertex elsewhere: it must still be between its neighbours.
+  [[nodiscard]] bool is_between(Index vertex, Vec3 target) const {
+    const auto landed = domain_.curves().place(vertex, target);
+    return landed && domain_.curves().neighbours(vertex, *landed, positions_);
+  }
+  /// Do edges and faces stay as near to the input as they must?
+  [[nodiscard]] bool keeps_near(const DeviationBound::Move& move, double from, double to, const Curves::Neighbours& beside,
+                                std::optional<Fit>& fit_now) const {
     const DeviationBound& bound = domain_.bound();
-    const auto deviation = [&](double at, Vec3 position) { return bound.along_curve(positions_, vertex_, beside_, at, position); };
-    const double there = deviation(place, target);
-    if (!(there <= bound.most()) && !(there <= deviation(place_, here))) return std::nullopt;
-    return bound.allows_faces(positions_, {vertex_, here, target}, room_.overlay, fit_now_) ? std::optional(target) : std::nullopt;
+    const auto deviation = [&](double at, Vec3 position) { return bound.along_curve(positions_, move.vertex, beside, at, position); };
+    const double there = deviation(to, move.to);
+    if (!(there <= bound.most()) && !(there <= deviation(from, move.from))) return false;
+    return bound.allows_faces(positions_, move, room_.overlay, fit_now);
+  }
+  [[nodiscard]] bool follows_near(Index follower, Vec3 target) const {
+    const Curves& curves = domain_.curves();
+    const auto from = curves.place(follower, positions_[follower]), to = curves.place(follower, target);
+    const auto beside = from ? curves.neighbours(follower, *from, positions_) : std::nullopt;
+    return beside && to && keeps_near({follower, positions_[follower], target}, *from, *to, *beside, fit_of_follower_);
   }
 
   const SlidingDomain& domain_;
@@ -144,7 +161,7 @@ class CurvePlaces {
   SearchRoom<Frame>& room_;
   double place_;
   Curves::Neighbours beside_;
-  mutable std::optional<Fit> fit_now_{};  // of the faces around, once it is known
+  mutable std::optional<Fit> fit_now_{}, fit_of_follower_{};  // of the faces around, once it is known
 };
 
 }  // namespace dmoscope

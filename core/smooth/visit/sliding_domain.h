@@ -16,6 +16,9 @@ class SlidingDomain {
 
   [[nodiscard]] bool slides(Index vertex) const { return domain_ != nullptr && domain_->slides(vertex); }
   [[nodiscard]] bool on_curve(Index vertex) const { return domain_->on_curve(vertex); }
+  /// Who moves with a vertex, and where to: see Domain.
+  [[nodiscard]] Index follower(Index vertex) const { return domain_->follower(vertex); }
+  [[nodiscard]] Vec3 place_of_follower(Index vertex, Vec3 place) const { return domain_->place_of_follower(vertex, place); }
   [[nodiscard]] const Curves& curves() const { return domain_->curves(); }
   [[nodiscard]] const SlidingFaces& faces() const { return domain_->faces(); }
   [[nodiscard]] const Facets& facets() const { return domain_->faces().facets(); }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/search/joined_star.h"
 #include "core/smooth/edge_neighbours.h"
 #include "core/smooth/visit/defined_pieces.h"
 
@@ -77,6 +78,13 @@ std::array<MetricFunctions<Frame>, kMetricCount> make_table() {
       functions = formulas::with_planar_metric(entry.metric, []<Metric M>() { return functions_of<M, Frame>(); });
   }
   return table;
+}
+
+/// What the qualities whose mean is `mean` add up: see PowerMean.
+double total_of_mean(MeanKind kind, double mean, double count) {
+  if (kind == MeanKind::Arithmetic) return mean * count;
+  if (kind == MeanKind::Harmonic) return count / mean;
+  return kind == MeanKind::InverseSquare ? count / (mean * mean) : mean;
 }
 
 /// A rising function that is above 0: formulas may be below.
@@ -273,7 +281,12 @@ void StarScore<Frame>::append_pieces(Offset p, std::vector<StarPiece<Frame>>& ou
 /// The pieces of a metric; `defined`: its star where it is not built in.
 template <class Frame>
 void StarScore<Frame>::append(Metric metric, const DefinedStar<Frame>* defined, Offset p, std::vector<StarPiece<Frame>>& out) const {
-  if (defined != nullptr) return append_defined_pieces(defined->judge(), defined->positions(), defined->vertex(), star_->scale, p, out);
+  if (defined != nullptr) {
+    append_defined_pieces(defined->judge(), defined->positions(), defined->vertex(), star_->scale, p, out);
+    if (defined->follower() != kNoIndex)
+      append_defined_pieces(defined->judge(), defined->positions(), defined->follower(), star_->scale, p, out);
+    return;
+  }
   metric_functions<Frame>(metric).pieces(*star_, p, out);
 }
 
@@ -313,8 +326,10 @@ double StarJudge<Frame>::second(PositionView positions, Index vertex, Vec3 place
 }
 
 template <class Frame>
-StarJudge<Frame>::StarJudge(const InputMesh& input, CompositeObjective composite, std::optional<SimdLevel> packs)
-    : input_(&input), view_(input.view<Frame>()), composite_(std::move(composite)) {
+StarJudge<Frame>::StarJudge(const InputMesh& input, CompositeObjective composite, std::optional<SimdLevel> packs,
+                            std::shared_ptr<const Domain> pairs)
+    : input_(&input), view_(input.view<Frame>()), composite_(std::move(composite)), pairs_(std::move(pairs)) {
+  if (pairs_ && pairs_->pairs().empty()) pairs_.reset();
   if (packs && is_for_kernels(composite_)) list_kernel_ = composite_list_kernel<Frame>(*packs, composite_.first);
   if (!is_built_in(composite_.first)) first_ = input.quality_context().judge(composite_.first);
   if (const auto* second = std::get_if<Metric>(&composite_.second); second != nullptr && !is_built_in(*second))
@@ -329,6 +344,16 @@ DefinedStarJudge<Frame> StarJudge<Frame>::star_judge(const DefinedJudge& judge) 
 
 template <class Frame>
 StarState StarJudge<Frame>::state(Metric metric, PositionView positions, Index vertex, Vec3 place) const {
+  const StarState own = own_state(metric, positions, vertex, place);
+  const Index other = follower(vertex);
+  if (other == kNoIndex) return own;
+  const StarState beside = own_state(metric, positions, other, pairs_->place_of_follower(vertex, place));
+  return {std::min(own.jacobian, beside.jacobian), std::min(own.quality, beside.quality), std::min(own.untangling, beside.untangling),
+          own.inverted + beside.inverted, std::min(own.sound, beside.sound)};
+}
+
+template <class Frame>
+StarState StarJudge<Frame>::own_state(Metric metric, PositionView positions, Index vertex, Vec3 place) const {
   if (is_built_in(metric)) return metric_functions<Frame>(metric).state(view_, positions, vertex, place);
   const auto& judge = metric == composite_.first ? first_ : composite_.guard && metric == composite_.guard->metric ? guard_ : second_;
   return defined_star_state(star_judge(*judge), positions, vertex, place);
@@ -336,6 +361,19 @@ StarState StarJudge<Frame>::state(Metric metric, PositionView positions, Index v
 
 template <class Frame>
 double StarJudge<Frame>::mean(PositionView positions, Index vertex, Vec3 place) const {
+  const double own = own_mean(positions, vertex, place);
+  const Index other = follower(vertex);
+  if (other == kNoIndex) return own;
+  const MeanKind kind = std::get<MeanOfStar>(composite_.second).kind;
+  const auto size = [this](Index v) { return static_cast<double>(view_.star(v).size()); };
+  PowerMean<double> both(kind);
+  both.join(total_of_mean(kind, own, size(vertex)));
+  both.join(total_of_mean(kind, own_mean(positions, other, pairs_->place_of_follower(vertex, place)), size(other)));
+  return both.value(size(vertex) + size(other));
+}
+
+template <class Frame>
+double StarJudge<Frame>::own_mean(PositionView positions, Index vertex, Vec3 place) const {
   const MeanKind kind = std::get<MeanOfStar>(composite_.second).kind;
   if (!first_) return metric_functions<Frame>(composite_.first).mean(view_, positions, vertex, place, kind);
   return defined_mean(star_judge(*first_), positions, vertex, place, kind);
@@ -350,9 +388,9 @@ bool StarJudge<Frame>::is_tangled(const Star& star) const {
 template <class Frame>
 StarScore<Frame> StarJudge<Frame>::score_of(const Star& star, PositionView positions, Index vertex, bool tangled, bool guarded) const {
   DefinedStars<Frame> defined;
-  if (first_) defined.first = std::make_shared<const DefinedStar<Frame>>(star_judge(*first_), positions, vertex);
-  if (second_) defined.second = std::make_shared<const DefinedStar<Frame>>(star_judge(*second_), positions, vertex);
-  if (guard_) defined.guard = std::make_shared<const DefinedStar<Frame>>(star_judge(*guard_), positions, vertex);
+  defined.first = defined_star(first_, positions, vertex);
+  defined.second = defined_star(second_, positions, vertex);
+  defined.guard = defined_star(guard_, positions, vertex);
   return {composite_,
           tangled ? std::optional(untangling_) : std::nullopt,
           star,
@@ -360,6 +398,13 @@ StarScore<Frame> StarJudge<Frame>::score_of(const Star& star, PositionView posit
           std::move(defined),
           list_kernel_,
           guarded};
+}
+
+template <class Frame>
+std::shared_ptr<const DefinedStar<Frame>> StarJudge<Frame>::defined_star(const std::shared_ptr<const DefinedJudge>& judge,
+                                                                         PositionView positions, Index vertex) const {
+  if (!judge) return nullptr;
+  return std::make_shared<const DefinedStar<Frame>>(star_judge(*judge), positions, vertex, follower(vertex));
 }
 
 template <class Frame>
@@ -377,18 +422,28 @@ Confirmation StarJudge<Frame>::confirm(PositionView positions, Index vertex, Vec
   const Vec3 here = positions[vertex];
   const StarState before = known != nullptr ? *known : state(composite_.first, positions, vertex, here);
   const auto after = [&] { return state(composite_.first, positions, vertex, target); };
-  if (composite_.is_single()) return confirm_from(view_, positions, vertex, target, untangling_, before, after);
+  if (composite_.is_single() && follower(vertex) == kNoIndex)
+    return confirm_from(view_, positions, vertex, target, untangling_, before, after);
+  if (composite_.is_single()) {
+    if (!after().better_than(before, untangling_)) return Confirmation::GainsNothing;
+    return soundness(positions, vertex, target, !(before.jacobian > 0.0));
+  }
   const auto second_rises = [&] { return second(positions, vertex, target) > second(positions, vertex, here); };
-  const auto soundness = [&](bool tangled) { return confirm_soundness(view_, positions, vertex, target, tangled, untangling_); };
-  return confirm_by_two(composite_, before, after(), untangling_, soundness, second_rises);
+  const auto sound = [&](bool tangled) { return soundness(positions, vertex, target, tangled); };
+  return confirm_by_two(composite_, before, after(), untangling_, sound, second_rises);
+}
+
+template <class Frame>
+Confirmation StarJudge<Frame>::soundness(PositionView positions, Index vertex, Vec3 target, bool tangled) const {
+  const Confirmation own = confirm_soundness(view_, positions, vertex, target, tangled, untangling_);
+  const Index other = follower(vertex);
+  if (own != Confirmation::Gains || other == kNoIndex) return own;
+  return confirm_soundness(view_, positions, other, pairs_->place_of_follower(vertex, target), tangled, untangling_);
 }
 
 template <class Frame>
 void StarJudge<Frame>::gather(PositionView positions, Index vertex, Star& star) const {
-  if constexpr (std::is_same_v<Frame, Curved>)
-    gather_star(view_, positions, vertex, star);
-  else
-    gather_star(MeshStar(view_, positions, vertex), star);
+  gather_star_with(view_, positions, vertex, follower(vertex), star);
 }
 
 template class StarJudge<Plane>;

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/reference/domain.h"
 #include "core/search/surface_star.h"
 #include "core/smooth/defined_state.h"
 #include "core/smooth/kernels/composite_kernel.h"
@@ -199,8 +200,10 @@ template <class Frame>
 class StarJudge {
  public:
   using Star = JudgedStar<Frame>;
-  /// `packs`: by which instructions many candidates are judged at once, which finds the same; none: one by one.
-  StarJudge(const InputMesh& input, CompositeObjective composite, std::optional<SimdLevel> packs = {});
+  /// `packs`: by which instructions many candidates are judged at once, which finds the same; none: one by one. `pairs`: of a vertex that
+  /// has a follower in it both stars are judged as one; null: none has.
+  StarJudge(const InputMesh& input, CompositeObjective composite, std::optional<SimdLevel> packs = {},
+            std::shared_ptr<const Domain> pairs = {});
   void begin(const Sweep& sweep) { untangling_ = sweep.untangling; }
   [[nodiscard]] const Untangling& untangling() const noexcept { return untangling_; }
 
@@ -226,6 +229,12 @@ class StarJudge {
  private:
   [[nodiscard]] double second(PositionView positions, Index vertex, Vec3 place) const;
   [[nodiscard]] double mean(PositionView positions, Index vertex, Vec3 place) const;
+  [[nodiscard]] double own_mean(PositionView positions, Index vertex, Vec3 place) const;
+  [[nodiscard]] StarState own_state(Metric metric, PositionView positions, Index vertex, Vec3 place) const;
+  [[nodiscard]] Index follower(Index vertex) const { return pairs_ ? pairs_->follower(vertex) : kNoIndex; }
+  [[nodiscard]] Confirmation soundness(PositionView positions, Index vertex, Vec3 target, bool tangled) const;
+  [[nodiscard]] std::shared_ptr<const DefinedStar<Frame>> defined_star(const std::shared_ptr<const DefinedJudge>& judge,
+                                                                       PositionView positions, Index vertex) const;
   [[nodiscard]] DefinedStarJudge<Frame> star_judge(const DefinedJudge& judge) const;
 
   const InputMesh* input_;
@@ -233,6 +242,7 @@ class StarJudge {
   CompositeObjective composite_;
   Untangling untangling_{};
   CompositeListKernel<Frame> list_kernel_ = nullptr;
+  std::shared_ptr<const Domain> pairs_;  // null: no vertices move together
 
   std::shared_ptr<const DefinedJudge> first_, second_, guard_;  // of metrics that are not built in
 };

@@ -31,7 +31,7 @@ class Visit {
 
   /// `kernel`: of free vertices; null: the plain search alone.
   Visit(const SmoothingTask& task, CompositeObjective objective, Method method, std::shared_ptr<const StarKernel<Frame>> kernel = {})
-      : judge_(*task.input, std::move(objective), task.search.simd.value_or(best_simd_level())),
+      : judge_(*task.input, std::move(objective), task.search.simd.value_or(best_simd_level()), task.domain),
         mesh_(*task.input),
         domain_(task),
         method_(std::move(method)),

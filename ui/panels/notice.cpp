@@ -90,10 +90,11 @@ Rect place(const PanelContext& context, const Rect& rect, float width, float hei
 void begin_note(PanelContext& context, const Rect& box) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, context.px(5));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});  // a line is lower than windows usually are
   ImGui::PushStyleColor(ImGuiCol_WindowBg, colour_vector(context.palette.panel, 0.96F));
   begin_panel("notice", box, true);
   ImGui::PopStyleColor();
-  ImGui::PopStyleVar(2);
+  ImGui::PopStyleVar(3);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRect({box.x, box.y}, {box.x + box.w, box.y + box.h}, colour(context.palette.line), context.px(5));
   list.AddRectFilled({box.x, box.y}, {box.x + context.px(4), box.y + box.h}, colour(context.palette.warning), context.px(2));

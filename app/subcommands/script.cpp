@@ -112,6 +112,7 @@ int run_on_session(const std::string& name, const std::vector<std::string>& line
   const Backend backend = parse_backend(options.backend);
   block_interrupts();  // before the engine's threads start
   Engine engine(0, acceleration_for(backend), backend);
+  engine.rest_without_long_work();  // each line would wait for what none has asked for
   // Ctrl+C may also come between two lines, when the engine has nothing to cancel.
   std::atomic<bool> interrupted{false};
   const Watch watch(engine.progress(), [&engine, &interrupted] {

@@ -143,6 +143,40 @@ TEST(MetricField, ThatIsNoneNamesItsLineInEveryText) {
   }
 }
 
+/// Numbers in the XML, those of nodes in another order, and those of a second piece.
+TEST(MetricField, ThatIsNoneNamesItsLineWhereNumbersAreElsewhereThanInOrder) {
+  const Folder folder;
+  const std::string xdmf = folder.file(
+      "a.xdmf",
+      "<Xdmf Version=\"3.0\"><Domain><Grid Name=\"g\">\n<Topology TopologyType=\"Triangle\"><DataItem Dimensions=\"2 3\" "
+      "NumberType=\"Int\">0 1 2 0 2 3</DataItem></Topology>\n<Geometry GeometryType=\"XY\"><DataItem Dimensions=\"4 2\">0 0 1 0\n1 1 0 "
+      "1</DataItem></Geometry>\n<Attribute Name=\"size\" Center=\"Node\"><DataItem Dimensions=\"4\">\n1 1\n-7.25\n1\n</DataItem>"
+      "</Attribute></Grid></Domain></Xdmf>\n");
+  const std::string gmsh =
+      folder.file("a.msh",
+                  "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n$Elements\n2\n1 2 2 0 1 "
+                  "1 2 3\n2 2 2 "
+                  "0 1 1 3 4\n$EndElements\n$NodeData\n1\n\"size\"\n1\n0.0\n3\n0\n1\n4\n4 1\n3 -7.25\n1 1\n2 1\n$EndNodeData\n");
+  const auto piece = [](const char* points, const char* sizes) {
+    return fmt::format(
+        "<Piece NumberOfPoints=\"3\" NumberOfCells=\"1\"><Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" "
+        "format=\"ascii\">{}</DataArray></Points><Cells><DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">0 1 2"
+        "</DataArray><DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">3</DataArray><DataArray type=\"UInt8\" Name=\"types\" "
+        "format=\"ascii\">5</DataArray></Cells>\n<PointData><DataArray type=\"Float64\" Name=\"size\" format=\"ascii\">{}</DataArray>"
+        "</PointData></Piece>\n",
+        points, sizes);
+  };
+  const std::string vtu =
+      folder.file("a.vtu", "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\"><UnstructuredGrid>\n" +
+                               piece("0 0 0 1 0 0 1 1 0", "1\n1\n1") + piece("2 0 0 3 0 0 3 1 0", "1\n1\n1") +
+                               piece("4 0 0 5 0 0 5 1 0", "1\n-7.25 1") + "</UnstructuredGrid></VTKFile>\n");
+  for (const auto& [file, line, vertex] : {std::tuple(xdmf, 7, 2), {gmsh, 26, 2}, {vtu, 12, 7}}) {
+    const Output output = run({"quality", file, "--metric", "mean-ratio@field:size"});
+    EXPECT_EQ(output.code, 3);
+    EXPECT_THAT(output.err, HasSubstr(fmt::format("{}:{}: the size 'size' is not above 0 at vertex {}", file, line, vertex)));
+  }
+}
+
 }  // namespace overwriting
 }  // namespace
 }  // namespace dmoscope::test

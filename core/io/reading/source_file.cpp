@@ -48,7 +48,7 @@ std::string_view kind_of(mode_t mode) {
 }  // namespace
 
 std::size_t SourceFile::line_of_row(const Mesh& mesh, std::size_t field, std::size_t row) const {
-  const Field::Place place = mesh.fields[field].place;
+  Field::Place place = mesh.fields[field].place;
   const std::filesystem::path file = file_of_field(field);
   Progress unwatched;
   FileBytes other;
@@ -60,6 +60,12 @@ std::size_t SourceFile::line_of_row(const Mesh& mesh, std::size_t field, std::si
   const std::string_view text = file == path_ ? bytes() : other.view();
   Tokenizer words(text, file.string(), {.comment = '#', .free_form = true}, unwatched);
   if (place.with_positions) return layout_.binary || row >= place_count() ? 0 : words.line_at(static_cast<std::size_t>(this->place(row)));
+  const auto piece = std::find_if(field_pieces_.rbegin(), field_pieces_.rend(),
+                                  [&](const FieldPiece& each) { return each.field == field && each.row <= row; });
+  if (piece != field_pieces_.rend()) {
+    place.begin = piece->begin;
+    row -= piece->row;
+  }
   if (place.words == 0 || place.begin >= text.size()) return 0;
   if (!place.rows.empty()) {
     const auto found = std::ranges::find(place.rows, static_cast<Index>(row));

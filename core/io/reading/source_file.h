@@ -123,6 +123,8 @@ class SourceFile {
   }
   /// One vertex per place, where that is not the i-th vertex at the i-th place.
   void set_place_vertices(std::vector<Index> vertices) { place_vertices_ = std::move(vertices); }
+  /// The rows of a field of the mesh from `row` on begin at a byte of their own, as in a file of several pieces. Ascending.
+  void add_piece_of_field(std::size_t field, std::size_t row, std::uint64_t begin) { field_pieces_.push_back({field, row, begin}); }
   void set_not_patchable(std::string why) { not_patchable_ = std::move(why); }
   /// Adds a thing once, however often it is met.
   void add_only_in_file(std::string_view thing);
@@ -151,6 +153,11 @@ class SourceFile {
   std::vector<std::string> only_in_file_;
   std::unordered_set<std::string> met_only_in_file_;  // the same, to be found at once
   std::vector<std::string> notes_;
+  struct FieldPiece {
+    std::size_t field, row;
+    std::uint64_t begin;
+  };
+  std::vector<FieldPiece> field_pieces_;
 };
 
 /// Reads a whole file. Throws InputError with the system's reason (missing, a directory, no permission), for what is no file (a pipe, a

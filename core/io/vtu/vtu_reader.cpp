@@ -322,7 +322,7 @@ class VtuReader {
       const std::size_t i = field_of(data, *array, on, met);
       met.resize(fields_.size(), 0);
       met[i] = 1;
-      append(fields_[i], *array, count);
+      append(i, *array, count);
     }
     for (std::size_t i = 0; i < fields_.size(); ++i) {
       if (fields_[i].on != on || met[i] != 0) continue;
@@ -352,7 +352,8 @@ class VtuReader {
     return fields_.size() - 1;
   }
 
-  void append(Field& field, const VtuArray& array, std::size_t rows) {
+  void append(std::size_t number, const VtuArray& array, std::size_t rows) {
+    Field& field = fields_[number];
     std::vector<double> values = numbers(array, rows * array.components);
     const bool rounded =
         is_whole(array.type) && std::any_of(values.begin(), values.end(), [](double v) { return std::abs(v) >= kExactWhole; });
@@ -360,7 +361,8 @@ class VtuReader {
       field.values = std::move(values);
       if (array.ascii) field.place = {array.begin, static_cast<std::uint32_t>(array.components)};
     } else {
-      field.place = {};
+      if (!array.ascii) field.place = {};
+      if (field.place.words > 0) source_.add_piece_of_field(number, field.values.size() / array.components, array.begin);
       field.values.insert(field.values.end(), values.begin(), values.end());
     }
     if (rounded) {

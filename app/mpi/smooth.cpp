@@ -67,6 +67,7 @@ RunParameters shared_parameters(const SharedSmoothOptions& options, std::string&
   }
   refuse_what_needs_one_process(options.run, parameters);
   parameters.backend = Backend::Cpu;
+  parameters.layers = LayerRule::Free;  // a rank has no whole stack of them
   if (options.goal.until_converged) be_patient(parameters, options.goal.limits.patience);
   return parameters;
 }

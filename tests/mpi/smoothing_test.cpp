@@ -8,6 +8,7 @@
 #include "core/run/run.h"
 #include "mpi/smooth/shared_left_inverted.h"
 #include "tests/mpi/blocks.h"
+#include "tests/support/inside.h"
 #include "tests/support/meshes.h"
 #include "tests/support/testing.h"
 
@@ -126,6 +127,17 @@ TEST(SharedSmoothing, MovesFloatsToFloats) {
   for (Vec3& p : mesh.positions) p = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
   mesh.single_precision = true;
   compare(world, {"floats", mesh}, {}, 4);
+}
+
+/// Hexahedra and wedges that are nearly or wholly inverted inside, where corners do not tell.
+TEST(SharedSmoothing, HasTheSameBitsWhereElementsAreAlmostInvertedInside) {
+  const World world;
+  RunParameters one_aim{.layers = LayerRule::Free}, other_method = one_aim, two_aims = one_aim;
+  other_method.method = "pattern-search";
+  two_aims.combination = Combination{0.3, Metric::ScaledJacobian};
+  for (const Sample& sample :
+       {Sample{"twisted block", test::twisted_block(3, test::Fill::Mixed, 11)}, Sample{"crushed can", test::crushed_can(0.6, 0.25, 5)}})
+    for (const RunParameters& parameters : {one_aim, other_method, two_aims}) compare(world, sample, parameters, 4);
 }
 
 /// Both end at the same iteration, for the same reason, in the same phase, at the same positions.

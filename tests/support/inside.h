@@ -2,8 +2,12 @@
 // The Jacobian determinant inside elements, by places: written down apart from the program's own.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
+#include <random>
 #include <span>
+#include <vector>
 
 #include "core/mesh/mesh.h"
 #include "tests/support/volume_grids.h"
@@ -57,6 +61,61 @@ inline Mesh twisted_block(Index n, Fill fill, unsigned seed) {
       const double least = least_inside(mesh.elements.kind(e), mesh.elements.corners(e), mesh.positions);
       valid = valid && least > 1e-4 / (n * n * n);  // so that it is between these places, too
     }
+    if (valid) return mesh;
+  }
+}
+
+/// Hexahedra of a block whose cells are counted by i, j and k, at places of (u, v, w) in the unit cube; along u it may close to a ring. Its
+/// inner vertices are moved by up to `jitter`, the same way for the same seed.
+template <class Place>
+Mesh bent_block(std::array<Index, 3> cells, bool ring, const Place& place, double jitter, unsigned seed) {
+  Mesh mesh;
+  std::mt19937 random(seed);
+  const auto offset = [&] { return jitter * (static_cast<double>(random()) / 4294967296.0 * 2.0 - 1.0); };
+  const Index nu = cells[0], nv = cells[1], nw = cells[2];
+  const Index columns = ring ? nu : nu + 1;
+  for (Index k = 0; k <= nw; ++k)
+    for (Index j = 0; j <= nv; ++j)
+      for (Index i = 0; i < columns; ++i) {
+        Vec3 p = place(static_cast<double>(i) / nu, static_cast<double>(j) / nv, static_cast<double>(k) / nw);
+        if ((ring || (i > 0 && i < nu)) && j > 0 && j < nv && k > 0 && k < nw) p = p + Vec3{offset(), offset(), offset()};
+        mesh.positions.push_back(p);
+      }
+  const auto at = [&](Index i, Index j, Index k) { return (k * (nv + 1) + j) * columns + i % columns; };
+  for (Index k = 0; k < nw; ++k)
+    for (Index j = 0; j < nv; ++j)
+      for (Index i = 0; i < nu; ++i)
+        mesh.elements.add(ElementKind::Hexahedron,
+                          std::array{at(i, j, k + 1), at(i + 1, j, k + 1), at(i + 1, j + 1, k + 1), at(i, j + 1, k + 1), at(i, j, k),
+                                     at(i + 1, j, k), at(i + 1, j + 1, k), at(i, j + 1, k)});
+  return mesh;
+}
+
+/// The thin wall of a can, three hexahedra thick, dented from one side and folded: some of them are inverted.
+inline Mesh crushed_can(double dent, double fold, unsigned seed) {
+  const auto place = [&](double u, double v, double w) {
+    const double a = 2.0 * std::numbers::pi * u, z = 3.0 * w, near = (std::cos(a) - 1.0) * (std::cos(a) - 1.0) + std::sin(a) * std::sin(a);
+    const double r = 1.0 + 0.08 * v - dent * std::exp(-2.0 * near - 4.0 * (z - 1.5) * (z - 1.5)) +
+                     0.3 * fold * std::cos(5.0 * a) * std::sin(6.0 * std::numbers::pi * w);
+    const double drop = fold * v * std::sin(3.0 * a) * std::exp(-25.0 * (w - 0.5) * (w - 0.5));
+    return Vec3{r * std::cos(a), r * std::sin(a), z + drop};
+  };
+  return bent_block({16, 3, 8}, true, place, 0.02, seed);
+}
+
+/// A round rod, bent round a circle that it nearly fills and turned along its axis, jittered by as much as leaves all of it valid.
+inline Mesh bent_rod(double turns, double radius, double twist, unsigned seed) {
+  const auto place = [&](double u, double v, double w) {
+    const double a = 2.0 * std::numbers::pi * turns * w, x = u - 0.5, y = v - 0.5, c = std::cos(twist * w), s = std::sin(twist * w);
+    const double round_x = x * std::sqrt(1.0 - 2.0 * y * y), round_y = y * std::sqrt(1.0 - 2.0 * x * x);
+    const double r = radius + c * round_x - s * round_y;
+    return Vec3{r * std::cos(a), r * std::sin(a), s * round_x + c * round_y + 1.3 * turns * w};
+  };
+  for (double jitter = 0.12;; jitter *= 0.95) {
+    Mesh mesh = bent_block({4, 4, 10}, false, place, jitter, seed);
+    bool valid = true;
+    for (Index e = 0; valid && e < mesh.elements.size(); ++e)
+      valid = least_inside(mesh.elements.kind(e), mesh.elements.corners(e), mesh.positions) > 1e-6;
     if (valid) return mesh;
   }
 }

@@ -36,6 +36,7 @@ struct IterationRecord {
   std::optional<JointFigures> joint{};
   std::optional<double> second{};  // the movable minimum of a combination's second metric, where a phase may come that keeps it
   bool raises_mean = false;        // an iteration of the phase that raises a mean: see Sweep
+  bool raise_follows = false;      // in the next iteration vertices around the worst element move together, within the method's phase
 };
 
 /// Positions that lie far from the host (on a device) are worth bringing only to keep them where that takes but a modest share of the time:
@@ -59,6 +60,8 @@ class History {
     last.statistics = other.statistics;
     last.second = other.second;
   }
+  /// Notes that IterationRecord::raise_follows the last one.
+  void raise_after_last() { records_.change().back().raise_follows = true; }
   /// Whether keep() would keep the positions of this iteration: those of multiples of stride() are kept, where the budget has room for any.
   [[nodiscard]] bool wants(std::uint64_t iteration) const;
   /// Keeps positions, unless they are kept already or not wanted. When the budget is full the stride doubles and positions in between are

@@ -25,7 +25,7 @@ std::optional<std::uint64_t> PhaseSwitchDetector::find(const PhaseBegin& next, s
     }
     const auto rests = [](const IterationRecord& record) { return record.moved == 0; };
     const bool at_rest = still && i >= *still && std::ranges::all_of(records.subspan(i + 1 - *still, *still), rests);
-    if (at_rest || i - last_rise_ >= next.patience) turn_ = i;
+    if ((at_rest || i - last_rise_ >= next.patience) && !records[i].raise_follows) turn_ = i;
   }
   return turn_;
 }

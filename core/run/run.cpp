@@ -267,7 +267,15 @@ void Run::record(const RunProgress& done) {
       {iteration, statistics(), done.moved, done.seconds, done.searched, done.joint, second_minimum(), mean && *mean < iteration});
   unkept_seconds_ += done.seconds;
   if (next_phase(parameters_) != nullptr) {
-    const auto since = first_phase_end();
+    auto since = first_phase_end();
+    if (since == iteration && raises_ && !looked_ && history_.records().back().statistics.inverted == 0) {
+      looked_ = true;
+      Progress unwatched;  // the record is not whole before it is known
+      if (raise_follows_look(look_at_worst(unwatched))) {
+        turn_.forget_after(iteration - 1);
+        since.reset();
+      }
+    }
     if (since == iteration)
       if (const auto best = next_phase_start(parameters_, history_.records(), iteration)) {
         history_.amend_last(history_.records()[*best]);

@@ -58,7 +58,8 @@ struct Outcome {
   Index inverted = 0;                   // elements, at the end
   std::optional<std::uint64_t> best{};  // the iteration that end_at_best() went back to
   ConvergenceLimits limits;
-  bool two_aims = false;  // of a combination
+  bool two_aims = false;     // of a combination
+  std::uint64_t raised = 0;  // iterations in which vertices around the worst element moved together, within the method's phase
   /// "converged: no vertex moved any more; the minimum last rose in iteration 9"
   [[nodiscard]] std::string sentence() const;
 };
@@ -71,6 +72,16 @@ struct RunSnapshot {
   std::optional<Outcome> outcome{};
   std::uint64_t path = 0;  // Run::path()
   JointPath joint{};
+};
+
+/// What vertices around the worst element can do for it together, in the iteration after this one.
+struct RaiseOfWorst {
+  std::uint64_t iteration = 0;
+  bool certified = false;                  // nothing raises it by what is worth it
+  std::vector<JointCluster::Moved> moved;  // empty: that is not known, or it gains too little; those of this process
+  std::uint64_t count = 0;                 // of all processes
+  JointFigures figures{};
+  double seconds = 0.0;
 };
 
 /// Where the vertices of a run that continues another one begin; null: as in the input.
@@ -233,6 +244,8 @@ class Run {
   [[nodiscard]] std::optional<std::uint64_t> joint_over() const;
   [[nodiscard]] bool joint_follows(std::uint64_t iteration) const;
   [[nodiscard]] bool joint_untangling_follows(std::uint64_t iteration) const;
+  [[nodiscard]] bool raise_of_worst_follows(std::uint64_t iteration) const;
+  [[nodiscard]] bool is_joint(std::uint64_t iteration) const;
   [[nodiscard]] std::vector<std::uint8_t> held_jointly() const;
   [[nodiscard]] JointAims joint_aims() const;
   [[nodiscard]] JointClusters& joint_clusters();
@@ -242,8 +255,11 @@ class Run {
   [[nodiscard]] bool copy_unkept(std::vector<Vec3>& copy) const;
   [[nodiscard]] bool attempts_to_untangle(std::uint64_t iteration) const;
   [[nodiscard]] bool can_be_certified() const;
+  [[nodiscard]] bool can_raise_worst() const;
+  bool raise_follows_look(RaiseOfWorst look);
   [[nodiscard]] std::optional<double> second_minimum() const;
-  [[nodiscard]] bool minimum_is_certified(double movable_minimum, Progress& progress);
+  [[nodiscard]] RaiseOfWorst look_at_worst(Progress& progress);
+  void raise_worst_jointly(Progress& progress);
   [[nodiscard]] bool knows_joint_moves() const;
   Outcome advance(const ConvergenceLimits& limits, bool stop_when_still, std::uint64_t from, Progress& progress,
                   const AfterIteration& after);
@@ -284,6 +300,9 @@ class Run {
   std::function<void(const Run&)> observer_;
   std::optional<Outcome> last_outcome_;
   std::optional<Pursuit> pursuit_;
+  // Of a run until it has converged: whether it raises what single vertices are stuck in, and has looked at that since something last rose.
+  bool raises_ = false, looked_ = false;
+  std::optional<RaiseOfWorst> next_raise_;  // the next iteration; none: it is as its kind says
 };
 
 /// Does what may ask a device; a failure is remembered for recover().

@@ -1,7 +1,9 @@
-// Joint moves within the method's phase: where it is stuck in a tangle, and to certify its minimum. Both look at a region of the mesh
-// alone.
+// Joint moves within the method's phase: where it is stuck in a tangle, or in what is left of one, and to certify its minimum. All look at
+// a region of the mesh alone.
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/base/stopwatch.h"
@@ -73,18 +75,25 @@ void Run::untangle_jointly(Progress& progress) {
   record({.moment = {iteration}, .moved = last_moved_, .seconds = watch.seconds()});
 }
 
-/// Whether minimum_is_certified() may be asked. Where vertices slide it would hold them: a region knows no domain, nor the targets and
-/// fields of the whole mesh that a defined metric may ask for.
-bool Run::can_be_certified() const {
-  const bool is_all = !method_info(parameters_.method).joint && !parameters_.then_joint && !parameters_.then_mean;
-  return is_all && !parameters_.combination && !domain_ && is_built_in(parameters_.metric) && knows_joint_moves();
+/// Whether look_at_worst() tells what raises the worst element. Where vertices slide it would hold them: a region knows no domain, nor the
+/// targets and fields of the whole mesh that a defined metric may ask for.
+bool Run::can_raise_worst() const {
+  const bool is_plain = !method_info(parameters_.method).joint && !parameters_.combination && !domain_;
+  return is_plain && is_built_in(parameters_.metric) && knows_joint_moves();
 }
 
-/// Whether not even vertices that move together raise the worst element that can move: a look at those around it, on a copy.
-bool Run::minimum_is_certified(double movable_minimum, Progress& progress) {
+/// Whether a certificate of the minimum ends the run.
+bool Run::can_be_certified() const { return !parameters_.then_joint && !parameters_.then_mean && can_raise_worst(); }
+
+/// At an iteration's end: what vertices around the worst element that can move do for it together, on a copy.
+RaiseOfWorst Run::look_at_worst(Progress& progress) {
   constexpr std::size_t kAtMost = 500;  // vertices: it is asked while others still move
   constexpr double kNoGain = 2e-3;      // of the minimum: finer than what single vertices find
   const int rings = input_->is_volume() ? 6 : 16;
+  RaiseOfWorst look;
+  look.iteration = at_.moment.iteration;
+  const double movable_minimum = history_.records()[look.iteration].statistics.movable_minimum;
+  const Stopwatch watch;
   recovering([this] { download(); });
   const std::span<const Vec3> positions = positions_.host();
   const QualityContext context = input_->quality_context();
@@ -94,11 +103,52 @@ bool Run::minimum_is_certified(double movable_minimum, Progress& progress) {
     return element_quality(context, positions, parameters_.metric, e) == movable_minimum;
   };
   const auto region = region_around(*input_, positions, fixed_, elements_that(*input_, is_worst), rings, kMostVertices);
-  if (!region) return false;
+  if (!region) return look;
   const InputMesh& part = *region->input;
   const auto found = joint_hold(part, part.mesh.positions, region->fixed, {}, parameters_.metric, kAtMost, pool_.get(), progress, {});
-  if (!found || !found->certified || found->after - found->before > kNoGain * found->before) return false;
-  return std::ranges::none_of(found->active, [&](const JointCluster::Active& each) { return region->touches_rim(each.element); });
+  look.seconds = watch.seconds();
+  if (!found) return look;
+  if (found->after - found->before > kNoGain * found->before) {
+    for (const JointCluster::Moved& moved : found->moved)
+      if (const Index v = find_vertex(*input_, region->vertices[moved.vertex]); v != kNoIndex) look.moved.push_back({v, moved.to});
+    look.count = found->moved.size();
+    look.figures = {.certified = found->certified,
+                    .bound = found->bound,
+                    .gap = found->gap,
+                    .vertices = static_cast<Index>(found->vertices.size()),
+                    .newton_steps = found->newton_steps};
+  } else {
+    look.certified = found->certified && std::ranges::none_of(found->active, [&](const JointCluster::Active& each) {
+                       return region->touches_rim(each.element);
+                     });
+  }
+  return look;
+}
+
+/// After a look at the end of the last iteration: if it gains, the next one does what was found.
+bool Run::raise_follows_look(RaiseOfWorst look) {
+  if (look.figures.vertices == 0) return false;
+  history_.raise_after_last();
+  next_raise_ = std::move(look);
+  return true;
+}
+
+/// Whether the iteration after this one, of the method's phase, moves vertices around the worst element together.
+bool Run::raise_of_worst_follows(std::uint64_t iteration) const {
+  return history_.records()[iteration].raise_follows && edits_.count_at({iteration}) == 0;
+}
+
+/// At the end of an iteration: the next one, in which vertices around the worst element move together.
+void Run::raise_worst_jointly(Progress& progress) {
+  const bool known = next_raise_ && next_raise_->iteration == at_.moment.iteration;
+  const RaiseOfWorst raise = known ? *std::exchange(next_raise_, std::nullopt) : look_at_worst(progress);
+  recovering([this] { download(); });
+  std::vector<Vec3> positions(positions_.host().begin(), positions_.host().end());
+  for (const JointCluster::Moved& moved : raise.moved) positions[moved.vertex] = moved.to;
+  last_moved_ = raise.count;
+  const std::uint64_t iteration = raise.iteration + 1;
+  put(positions, {{iteration}});
+  record({.moment = {iteration}, .moved = last_moved_, .seconds = raise.seconds, .joint = raise.figures});
 }
 
 }  // namespace dmoscope

@@ -23,6 +23,8 @@ std::string Outcome::sentence() const {
   };
   if (phases.joint_since)
     rose += fmt::format("; vertices moved jointly from iteration {} on{}", *phases.joint_since + 1, begin(phases.joint_from));
+  if (raised > 0)
+    rose += fmt::format("; in {} iteration{} vertices around the worst element moved together", raised, raised == 1 ? "" : "s");
   if (phases.mean_since)
     rose += fmt::format("; the mean was raised from iteration {} on{}", *phases.mean_since + 1, begin(phases.mean_from));
   if (best) rose += fmt::format("; back at {}, the best one", iteration_name(*best));
@@ -124,6 +126,9 @@ void Run::walk_to(const Moment& target, Progress& progress) {
       begin_next_phase(progress);
     } else if (now.visits == 0 && joint_follows(now.iteration)) {
       move_jointly(progress);
+    } else if (now.visits == 0 && raise_of_worst_follows(now.iteration)) {
+      raise_worst_jointly(progress);
+      begin_next_phase(progress);
     } else if (whole == 0) {                                                     // nothing is free: an iteration visits nobody
       recovering([this] { input_->share ? visit_block(0) : end_iteration(); });  // of a share: other processes visit theirs
       begin_next_phase(progress);
@@ -154,14 +159,18 @@ std::uint64_t Run::step(StepUnit unit, Progress& progress) {
   return (at_.moment.iteration > before.moment.iteration ? last_moved_ : at_.moved) - before.moved;
 }
 
+/// Whether the iteration after this one is a joint move, which is one step.
+bool Run::is_joint(std::uint64_t iteration) const {
+  return joint_follows(iteration) || joint_untangling_follows(iteration) || raise_of_worst_follows(iteration);
+}
+
 Moment Run::moment_before(StepUnit unit) const {
   const std::uint64_t whole = visits_per_iteration();
   Moment target = at_.moment;
   // The end of an iteration is the same place as the start of the next; from there "back" goes into the iteration before.
   if (target.is_iteration_end()) {
     target = {target.iteration - 1, whole};
-    if (unit != StepUnit::Iteration && (joint_follows(target.iteration) || joint_untangling_follows(target.iteration)))
-      return {target.iteration, 0, edits_.count_at({target.iteration})};
+    if (unit != StepUnit::Iteration && is_joint(target.iteration)) return {target.iteration, 0, edits_.count_at({target.iteration})};
   }
   if (unit == StepUnit::Iteration || whole == 0) return {target.iteration};
   if (unit == StepUnit::Vertex) {
@@ -290,8 +299,13 @@ Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, std:
   bool stopped = false;
   const bool joint_comes = parameters_.then_joint || method_info(parameters_.method).joint;
   const Phase last_phase = parameters_.then_mean ? Phase::Mean : joint_comes ? Phase::Joint : Phase::Method;
-  BestState best(parameters_);
-  for (const IterationRecord& record : std::span(history_.records()).first(from + 1)) best.take(record);
+  RunParameters alone = parameters_;  // the method's phase is the same whatever comes after it
+  alone.then_mean.reset();
+  BestState best(parameters_), best_alone(alone);
+  for (const IterationRecord& record : std::span(history_.records()).first(from + 1)) {
+    best.take(record);
+    best_alone.take(record);
+  }
   std::vector<Vec3> positions_of_best;  // where the history has no room for them, so that nobody need compute them again
   bool has_best = false;
   const auto phase_of = [this](std::uint64_t iteration) {
@@ -306,8 +320,14 @@ Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, std:
   Phase phase_before = Phase::Method;
   constexpr std::uint64_t kIdle = 20, kWorthALook = 400'000;  // iterations; visits, of which those of volumes are ten times as dear
   const bool looks = stop_when_still && can_be_certified();
+  // Single vertices leave a tangle as they find it; what they are stuck in then is raised. A phase of joint moves does better, for all.
+  raises_ = stop_when_still && !parameters_.then_joint && history_.records().front().statistics.inverted > 0 && can_raise_worst();
   pursuit_ = Pursuit{from, from + limits.max_iterations, stop_when_still};
-  const std::unique_ptr<std::optional<Pursuit>, void (*)(std::optional<Pursuit>*)> at_the_end(&pursuit_, [](auto* mine) { mine->reset(); });
+  const std::unique_ptr<Run, void (*)(Run*)> at_the_end(this, [](Run* run) {
+    run->pursuit_.reset();
+    run->raises_ = run->looked_ = false;
+    run->next_raise_.reset();
+  });
   while (!stopped && outcome.iterations < limits.max_iterations) {
     const bool whole = at_.moment.visits == 0;
     const bool anew = reached == at_.moment.iteration;
@@ -324,6 +344,7 @@ Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, std:
     const IterationRecord record = history_.records()[reached];
     const Statistics& now = record.statistics;
     best.take(record);
+    best_alone.take(record);
     if (anew && stop_when_still && best.iteration() == reached) has_best = copy_unkept(positions_of_best);
     // As differences: where nothing is movable both are infinite, and that is no rise.
     if (now.minimum - minimum >= limits.rise || now.movable_minimum - movable >= limits.rise) {
@@ -347,6 +368,22 @@ Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, std:
       stopped = true;
       outcome.reason = joint_end == JointState::End::Certified && now.inverted == 0 ? StopReason::Certified : StopReason::NoJointGain;
     }
+    if (phase == Phase::Method && record.joint) ++outcome.raised;
+    if (since_rise == 0) looked_ = false;
+    if (record.raise_follows) {  // it has been looked then
+      looked_ = true;
+      continue;
+    }
+    const bool idle = std::min(since_rise, reached - best_alone.iteration()) == kIdle && now.inverted == 0;
+    bool certified = false;
+    if (idle && raises_ && phase == Phase::Method) {
+      looked_ = true;
+      if (reached == at_.moment.iteration) {
+        RaiseOfWorst look = look_at_worst(progress);
+        certified = look.certified && looks;
+        if (raise_follows_look(std::move(look))) continue;
+      }
+    }
     // A phase's end is not the run's; joint moves know themselves when they are over.
     if (phase == Phase::Joint || (phase != last_phase && (now.inverted == 0 || joint_comes))) continue;
     // The last phase searches as DMO does, whatever the method.
@@ -357,12 +394,23 @@ Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, std:
     stopped = stop_when_still && (still || since_rise >= limits.patience);
     if (stopped) outcome.reason = still ? StopReason::NothingMoved : StopReason::NoRise;
     // Once after each time that something was to be had. Where few vertices move, the iterations that are left cost less than the look.
-    if (stopped || !looks || now.inverted > 0 || reached != at_.moment.iteration) continue;
-    const std::uint64_t visits_left = record.moved * (limits.patience - since_rise);
-    if (std::min(since_rise, reached - best.iteration()) != kIdle || visits_left < (input_->is_volume() ? kWorthALook / 10 : kWorthALook))
-      continue;
-    stopped = minimum_is_certified(now.movable_minimum, progress);
-    if (stopped) outcome.reason = StopReason::Certified;
+    if (certified) {
+      stopped = true;
+      outcome.reason = StopReason::Certified;
+    }
+    if (!looks || now.inverted > 0 || looked_) continue;
+    const std::uint64_t visits_left = record.moved * (limits.patience - std::min(since_rise, limits.patience));
+    const bool pays = visits_left >= (input_->is_volume() ? kWorthALook / 10 : kWorthALook);
+    if (!(stopped ? raises_ : idle && pays)) continue;
+    looked_ = true;
+    if (reached != at_.moment.iteration) continue;
+    RaiseOfWorst look = look_at_worst(progress);
+    if (look.certified) {
+      stopped = true;
+      outcome.reason = StopReason::Certified;
+    } else if (raises_ && raise_follows_look(std::move(look))) {
+      stopped = false;
+    }
   }
   if (has_best && best.iteration() != reached) history_.hold(best.iteration(), positions_of_best, pool_.get());
   outcome.ended = reached;

@@ -165,7 +165,8 @@ RunParameters to_parameters(const Json& json) {
 }
 
 /// [minimum, mean, movable minimum, ceiling, worst element, inverted, moved, seconds]; of joint moves what joint_json() says; the second
-/// metric's movable minimum, where it is known; true of the phase that raises a mean.
+/// metric's movable minimum, where it is known; true of the phase that raises a mean; {} where vertices around the worst element move
+/// together next.
 Json json_of(const IterationRecord& r) {
   const Statistics& s = r.statistics;
   Json json{number_in_json(s.minimum),
@@ -179,17 +180,20 @@ Json json_of(const IterationRecord& r) {
   if (r.joint) json.push_back(joint_json(*r.joint));
   if (r.second) json.push_back(number_in_json(*r.second));
   if (r.raises_mean) json.push_back(true);
+  if (r.raise_follows) json.push_back(Json::object());
   return json;
 }
 
 IterationRecord to_record(const Json& json, std::uint64_t iteration) {
-  if (!json.is_array() || json.size() < 8 || json.size() > 11) throw UsageError("a record of an iteration has 8 to 11 values");
+  if (!json.is_array() || json.size() < 8 || json.size() > 12) throw UsageError("a record of an iteration has 8 to 12 values");
   IterationRecord record{iteration, {}, to_whole(json[6]), to_double(json[7])};
   record.statistics = {to_double(json[0]), to_double(json[1]), to_double(json[2]), to_double(json[3]), kNoIndex, to_index(json[5])};
   if (to_whole(json[4]) != kNoIndex) record.statistics.worst_element = to_index(json[4]);
   for (std::size_t i = 8; i < json.size(); ++i) {
     if (json[i].is_boolean())
       record.raises_mean = json[i].get<bool>();
+    else if (json[i].is_object())
+      record.raise_follows = true;
     else if (json[i].is_number() || json[i].is_string())
       record.second = to_double(json[i]);
     else

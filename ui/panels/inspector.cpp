@@ -75,8 +75,7 @@ void empty_lines(const PanelContext& context, int count) {
 /// A click does what would free the worst element. A number stands beside it only once it was tried, and below it what it gives up.
 void draw_switch(PanelContext& context, const RunView& run, const HeldMinimum& held) {
   std::string tried = held.trial ? "tried: " + held.trial->figures() : " ";
-  tried = tried.substr(0, tried.find(" in "));
-  if (const std::size_t arrow = tried.find("->"); arrow != std::string::npos) tried.replace(arrow, 2, "→");
+  tried = with_arrows(tried.substr(0, tried.find(" in ")));
   const float room = ImGui::GetContentRegionAvail().x;
   ImGui::BeginDisabled(context.activity.busy || !run.held.now);
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ImGui::GetStyle().FramePadding.x, 0});

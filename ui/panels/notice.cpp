@@ -6,6 +6,7 @@
 
 #include "ui/panels/icons.h"
 #include "ui/panels/panels.h"
+#include "ui/state/format.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -72,12 +73,6 @@ void draw_figures(PanelContext& context, const std::vector<FigureRow>& rows, con
     }
     at.y += table.row;
   }
-}
-
-/// "->" is for terminals.
-std::string with_arrows(std::string text) {
-  for (std::size_t at = text.find("->"); at != std::string::npos; at = text.find("->", at)) text.replace(at, 2, "→");
-  return text;
 }
 
 /// Where the note is: beside the title of the one viewport where there is room, else below what stands under the titles.

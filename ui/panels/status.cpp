@@ -115,7 +115,7 @@ std::optional<Message> newest_message(const PanelContext& context) {
 }
 
 std::string first_line(const PanelContext& context, const Message& message) {
-  return context.shown(message.text.substr(0, message.text.find('\n')));
+  return context.shown(with_arrows(message.text.substr(0, message.text.find('\n'))));
 }
 
 render::Rgb ink_of(const PanelContext& context, const Message& message) {

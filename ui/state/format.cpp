@@ -59,4 +59,9 @@ std::string duration(double seconds) {
 
 std::string metric_title(Metric metric) { return std::string(info(metric).title); }
 
+std::string with_arrows(std::string text) {
+  for (std::size_t at = text.find("->"); at != std::string::npos; at = text.find("->", at)) text.replace(at, 2, "→");
+  return text;
+}
+
 }  // namespace dmoscope::ui

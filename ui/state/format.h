@@ -31,4 +31,7 @@ namespace dmoscope::ui {
 [[nodiscard]] std::string metric_title(Metric metric);
 /// "0.83 ms", "1.24 s".
 [[nodiscard]] std::string duration(double seconds);
+/// Arrows in place of "->", which is for terminals.
+[[nodiscard]] std::string with_arrows(std::string text);
+
 }  // namespace dmoscope::ui

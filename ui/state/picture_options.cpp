@@ -46,7 +46,7 @@ std::vector<ViewOption> mark_options() {
       row("worst", "ring around the worst element, and a diamond where a listed one is inverted inside alone", at<&V::worst_marker>(),
           {"/worst_marker"}, {"Mark the worst element", "vertices", "K", "worst-marker"}),
       row("pointer-value", "the value of the element where the pointer rests", at<&V::pointer_value>(), {"", "/pointer_value"},
-          {"Value under the resting pointer", "worst-marker"}),
+          {"Value under the resting pointer", "vertices"}),
       row("features", "where vertices slide: boundary, interfaces and feature edges as lines, corners as squares", at<&V::features>(),
           {"/features"}, {"Feature edges and corners, where vertices slide", "worst-marker", "Alt+K"}),
       row("holders",

@@ -249,7 +249,10 @@ void App::update_viewports(PanelContext& context, const Rect& rect) {
 void App::draw_panels(PanelContext& context) {
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   state_.window_size = {static_cast<int>(screen.x), static_cast<int>(screen.y)};
-  const Layout layout = compute_layout(state_.panels, screen.x, screen.y, header_size(context), session_->input != nullptr);
+  Panels panels = state_.panels;
+  constexpr double kLeastComparison = 17.0;  // with four runs
+  if (state_.plot == PlotTab::Compare) panels.bottom_height = std::max(panels.bottom_height, kLeastComparison);
+  const Layout layout = compute_layout(panels, screen.x, screen.y, header_size(context), session_->input != nullptr);
   draw_menu(context, layout.menu);
   update_viewports(context, layout.viewport);
   draw_toolbar(context, layout.toolbar);

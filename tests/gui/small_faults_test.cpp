@@ -72,6 +72,20 @@ TEST_F(SmallFaults, EscapeLeavesTheBrushBeforeItClearsTheSelection) {
   EXPECT_EQ(state().picked.kind, ui::Picked::Kind::None);
 }
 
+TEST_F(SmallFaults, EscapeLeavesTheInspectionBeforeItClearsTheSelection) {
+  good("generate annulus");
+  good("tab worst");
+  good("click why:0");
+  ASSERT_TRUE(state().inspection.open);
+  EXPECT_EQ(state().panels.tab, ui::FactsTab::Selection);
+  good("key Escape");
+  EXPECT_FALSE(state().inspection.open);
+  EXPECT_NE(state().picked.kind, ui::Picked::Kind::None);
+  good("key Escape");
+  EXPECT_EQ(state().picked.kind, ui::Picked::Kind::None);
+  EXPECT_EQ(state().panels.tab, ui::FactsTab::Worst) << "the tab before";
+}
+
 TEST_F(SmallFaults, NoFrameStaysRoundThePlot) {
   good("generate annulus");
   good("run 3");

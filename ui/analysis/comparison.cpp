@@ -74,8 +74,8 @@ Comparison compare_runs(const SessionView& session) {
   const auto add = [&](Metric metric) {
     if (std::ranges::find(comparison.metrics, metric) == comparison.metrics.end()) comparison.metrics.push_back(metric);
   };
-  add(session.shown);
   for (const RunView& run : session.runs) add(run.parameters.metric);
+  add(session.shown);  // last: what is shown changes by a click, and nothing shall move then
   const auto mesh = std::ranges::find(session.meshes, session.input, &InputView::input);
   if (mesh != session.meshes.end()) {
     comparison.rows.emplace_back();

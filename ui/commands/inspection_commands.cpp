@@ -133,11 +133,6 @@ void open_inspection(ViewState& state, const SessionView& session) {
   }
 }
 
-void close_inspection(ViewState& state) {
-  leave_close_up(state);
-  state.inspection.open = state.inspection.playing = state.inspection.applied = false;
-}
-
 /// A vertex that was picked since is the one to look into.
 void follow_pick(ViewState& state) {
   InspectionState& inspection = state.inspection;
@@ -361,6 +356,11 @@ void add_trace_commands(CommandTable& table, ViewState& state, const CommandHost
 }
 
 }  // namespace
+
+void close_inspection(ViewState& state) {
+  leave_close_up(state);
+  state.inspection.open = state.inspection.playing = state.inspection.applied = false;
+}
 
 void add_inspection_commands(CommandTable& table, ViewState& state, const CommandHost& host) {
   add_opening_commands(table, state, host);

@@ -23,4 +23,7 @@ struct LevelTurn {
 /// `now`: seconds of the window. Whoever runs the line notes in the state since when its level is shown, and plays on until it is applied.
 [[nodiscard]] LevelTurn play_levels(ViewState& state, bool busy, double now);
 
+/// Ends the look into a vertex' search, and goes back to where its close-up came from.
+void close_inspection(ViewState& state);
+
 }  // namespace dmoscope::ui

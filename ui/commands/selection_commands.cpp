@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "ui/commands/command_words.h"
+#include "ui/commands/inspection_commands.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -87,6 +88,7 @@ void leave(ViewState& state) {
     state.brush.painting = false;
     return;
   }
+  if (state.inspection.open) return close_inspection(state);
   state.picked = {};
   state.panels.leave_selection();
 }

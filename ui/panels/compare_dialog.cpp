@@ -99,16 +99,16 @@ void draw_compare_dialog(PanelContext& context) {
   }
   if (context.widgets.dialog_opened) begin(dialog, *run);
   dim_text(context, "Every method that is chosen is run for every metric that is chosen, each from the input and beside the others.");
-  const float half = ImGui::GetContentRegionAvail().x / 2;
-  ImGui::BeginGroup();
-  draw_methods(context, dialog);
-  ImGui::EndGroup();
-  ImGui::SameLine(half);
-  ImGui::BeginGroup();
-  draw_metrics(context, dialog);
-  ImGui::EndGroup();
   draw_presets(context, dialog, *run);
-  ImGui::Separator();
+  const std::size_t rows = std::max(method_table().size(), context.derived.metrics.size());
+  const float half = ImGui::GetContentRegionAvail().x / 2, wanted = static_cast<float>(rows + 1) * ImGui::GetFrameHeightWithSpacing();
+  const float most = ImGui::GetIO().DisplaySize.y - 18 * context.em();
+  const ImVec2 list{half - context.px(8), std::clamp(most, 6 * context.em(), wanted)};
+  if (ImGui::BeginChild("methods", list)) draw_methods(context, dialog);
+  ImGui::EndChild();
+  ImGui::SameLine(half);
+  if (ImGui::BeginChild("metrics", list)) draw_metrics(context, dialog);
+  ImGui::EndChild();
   ImGui::Checkbox("until they converge", &dialog.until_converged);
   context.items.record_last("compare:converged");
   if (!dialog.until_converged) {
@@ -119,13 +119,16 @@ void draw_compare_dialog(PanelContext& context) {
   }
   const std::vector<std::string> runs = chosen_runs(dialog, *run);
   constexpr std::size_t kMost = 64;
+  dim_text(context, runs.empty()          ? std::string("Choose another method or metric than those of the run that is there.")
+                    : runs.size() > kMost ? fmt::format("{} runs: at most {} can be compared.", runs.size(), kMost)
+                                          : fmt::format("{} beside the one that is there", counted(runs.size(), "run", "runs")));
   ImGui::BeginDisabled(runs.empty() || runs.size() > kMost || context.activity.busy);
-  if (ImGui::Button(runs.size() <= 1 ? "Run it" : fmt::format("Run these {}", runs.size()).c_str(), {widest_button({"Run these 00"}), 0})) {
+  if (ImGui::Button("Run and compare")) {
     send_all(context, dialog, runs);
     context.state.dialog = Dialog::None;
   }
   ImGui::EndDisabled();
-  note_item(context, "compare:go", runs.empty() ? "choose another method or metric than the run has that is there" : "and compares them");
+  context.items.record_last("compare:go");
   ImGui::SameLine();
   close_button(context, "Cancel");
   end_dialog();

@@ -30,22 +30,33 @@ bool switch_button(PanelContext& context, const std::string& item, const std::st
   return clicked;
 }
 
-/// By which metric the curves are judged.
+void judge_by(PanelContext& context, Metric metric) {
+  context.send("judged-by shown");
+  context.send("show " + quote_word(info(metric).name));
+}
+
+/// By which metric the curves are judged: buttons for a few, a list of more.
 void draw_judges(PanelContext& context, const Comparison& comparison) {
-  const bool own = context.state.plot_options.judged_own;
+  constexpr std::size_t kMostButtons = 3;
+  constexpr const char* kTooltip = "judges all runs by it, and colours the meshes";
+  const bool own = context.state.plot_options.judged_own, few = comparison.metrics.size() <= kMostButtons;
   ImGui::AlignTextToFramePadding();
   dim_text(context, "Judged by", false);
   for (const Metric metric : comparison.metrics) {
-    const std::string title = metric_title(metric);
-    if (ImGui::GetItemRectMax().x + widest_button({title.c_str()}) < ImGui::GetWindowPos().x + ImGui::GetWindowWidth())
-      ImGui::SameLine(0, context.px(6));
+    if (!few) break;
+    ImGui::SameLine(0, context.px(6));
     const bool on = !own && metric == context.session.shown;
-    if (!switch_button(context, fmt::format("judge:{}", info(metric).name), title, on, "judges all runs by it, and colours the meshes"))
-      continue;
-    context.send("judged-by shown");
-    context.send("show " + quote_word(info(metric).name));
+    if (switch_button(context, fmt::format("judge:{}", info(metric).name), metric_title(metric), on, kTooltip)) judge_by(context, metric);
   }
   ImGui::SameLine(0, context.px(6));
+  if (!few) {
+    ImGui::SetNextItemWidth(std::min(12 * context.em(), ImGui::GetContentRegionAvail().x - widest_button({"Its own"}) - context.px(8)));
+    if (Combo combo(context, "judge", own ? std::string("each its own") : metric_title(context.session.shown)); combo.open())
+      for (const Metric metric : comparison.metrics)
+        if (combo.entry(info(metric).name, metric_title(metric), !own && metric == context.session.shown, kTooltip))
+          judge_by(context, metric);
+    ImGui::SameLine(0, context.px(6));
+  }
   if (switch_button(context, "judge:own", "Its own", own, "each run by the metric that it optimises")) context.send("judged-by own");
 }
 
@@ -127,15 +138,19 @@ void draw_matrix(PanelContext& context, const Comparison& comparison) {
   const int columns = static_cast<int>(1 + comparison.metrics.size() * Comparison::kMeasures);
   constexpr ImGuiTableFlags kFlags =
       ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY | ImGuiTableFlags_ScrollX | ImGuiTableFlags_SizingFixedFit;
-  const float buttons = ImGui::GetFrameHeightWithSpacing();
+  const float buttons = ImGui::GetFrameHeightWithSpacing(), room = ImGui::GetContentRegionAvail().x;
   if (!ImGui::BeginTable("comparison", columns, kFlags, {0, std::max(4 * context.em(), ImGui::GetContentRegionAvail().y - buttons)}))
     return;
+  ImGui::PushFont(context.fonts.bold);
+  const float number = ImGui::CalcTextSize("0.00000").x;
+  ImGui::PopFont();
+  const float around = 2 * ImGui::GetStyle().CellPadding.x, bar = ImGui::GetStyle().ScrollbarSize;
   float widest = 6 * context.em();
   for (std::size_t k = 0; k < context.session.runs.size(); ++k)
-    widest = std::max(widest, ImGui::CalcTextSize(run_title(context.session, k).c_str()).x + 2.5F * context.em());
-  ImGui::TableSetupColumn("run", ImGuiTableColumnFlags_WidthFixed, std::min(widest, 13 * context.em()));
-  for (int k = 1; k < columns; ++k)
-    ImGui::TableSetupColumn(std::to_string(k).c_str(), ImGuiTableColumnFlags_WidthFixed, 3.3F * context.em());
+    widest = std::max(widest, ImGui::CalcTextSize(run_title(context.session, k).c_str()).x + 1.2F * context.em());
+  const float rest = room - bar - static_cast<float>(columns - 1) * (number + around) - around;
+  ImGui::TableSetupColumn("run", ImGuiTableColumnFlags_WidthFixed, std::clamp(rest, 6 * context.em(), widest));
+  for (int k = 1; k < columns; ++k) ImGui::TableSetupColumn(std::to_string(k).c_str(), ImGuiTableColumnFlags_WidthFixed, number);
   ImGui::TableSetupScrollFreeze(1, 2);
   draw_head(context, comparison);
   for (const Comparison::Row& row : comparison.rows) draw_row(context, row);

@@ -144,9 +144,11 @@ void draw_minimum(PanelContext& context, Metric metric, double minimum, Index wo
   context.items.record_last("minimum");
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   const float middle = (low.y + high.y) / 2, half = context.px(6), left = high.x + context.px(10);
-  if (std::isfinite(minimum) && metric == context.session.shown)
-    ImGui::GetWindowDrawList()->AddRectFilled({left, middle - half}, {left + 2 * half, middle + half},
-                                              colour(shown_scale(context.state, context.derived).colour(minimum)), context.px(3));
+  const bool coloured_by_it = metric == context.session.shown && context.state.colouring.by == ColourBy::Quality;
+  if (std::isfinite(minimum) && coloured_by_it)
+    ImGui::GetWindowDrawList()->AddRectFilled(
+        {left, middle - half}, {left + 2 * half, middle + half},
+        colour(minimum > 0.0 ? shown_scale(context.state, context.derived).colour(minimum) : render::kInvertedColour), context.px(3));
   if (worst == kNoIndex) return;
   constexpr const char* kShow = "Show it";
   const float below = ImGui::GetCursorPosY();
@@ -169,7 +171,8 @@ void draw_statistics(PanelContext& context, Metric metric, const Statistics& sta
   }
   if (run == nullptr) return;
   const HeldMinimum* held = run->held.found.get();
-  const std::string aside = held == nullptr ? std::string() : fit_text(std::string(held->brief()), 9 * context.em());
+  const bool rests = held != nullptr && held->brief() != "nothing";  // else it still rises
+  const std::string aside = rests ? fit_text(std::string(held->brief()), 9 * context.em()) : std::string();
   const bool open = context.state.panels.holds;
   if (fold_row(context, "holds", "Why no better?", aside, open, "what holds the worst element, and what would raise it"))
     context.send(open ? "unfold-holds off" : "unfold-holds on");

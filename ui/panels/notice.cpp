@@ -167,12 +167,16 @@ void draw_unfolded(PanelContext& context, Notice notice, const Rect& rect) {
 
 void draw_notice(PanelContext& context, const Rect& rect) {
   Notice notice = notice_of(context.session);
-  if (notice.empty() || notice.key == context.state.dismissed_notice || rect.w < 16 * context.em() || rect.h < 12 * context.em()) return;
+  if (notice.empty() || notice.key == context.state.dismissed_notice) return;
+  Rect within = rect;  // of several viewports that of the run
+  for (const PaneFacts& pane : context.panes)
+    if (pane.focus && !context.state.panes.one()) within = pane.clip;
+  if (within.w < 16 * context.em() || within.h < 12 * context.em()) return;
   for (std::string& sentence : notice.sentences) sentence = with_arrows(std::move(sentence));
   if (context.state.panels.notice)
-    draw_unfolded(context, std::move(notice), rect);
+    draw_unfolded(context, std::move(notice), within);
   else
-    draw_folded(context, notice, rect);
+    draw_folded(context, notice, within);
 }
 
 }  // namespace dmoscope::ui

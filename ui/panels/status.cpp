@@ -196,10 +196,13 @@ void draw_message(PanelContext& context, const Rect& viewport) {
   if (message->kind == Message::Kind::Info && !is_step) return;
   const std::string text = first_line(context, *message);
   const float pad = context.px(10), axes = context.state.in_space ? 6 * context.em() : 0.0F;
-  const float most = std::min(viewport.w - 4 * pad - axes, 60 * context.em());
+  const float legend = 19 * context.em();  // and what is beside it
+  const bool beside = viewport.w - legend - axes > 24 * context.em();
+  const float most = std::min(viewport.w - 4 * pad - axes - (beside ? legend : 0.0F), 60 * context.em());
   const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, most - 2 * pad);
-  const Rect box{std::round(viewport.x + viewport.w - size.x - 4 * pad - axes), std::round(viewport.y + viewport.h - size.y - 4 * pad),
-                 size.x + 2 * pad + 1, size.y + 2 * pad};
+  const Rect box{std::round(viewport.x + viewport.w - size.x - 4 * pad - axes),
+                 std::round(viewport.y + viewport.h - size.y - 4 * pad - (beside ? 0.0F : 5 * context.em())), size.x + 2 * pad + 1,
+                 size.y + 2 * pad};
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {pad, pad});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, context.px(5));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0F);

@@ -70,7 +70,7 @@ void draw_controls(PanelContext& context) {
   action_button(context, "best", "Best");
   ImGui::SameLine();
   const std::string label = label_of(context, last);
-  const float label_width = ImGui::CalcTextSize("iteration 00,000 of 00,000").x;
+  const float label_width = ImGui::CalcTextSize(fmt::format("iteration {0} of {0}", count(std::max<std::uint64_t>(last, 999))).c_str()).x;
   const float padding = 2 * ImGui::GetStyle().FramePadding.x;
   const float buttons = 3 * padding + ImGui::CalcTextSize("ABFlip").x + 2 * small + context.px(16);
   const float room = ImGui::GetContentRegionAvail().x;

@@ -2,6 +2,8 @@
 #include <string>
 
 #include <gtest/gtest.h>
+#include <imgui.h>
+#include <imgui_internal.h>
 
 #include "tests/gui/headless_test.h"
 

@@ -114,8 +114,7 @@ TEST_F(ViewsOfBefore, AreWrittenAsTheyWere) {
     const Lines now = with_names_of_then(written(state_after(mesh, commands)));
     if (fresh.contains(mesh)) {
       Lines differs = difference(fresh[mesh], now);
-      std::erase_if(differs,
-                    [](const std::string& one) { return one.find("tab selection") != one.npos || one.find("/tab ") != one.npos; });
+      std::erase_if(differs, [](const std::string& one) { return one.find("tab selection") != one.npos || one.find("/tab ") != one.npos; });
       EXPECT_EQ(differs, expected);
     } else {
       EXPECT_EQ(without_panels(now), without_panels(expected));

@@ -1,6 +1,9 @@
 // A column beside the mesh: the dock of setup, below it that of facts with its tabs.
 #include <algorithm>
 #include <array>
+#include <cmath>
+
+#include <fmt/format.h>
 
 #include "ui/panels/panels.h"
 

@@ -13,7 +13,7 @@
 namespace dmoscope::ui {
 namespace {
 
-constexpr double kLongestForce = 44.0, kShortestForce = 5.0, kApart = 14.0, kThinnestElement = 4.0;  // pixels at scale 1
+constexpr double kLongestForce = 44.0, kShortestForce = 5.0, kForcesApart = 14.0, kThinnestElement = 4.0;  // pixels at scale 1
 constexpr float kRim = 1.5F, kRimCasing = 3.5F, kActiveCasing = 5.0F, kThinnest = 1.5F, kThickest = 3.5F;
 constexpr std::size_t kMostHolders = 2000;
 
@@ -95,7 +95,7 @@ void add_holders(render::Marks& marks, const MarkView& view, const JointCluster&
     }
   }
   const double most = longest_force(cluster), least = view.units(kShortestForce);
-  PlacesOfForces places(view.window(), view.units(kApart));
+  PlacesOfForces places(view.window(), view.units(kForcesApart));
   for (const JointCluster::Force& one : cluster.forces) {
     if (!(most > 0.0)) break;
     const Vec2<double> from = plane.place(positions[one.vertex]), along = plane.project(one.force);
@@ -119,7 +119,7 @@ void add_space_holders(render::SpaceMarks& marks, const SpaceMarkView& view, con
   const double unit = view.camera.units_per_pixel(view.projection.viewport());
   CasedLines lines(marks, ink, casing);
   const Vec2<double> half{0.5 * view.projection.viewport().x, 0.5 * view.projection.viewport().y};
-  PlacesOfForces places({{-half.x, -half.y}, half}, kApart * view.scale);
+  PlacesOfForces places({{-half.x, -half.y}, half}, kForcesApart * view.scale);
   for (const JointCluster::Force& one : cluster.forces) {
     const Vec3 from = positions[one.vertex], way = (kLongestForce * view.scale * unit / most) * one.force, tip = from + way;
     const double pixels = view.pixels(from, tip);

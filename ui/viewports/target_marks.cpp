@@ -14,7 +14,7 @@ namespace dmoscope::ui {
 namespace {
 
 constexpr std::size_t kMostEllipses = 200;  // more would hide the mesh
-constexpr double kLong = 1.05;              // what is less long shows no axis
+constexpr double kLongAxis = 1.05;          // what is less long shows no axis
 // Unlike the outlines of what is picked, on any colour.
 constexpr render::Rgba kInk{255, 255, 255, 255}, kTargetCasing{20, 20, 20, 255};
 
@@ -103,7 +103,7 @@ void add_targets(render::Marks& marks, const Frame& frame, Metric metric, std::s
     now.draw(marks.lines, 1.0F, kTargetCasing);
     wished.draw(marks.lines, 3.4F, kTargetCasing);
     wished.draw(inked, 1.6F, kInk);
-    if (TargetShapeOfElement::aspect(shape->wished) > kLong) wished.draw_longer_axis(inked, 1.0F, kInk);
+    if (TargetShapeOfElement::aspect(shape->wished) > kLongAxis) wished.draw_longer_axis(inked, 1.0F, kInk);
   }
   marks.lines.insert(marks.lines.end(), inked.begin(), inked.end());
 }

@@ -157,7 +157,7 @@ class Greedy {
 
   [[nodiscard]] Index follower_of(Index v) const { return followers_.empty() ? kNoIndex : followers_[v]; }
 
-  /// Of the 64 colours from `base` on those of the vertices that share an element with v.
+  /// Colours of the vertices that share an element with v, a bit each, among the 64 from `base` on.
   [[nodiscard]] std::uint64_t colours_around(Index v, unsigned base) const {
     std::uint64_t taken = 0;
     for (const Incidence& incidence : topology_.star(v))

@@ -56,7 +56,7 @@ class Domain {
   [[nodiscard]] Index leader(Index vertex) const noexcept { return pair_of(vertex, &Partners::second, &Partners::first); }
   /// By vertex its follower(); empty: there are no pairs.
   [[nodiscard]] std::span<const Index> followers() const noexcept { return followers_; }
-  /// Where the follower stands when the vertex stands at `place`.
+  /// Position of the follower for the vertex at `place`.
   [[nodiscard]] Vec3 place_of_follower(Index vertex, Vec3 place) const;
   [[nodiscard]] Index count() const noexcept { return sliding_; }        // of vertices that slide
   [[nodiscard]] Index count_inside() const noexcept { return inside_; }  // of these, off the boundary

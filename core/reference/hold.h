@@ -25,7 +25,7 @@ void hold_named_points(const InputMesh& input, CurveEnds& ends);
 void hold_tied(const InputMesh& input, CurveEnds& ends);
 /// Holds those partners, too, that do not both slide between the same places. After all else that holds.
 void hold_parting(const InputMesh& input, CurveEnds& ends);
-/// Who may move together: of planar meshes and curved surfaces that slide along curves of their own.
+/// Pairs of vertices that may slide as one, in planar meshes and on curved surfaces that slide along their own curves.
 [[nodiscard]] std::vector<Partners> partners_of(const InputMesh& input);
 
 }  // namespace dmoscope

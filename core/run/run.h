@@ -74,7 +74,7 @@ struct RunSnapshot {
   JointPath joint{};
 };
 
-/// What vertices around the worst element can do for it together, in the iteration after this one.
+/// Joint move of the vertices around the worst element, found at the end of an iteration for the next one.
 struct RaiseOfWorst {
   std::uint64_t iteration = 0;
   bool certified = false;                  // nothing raises it by what is worth it
@@ -300,7 +300,7 @@ class Run {
   std::function<void(const Run&)> observer_;
   std::optional<Outcome> last_outcome_;
   std::optional<Pursuit> pursuit_;
-  // Of a run until it has converged: whether it raises what single vertices are stuck in, and has looked at that since something last rose.
+  // State of a run until convergence: joint raises of a stuck worst element are allowed; one was looked for since the minimum last rose.
   bool raises_ = false, looked_ = false;
   std::optional<RaiseOfWorst> next_raise_;  // the next iteration; none: it is as its kind says
 };

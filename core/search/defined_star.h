@@ -290,7 +290,7 @@ class DefinedStar {
     Incidence at;
     Index vertex;
   };
-  /// Where the vertex of an element is when the star's own is `there`.
+  /// Position of an element's moving vertex for the star's vertex at `there`.
   [[nodiscard]] Vec3 place_of(const Around& one, Vec3 there) const {
     return one.vertex == vertex_ ? there : positions_[one.vertex] + (there - here_);
   }

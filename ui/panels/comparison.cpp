@@ -105,17 +105,7 @@ void draw_title(PanelContext& context, const Comparison::Row& row) {
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + context.px(10));
     return dim_text(context, "Input", false);
   }
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float line = ImGui::GetTextLineHeight(), room = ImGui::GetContentRegionAvail().x - context.px(10);
-  const bool active = row.run == context.session.active;
-  if (ImGui::Selectable("##row", active, ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap) && !active)
-    context.send(fmt::format("select-run {}", row.run + 1));
-  context.items.record_last(fmt::format("compared:{}", row.run + 1));
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  list.AddRectFilled({at.x, at.y + 0.15F * line}, {at.x + context.px(4), at.y + 0.9F * line}, colour(context.palette.run(row.run)),
-                     context.px(2));
-  const std::string title = context.shown(run_title(context.session, row.run));
-  list.AddText({at.x + context.px(10), at.y}, colour(context.palette.text), fit_text(title, room).c_str());
+  draw_run_cell(context, row.run, fmt::format("compared:{}", row.run + 1), context.shown(run_title(context.session, row.run)));
 }
 
 void draw_row(PanelContext& context, const Comparison::Row& row) {

@@ -93,19 +93,6 @@ void draw_number(PanelContext& context, const RunRow& row, const RunColumn& colu
   if (std::isfinite(value)) next_item_tooltip(full_number(value));
 }
 
-void draw_run(PanelContext& context, const RunRow& row) {
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float line = ImGui::GetTextLineHeight();
-  const bool active = row.run == context.session.active;
-  if (ImGui::Selectable("##row", active, ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap) && !active)
-    context.send(fmt::format("select-run {}", row.run + 1));
-  context.items.record_last(fmt::format("run-row:{}", row.run + 1));
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  list.AddRectFilled({at.x, at.y + 0.15F * line}, {at.x + context.px(4), at.y + 0.9F * line}, colour(context.palette.run(row.run)),
-                     context.px(2));
-  list.AddText({at.x + context.px(10), at.y}, colour(context.palette.text), row.title.c_str());
-}
-
 /// What all runs began with, above them whatever they are sorted by.
 void draw_inputs(PanelContext& context, const std::vector<ShownColumn>& columns) {
   for (const RunRow& row : input_rows(context.session)) {
@@ -126,6 +113,19 @@ void draw_inputs(PanelContext& context, const std::vector<ShownColumn>& columns)
 }
 
 }  // namespace
+
+void draw_run_cell(PanelContext& context, std::size_t run, const std::string& item, const std::string& title) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float line = ImGui::GetTextLineHeight(), inset = context.px(10), room = ImGui::GetContentRegionAvail().x - inset;
+  const bool active = run == context.session.active;
+  if (ImGui::Selectable("##row", active, ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap) && !active)
+    context.send(fmt::format("select-run {}", run + 1));
+  context.items.record_last(item);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled({at.x, at.y + 0.15F * line}, {at.x + context.px(4), at.y + 0.9F * line}, colour(context.palette.run(run)),
+                     context.px(2));
+  list.AddText({at.x + inset, at.y}, colour(context.palette.text), fit_text(title, room).c_str());
+}
 
 void draw_run_table(PanelContext& context) {
   if (context.session.runs.empty()) return dim_text(context, "no runs yet: open a mesh");
@@ -161,7 +161,7 @@ void draw_run_table(PanelContext& context) {
       const RunColumn& column = run_column(columns[k].column);
       ImGui::TableNextColumn();
       if (k == 0) {
-        draw_run(context, row);
+        draw_run_cell(context, row.run, fmt::format("run-row:{}", row.run + 1), row.title);
       } else if (column.is_word()) {
         dim_text(context, cell_text(row, column), false);
       } else {

@@ -15,7 +15,7 @@
 
 namespace dmoscope::composite {
 
-/// What is of second order in a squared norm: a number times |p|^2 or, crossed, in x^2, y^2, z^2, xy, xz, yz. F: a pack, so that no other
+/// Second-order part of a squared norm: a number times |p|^2 or, crossed, in x^2, y^2, z^2, xy, xz, yz. F: a pack, so that no other
 /// processor's code shares the functions.
 template <bool Crossed, class F>
 struct SecondOrder {
@@ -43,7 +43,7 @@ struct SecondOrder<true, F> {
   [[nodiscard]] double at(const std::array<double, 3>& c) const {
     return xx * c[0] * c[0] + yy * c[1] * c[1] + zz * c[2] * c[2] + xy * c[0] * c[1] + xz * c[0] * c[2] + yz * c[1] * c[2];
   }
-  /// Of the sizes of its terms.
+  /// Upper bound over the box of half sizes `half`: the sum of the magnitudes of its terms.
   [[nodiscard]] double most(const std::array<double, 3>& half) const {
     const auto size = [](double a) { return a < 0.0 ? -a : a; };
     return xx * half[0] * half[0] + yy * half[1] * half[1] + zz * half[2] * half[2] + size(xy * half[0] * half[1]) +

@@ -16,7 +16,7 @@ namespace dmoscope {
 enum class MeanKind : std::uint8_t { Harmonic, Arithmetic, Geometric, InverseSquare };
 
 /// Those of the harmonic one.
-inline constexpr double kMeanSteps[] = {0.4, 0.3, 0.2, 0.1};  // NOLINT(*-avoid-c-arrays): a device reads it
+inline constexpr double kMeanSteps[] = {0.4, 0.3, 0.2, 0.1};  // NOLINT(*-avoid-c-arrays): NVRTC has no <array>
 
 /// "mean" (the harmonic one, the usual), "arithmetic-mean", "geometric-mean" or "inverse-square-mean".
 [[nodiscard]] std::string_view name(MeanKind kind);
@@ -70,11 +70,12 @@ class PowerMean {
   /// What bad elements add to their inverse. A lower step counts more than all higher ones of a star together, and any more than the
   /// inverses of its sound elements can gain.
   [[nodiscard]] static DMOSCOPE_ANYWHERE R steps(R quality) {
-    return step(quality, kMeanSteps[0], 1e3) + step(quality, kMeanSteps[1], 16e3) + step(quality, kMeanSteps[2], 256e3) +
-           step(quality, kMeanSteps[3], 4096e3);
+    return step<0>(quality, 1e3) + step<1>(quality, 16e3) + step<2>(quality, 256e3) + step<3>(quality, 4096e3);
   }
-  [[nodiscard]] static DMOSCOPE_ANYWHERE R step(R quality, double below, double adds) {
+  template <int I>
+  [[nodiscard]] static DMOSCOPE_ANYWHERE R step(R quality, double adds) {
     using scalar::select;
+    constexpr double below = kMeanSteps[I];  // a constant: device code has no access to the array itself
     return select(quality < scalar::constant<R>(below), scalar::constant<R>(adds), R(0.0));
   }
 

@@ -137,6 +137,36 @@ void judge_in_packs(const QualityContext& context, std::span<const Vec3> positio
     judge_in_packs<M, kCorners, false>(context, positions, axes, block, first, last);
 }
 
+/// Volume elements of one kind, [first, last) of the block. Only what a pack does not prove valid inside is looked at alone.
+template <Metric M>
+void judge_volumes_in_packs(const QualityContext& context, std::span<const Vec3> positions, ElementBlock& block, std::size_t first,
+                            std::size_t last) {
+  constexpr std::array<Index, 8> kOwn{0, 1, 2, 3, 4, 5, 6, 7};
+  const auto corners = [&](std::size_t i) { return context.mesh.elements.corners(block.first + static_cast<Index>(i)); };
+  const auto own = std::span(kOwn).first(corners(first).size());
+  for (; first + kWidth <= last; first += kWidth) {
+    alignas(64) double at[3][kOwn.size()][kWidth], least[kWidth];
+    for (std::size_t slot = 0; slot < kWidth; ++slot)
+      for (std::size_t k = 0; k < own.size(); ++k) {
+        const Vec3& p = positions[corners(first + slot)[k]];
+        at[0][k][slot] = p.x, at[1][k][slot] = p.y, at[2][k][slot] = p.z;
+      }
+    const auto load = [&](Index k) {
+      return Vec3Of<Real>{Real::load_aligned(at[0][k]), Real::load_aligned(at[1][k]), Real::load_aligned(at[2][k])};
+    };
+    visit_volume(own, load, [&](const auto& shape) {
+      evaluate<M>(shape).store_unaligned(&block.quality[first]);
+      formulas::smallest_jacobian(shape).store_unaligned(&block.jacobian[first]);
+      if constexpr (requires { validity::coefficients_of(shape); }) validity::least_coefficient(shape).store_aligned(least);
+    });
+    if (own.size() != 6 && own.size() != 8) continue;  // corners tell all
+    for (std::size_t slot = 0; slot < kWidth; ++slot)
+      if (!(least[slot] > validity::kRounding) && block.jacobian[first + slot] > 0.0)
+        block.jacobian[first + slot] = smallest_jacobian(context, positions, block.first + static_cast<Index>(first + slot));
+  }
+  judge_one_by_one<M>(context, positions, block, first, last);
+}
+
 template <Metric M>
 void judge(const QualityContext& context, std::span<const Vec3> positions, ElementBlock& block) {
   const auto kinds = context.mesh.elements.kinds().subspan(block.first, block.count);
@@ -149,6 +179,8 @@ void judge(const QualityContext& context, std::span<const Vec3> positions, Eleme
       judge_in_packs<M, 3>(context, positions, block, first, last);
     else if (planar && kinds[first] == ElementKind::Quadrilateral)
       judge_in_packs<M, 4>(context, positions, block, first, last);
+    else if (info(kinds[first]).dimension == 3)
+      judge_volumes_in_packs<M>(context, positions, block, first, last);
     else
       judge_one_by_one<M>(context, positions, block, first, last);
     first = last;

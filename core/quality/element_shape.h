@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <span>
+#include <type_traits>
 
 #include "core/base/host_device.h"
 #include "core/mesh/element_frame.h"
@@ -24,10 +25,11 @@ DMOSCOPE_ANYWHERE auto visit_planar(const Plane& plane, std::span<const Index> c
 }
 
 /// The shape of a volume element; its kind follows from the number of its corners. Edges are differences of positions: nothing is lost far
-/// from the origin, and what does not depend on a corner keeps its bits when that corner moves.
+/// from the origin, and what does not depend on a corner keeps its bits when that corner moves. at(vertex): its position, or a pack of
+/// them.
 template <class At, class Visitor>
 DMOSCOPE_ANYWHERE auto visit_volume(std::span<const Index> corners, At at, Visitor visitor) {
-  using V = Vec3;
+  using V = std::remove_cvref_t<decltype(at(corners[0]))>;
   const auto corner = [&](std::size_t i) { return at(corners[i]); };
   switch (corners.size()) {
     case 4:

@@ -154,17 +154,16 @@ struct Piece {
 /// How often an element is halved, and how many pieces are looked at, before it counts as undecided.
 inline constexpr std::uint32_t kMostCuts = 24, kMostPieces = 4096;
 
-/// By pieces; `whole`: coefficients not all of which tell enough. The coefficients over a piece are found anew from these: to keep those
-/// that wait takes more memory than a device's lanes have.
+/// By pieces; `whole`: coefficients not all of which tell enough. The coefficients over the other half of a piece are found anew from
+/// these: to keep those that wait takes more memory than a device's lanes have.
 [[nodiscard]] DMOSCOPE_ANYWHERE Validity divide(const Coefficients& whole) {
   using scalar::abs, scalar::max;
   double greatest = 0.0;
   for (const double c : whole) greatest = max(greatest, abs(c));
   const double bound = kRounding + greatest * 0x1p-46;  // and what halving adds
   Piece piece;
+  Coefficients here = whole;
   for (std::uint32_t looks = 0;; ++looks) {
-    Coefficients here = whole;
-    for (std::uint32_t cut = 0; cut < piece.cuts; ++cut) piece.halve(here, cut);
     for (std::size_t corner = 0; corner < 8; ++corner) {
       const std::size_t i = corner % 2, j = corner / 2 % 2, k = corner / 4;
       const double value = here[18 * i + 6 * j + 2 * k];
@@ -172,10 +171,12 @@ inline constexpr std::uint32_t kMostCuts = 24, kMostPieces = 4096;
     }
     if (all_above(here, bound)) {
       if (!piece.go_on()) return {true};
+      here = whole;
+      for (std::uint32_t cut = 0; cut < piece.cuts; ++cut) piece.halve(here, cut);
     } else if (piece.cuts == kMostCuts || looks == kMostPieces) {
       return {false, 0.0, piece.place({0.5, 0.5, 0.5})};
     } else {
-      ++piece.cuts;
+      piece.halve(here, piece.cuts++);
     }
   }
 }

@@ -10,6 +10,7 @@
 
 #include "core/base/thread_pool.h"
 #include "tests/support/meshes.h"
+#include "tests/support/volume_grids.h"
 
 namespace dmoscope {
 namespace {
@@ -102,6 +103,21 @@ TEST(ElementBlock, HasTheVeryBitsOfEachElementOfACurvedSurface) {
   const auto mesh = input(curved(tangled(Cells::Mixed)), Need::QualityOnly);
   ASSERT_EQ(mesh->geometry.shape, Shape::Surface);
   expect_the_very_bits(*mesh);
+}
+
+TEST(ElementBlock, HasTheVeryBitsOfEachElementOfAVolume) {
+  using test::Fill;
+  std::size_t inverted_inside_alone = 0;
+  for (const Fill fill : {Fill::Tetrahedra, Fill::Hexahedra, Fill::Mixed})
+    for (const double jitter : {0.2, 0.5, 0.9}) {
+      Mesh mesh = test::volume_grid(6, fill, jitter, 7);
+      for (std::size_t v = 30; v < 200; v += 31) mesh.positions[v] = mesh.positions[v + 1];
+      const auto held = input(std::move(mesh));
+      expect_the_very_bits(*held);
+      for (Index e = 0; e < held->mesh.elements.size(); ++e)
+        if (smallest_jacobian(held->quality_context(), held->mesh.positions, e) == 0.0) ++inverted_inside_alone;
+    }
+  EXPECT_GT(inverted_inside_alone, 0U) << "none that its corners do not tell of";
 }
 
 TEST(ElementBlock, ElementQualitiesAreThoseOfEachElementForAnyPool) {

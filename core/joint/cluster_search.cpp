@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/joint/defined_atoms.h"
 #include "core/quality/quality.h"
@@ -21,6 +22,7 @@ constexpr double kSameLevel = 1e-3, kSameMinimum = 1e-4;  // relative
 constexpr double kLeastGain = 1e-4;                       // of the minimum, in a pass
 constexpr double kPassBand = 0.01;                        // how far above the minimum a pass looks, relative
 constexpr double kBeyond = 0.01;                          // how far beyond the threshold the first of two aims is raised, relative
+constexpr double kGapBeforeMean = 0.5;                    // share of the gap that is reached before a mean rises
 constexpr double kAbove = 1e-9;                           // and how far above it kept, for what rounding takes
 
 void sort_and_unique(std::vector<Index>& values) {
@@ -229,16 +231,22 @@ std::vector<Index> ClusterSearch<D>::enlarged(const std::vector<Index>& cluster,
 
 // ---- one cluster ----
 
+/// The problem of a cluster where its vertices stand, to be solved.
+template <int D>
+typename ClusterSearch<D>::Solved ClusterSearch<D>::posed(const std::vector<Index>& cluster) const {
+  Solved posed;
+  posed.local = mesh_.problem(cluster, positions_);
+  if (first_ != nullptr) first_->limit(posed.local, (1.0 + kAbove) * threshold_, positions_);
+  if (domain_ == nullptr) return posed;
+  posed.path = std::make_unique<SlidingPath<D>>(mesh_, posed.local, positions_, *domain_, *limit_);
+  if (holds_) posed.path->hold();
+  posed.local.problem.path = posed.path->any() ? posed.path.get() : nullptr;
+  return posed;
+}
+
 template <int D>
 void ClusterSearch<D>::solve(const std::vector<Index>& cluster, const InteriorPointOptions& options, bool may_leave) {
-  solved_ = {};
-  solved_.local = mesh_.problem(cluster, positions_);
-  if (first_ != nullptr) first_->limit(solved_.local, (1.0 + kAbove) * threshold_, positions_);
-  if (domain_ != nullptr) {
-    solved_.path = std::make_unique<SlidingPath<D>>(mesh_, solved_.local, positions_, *domain_, *limit_);
-    if (holds_) solved_.path->hold();
-    solved_.local.problem.path = solved_.path->any() ? solved_.path.get() : nullptr;
-  }
+  solved_ = posed(cluster);
   std::ranges::fill(inside_, std::uint8_t{0});
   for (const Index v : cluster) inside_[v] = 1;
   JointCallbacks<D> callbacks;
@@ -285,17 +293,25 @@ bool ClusterSearch<D>::first_stays_beyond() const {
   });
 }
 
+/// Where the free vertices come to stand a share of the way on.
+template <int D>
+std::vector<Vec3> ClusterSearch<D>::targets_of(const Solved& solved, double share) const {
+  const std::span<const Index> free = solved.local.free();
+  std::vector<Vec3> targets;
+  targets.reserve(free.size());
+  for (std::size_t k = 0; k < free.size(); ++k) {
+    auto way = solved.solution.best[k];
+    for (double& x : way) x *= share;
+    targets.push_back(mesh_.placed(positions_[free[k]], way, solved.local.scale));
+  }
+  return targets;
+}
+
 /// Goes a share of the way, if that is better.
 template <int D>
 bool ClusterSearch<D>::try_move(double share, bool& less_may_do) {
   const std::span<const Index> free = solved_.local.free();
-  std::vector<Vec3> targets;
-  targets.reserve(free.size());
-  for (std::size_t k = 0; k < free.size(); ++k) {
-    auto way = solved_.solution.best[k];
-    for (double& x : way) x *= share;
-    targets.push_back(mesh_.placed(positions_[free[k]], way, solved_.local.scale));
-  }
+  std::vector<Vec3> targets = targets_of(solved_, share);
   bool stayed = false;  // some that slide
   if (solved_.local.problem.path != nullptr) stayed = solved_.path->settle(share, free, positions_, targets) > 0;
   const JudgedMove move = mesh_.move_to(solved_.local, targets, positions_, mesh_.metric());
@@ -326,11 +342,19 @@ void ClusterSearch<D>::measure_rim(const JointIterate<D>& at) {
   sort_and_unique(solved_.rim);
 }
 
+/// All vertices that may move, unless they are too many.
 template <int D>
-JointCluster ClusterSearch<D>::push() {
+std::vector<Index> ClusterSearch<D>::all_or(std::vector<Index> cluster) const {
+  if (mesh_.free_vertices().size() > push_at_most_) return cluster;
   std::vector<Index> all;
   for (const Index v : mesh_.free_vertices())
     if (allowed_[v] != 0) all.push_back(v);
+  return all;
+}
+
+template <int D>
+JointCluster ClusterSearch<D>::push() {
+  const std::vector<Index> all = all_or({});
   InteriorPointOptions options{.gap = options_.push_gap, .max_steps = options_.max_steps, .pool = options_.pool};
   if (first_ == nullptr) options.enough = function_.inverse_of((1.0 + kBeyond) * threshold_);
   solve(all, options, false);
@@ -342,7 +366,8 @@ JointCluster ClusterSearch<D>::push() {
 
 template <int D>
 JointCluster ClusterSearch<D>::raise(Index worst) {
-  InteriorPointOptions options{.gap = options_.gap, .early_gap = kEarlyGap, .max_steps = options_.max_steps, .pool = options_.pool};
+  const double gap = options_.mean ? kGapBeforeMean * options_.gap : options_.gap;
+  InteriorPointOptions options{.gap = gap, .early_gap = kEarlyGap, .max_steps = options_.max_steps, .pool = options_.pool};
   if (first_ == nullptr) options.enough = function_.inverse_of((1.0 + kBeyond) * threshold_);
   const auto& vertices = mesh_.atoms()[worst].vertices;
   int rings = kFirstRings;
@@ -363,7 +388,12 @@ JointCluster ClusterSearch<D>::raise(Index worst) {
     holds_ = true;  // the others may move still
     solve(cluster, options, false);
   }
-  JointCluster result = told(cluster);
+  std::vector<Index> moving = cluster;
+  if (options_.mean && !moved_from_.empty()) {
+    if (!std::exchange(state_.mean_raised, true)) moving = all_or(std::move(moving));
+    raise_mean(moving);
+  }
+  JointCluster result = told(moving);
   result.worst_element = mesh_.atoms()[worst].element;
   if (result.moved.empty()) {
     result.before = result.after =

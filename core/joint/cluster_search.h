@@ -45,10 +45,14 @@ class ClusterSearch {
   bool next_pass();
   void allow_above(double quality);
   [[nodiscard]] std::vector<Index> grown(std::vector<Index> seeds, int rings) const;
+  [[nodiscard]] std::vector<Index> all_or(std::vector<Index> cluster) const;
   [[nodiscard]] JointCluster push();
   [[nodiscard]] JointCluster raise(Index worst);
+  [[nodiscard]] Solved posed(const std::vector<Index>& cluster) const;
   void solve(const std::vector<Index>& cluster, const InteriorPointOptions& options, bool may_leave);
   void commit();
+  void raise_mean(const std::vector<Index>& cluster);
+  [[nodiscard]] std::vector<Vec3> targets_of(const Solved& solved, double share) const;
   [[nodiscard]] bool try_move(double share, bool& less_may_do);
   [[nodiscard]] bool first_stays_beyond() const;
   void measure_rim(const JointIterate<D>& at);

@@ -36,9 +36,13 @@ class InteriorPoint {
   [[nodiscard]] std::size_t at_once() const { return pool_ != nullptr ? kAtOnce : kAloneAtOnce; }
   [[nodiscard]] double slack(std::size_t atom) const { return problem_.bound(atom, at_.tau) - at_.values[atom]; }
   [[nodiscard]] const AtomFunction<D>& function(std::size_t atom) const { return atom < raised_ ? function_ : *problem_.limited; }
+  /// What falls: the greatest f of those that are raised, or the sum of all.
   [[nodiscard]] double worst() const {
+    if (raised_ == 0) return weight_ * std::accumulate(at_.values.begin(), at_.values.end(), 0.0);
     return *std::max_element(at_.values.begin(), at_.values.begin() + static_cast<std::ptrdiff_t>(raised_));
   }
+  /// An atom's part in the Lagrangian.
+  [[nodiscard]] double share(std::size_t atom) const { return at_.multipliers[atom] + weight_; }
   bool start();
   void choose_ways();
   void assemble(Curvature curvature);
@@ -53,7 +57,8 @@ class InteriorPoint {
 
   const JointProblem<D>& problem_;
   const AtomFunction<D>& function_;
-  std::size_t raised_;  // atoms, the first ones
+  std::size_t raised_;   // atoms, the first ones
+  double weight_ = 0.0;  // of each f in the sum, where that falls
   ThreadPool* pool_;
   AtomBlocks<D> system_;
   JointIterate<D> at_;
@@ -103,14 +108,19 @@ bool InteriorPoint<D>::start() {
   at_.values.resize(count);
   at_.multipliers.resize(count);
   evaluate(0, count, at_.displacements, at_.values);
+  if (raised_ == 0) weight_ = 1.0 / std::accumulate(at_.values.begin(), at_.values.end(), 0.0);
   at_.worst = worst();
   if (!std::isfinite(at_.worst)) return false;
   for (std::size_t a = raised_; a < count; ++a)
     if (!(slack(a) > 0.0)) return false;
-  at_.tau = at_.worst + kFirstMargin * std::fabs(at_.worst);
+  at_.tau = raised_ == 0 ? 1.0 : at_.worst + kFirstMargin * std::fabs(at_.worst);
   double sum = 0.0;
   for (std::size_t a = 0; a < raised_; ++a) sum += 1.0 / slack(a);
   at_.mu = 1.0 / sum;
+  if (raised_ == 0) {
+    for (std::size_t a = 0; a < count; ++a) sum += slack(a);
+    at_.mu = weight_ * sum / static_cast<double>(count);
+  }
   for (std::size_t a = 0; a < count; ++a) at_.multipliers[a] = at_.mu / slack(a);
   gradients_.resize(count);
   ratios_.resize(count);
@@ -129,7 +139,7 @@ void InteriorPoint<D>::choose_ways() {
   for (const std::size_t a : bound_atoms_) {
     function(a).derive(problem_.atoms[a], displaced_edges<D>(problem_, a, at_.displacements), problem_.reference(a), Curvature::Exact,
                        derivatives);
-    system_.add_gradient(a, -at_.mu / slack(a), derivatives.gradient, forces);
+    system_.add_gradient(a, -at_.mu / slack(a) - weight_, derivatives.gradient, forces);
   }
   problem_.path->choose(forces);
 }
@@ -174,7 +184,7 @@ void InteriorPoint<D>::assemble(Curvature curvature) {
 template <int D>
 typename InteriorPoint<D>::Damping InteriorPoint<D>::damping(std::size_t atom, const AtomDerivatives<D>& derivatives) const {
   Damping result{};
-  const double multiplier = at_.multipliers[atom];
+  const double multiplier = share(atom);
   if (function(atom).convex_by_vertex()) {
     for (std::size_t r = 0; r < kD; ++r) {
       double of_first = 0.0;
@@ -199,7 +209,7 @@ typename InteriorPoint<D>::Damping InteriorPoint<D>::damping(std::size_t atom, c
 
 template <int D>
 void InteriorPoint<D>::add_atom(std::size_t atom, const AtomDerivatives<D>& derivatives) {
-  const double multiplier = at_.multipliers[atom], s = slack(atom), ratio = multiplier / s, barrier = at_.mu / s;
+  const double multiplier = share(atom), s = slack(atom), ratio = at_.multipliers[atom] / s, barrier = at_.mu / s + weight_;
   const auto& g = gradients_[atom] = derivatives.gradient;
   Damping damped = damping(atom, derivatives);
   for (double& x : damped) x *= sigma_;
@@ -246,6 +256,11 @@ void InteriorPoint<D>::find_direction() {
   direction_ = force_;
   for (double& x : direction_) x = -x;
   system_.cholesky.solve(direction_, tau_direction_);
+  if (raised_ == 0) {
+    dtau_ = 0.0;
+    slope_ = dot(force_, direction_) / at_.mu;
+    return;
+  }
   dtau_ = (1.0 - barrier_sum_ - dot(b, direction_)) / (dot(b, tau_direction_) - ratio_sum_);
   for (std::size_t i = 0; i < direction_.size(); ++i) direction_[i] += dtau_ * tau_direction_[i];
   slope_ = (dtau_ * (1.0 - barrier_sum_) + dot(force_, direction_)) / at_.mu;
@@ -261,15 +276,17 @@ bool InteriorPoint<D>::search_line() {
       for (std::size_t r = 0; r < kD; ++r) trial_[v][r] = at_.displacements[v][r] + alpha_ * direction_[v * kD + r];
     if (problem_.path != nullptr && !problem_.path->put_back(at_.displacements, trial_)) continue;
     ProductLog slacks;  // of new ones over old ones
+    double rise = 0.0;  // of the sum
     bool inside = true;
     for (std::size_t a = 0; a < new_values_.size() && inside; ++a) {
       if (a % at_once() == 0) evaluate(a, std::min(a + at_once(), new_values_.size()), trial_, new_values_);
       const double left = (problem_.bound(a, tau) - new_values_[a]) / slack(a);
       inside = left > kLeastSlack && std::isfinite(left);
       if (inside) slacks.multiply(left);
+      rise += new_values_[a] - at_.values[a];
     }
     if (!inside) continue;
-    const double change = alpha_ * dtau_ / at_.mu - slacks.value();
+    const double change = (alpha_ * dtau_ + weight_ * rise) / at_.mu - slacks.value();
     if (!(change <= 1e-4 * alpha_ * slope_ + 1e-12 * (1.0 + std::fabs(at_.tau / at_.mu)))) continue;
     step_multipliers();
     if (problem_.path != nullptr) problem_.path->take();

@@ -1,6 +1,7 @@
 #pragma once
 // Raises the least quality of a set of atoms by moving all their free vertices together: minimises tau subject to f <= tau for every
 // atom's f, by a primal-dual interior point (Nocedal and Wright 2006, chapter 19). Other atoms may have limits of their own instead of tau.
+// Where all have limits it minimises the sum of their f.
 
 #include <functional>
 #include <span>
@@ -24,7 +25,7 @@ struct JointProblem {
   JointWays<D>* path = nullptr;               // of those that slide; null: all may go anywhere
   std::vector<double> limits{};               // of the last atoms: their f stay below these, which they are at the begin
   const AtomFunction<D>* limited = nullptr;   // whose f; null where there are none
-  /// Those that are raised.
+  /// Those that are raised; 0: the sum of all f falls instead.
   [[nodiscard]] std::size_t raised() const { return atoms.size() - limits.size(); }
   /// What an atom's f is to stay below.
   [[nodiscard]] double bound(std::size_t atom, double tau) const { return atom < raised() ? tau : limits[atom - raised()]; }
@@ -47,7 +48,7 @@ template <int D>
 }
 
 struct InteriorPointOptions {
-  double gap = 2e-4;           // relative: ends when tau may be that far above the least possible
+  double gap = 2e-4;           // relative: ends when tau (or the sum) may be that far above the least possible
   double early_gap = 0.0;      // on the way there, `leave_early` is asked at this one
   double enough = -1.0;        // ends when all f are at most this
   int max_steps = 150;         // Newton steps
@@ -62,7 +63,7 @@ struct JointIterate {
   std::vector<std::array<double, D>> displacements;  // of the free vertices
   std::vector<double> values;                        // f of each atom
   std::vector<double> multipliers;                   // of each atom, > 0; the sum of those that are raised is about 1
-  double worst = 0.0;                                // greatest f of those that are raised
+  double worst = 0.0;                                // greatest f of those that are raised; or the sum of all, over that at the start
   double tau = 0.0, mu = 0.0;                        // f < tau; multiplier * (tau - f) is about mu
   int steps = 0;                                     // Newton steps so far
   /// How far tau may be above the least possible, by duality; for convex f a bound, else an estimate.

@@ -15,6 +15,7 @@
 #include "core/base/progress.h"
 #include "core/base/thread_pool.h"
 #include "core/input/input_mesh.h"
+#include "core/quality/power_mean.h"
 #include "core/reference/domain.h"
 #include "core/smooth/composite_objective.h"
 
@@ -41,6 +42,7 @@ struct JointOptions {
   double gap = 2e-4;        // a cluster ends when its minimum is within this share of its bound
   bool push_first = false;  // first all free vertices together, down to `push_gap`: raises the mean as well
   double push_gap = 0.03;
+  std::optional<MeanKind> mean{};   // of a phase that follows: a cluster that is done gives up half of the gap for it
   bool only_untangle = false;       // and by the first attempts alone, which move few vertices
   bool beyond_minimum = false;      // goes on where the minimum is certified, with the next worst elements
   int max_steps = 150;              // Newton steps a solution
@@ -62,7 +64,8 @@ struct JointState {
   double pass_began_at = 0.0;     // the minimum then
   std::uint32_t untanglings = 0;  // attempts to turn inverted elements, in vain or not
   bool pushed = false;
-  bool beyond = false;  // of two aims the second is raised now, and all the above is of that
+  bool mean_raised = false;  // over the whole mesh, unless it is too large
+  bool beyond = false;       // of two aims the second is raised now, and all the above is of that
   End end = End::None;
   friend bool operator==(const JointState&, const JointState&) = default;
 };

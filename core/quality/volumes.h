@@ -118,7 +118,7 @@ struct CorneredSolid {
 
  private:
   template <class F>
-  DMOSCOPE_ANYWHERE R corner(std::size_t i, F f) const {
+  [[gnu::always_inline]] DMOSCOPE_ANYWHERE R corner(std::size_t i, F f) const {
     const CornerTable c = row_of<Corners>(i);
     const V u = at[c[1]] - at[c[0]], v = at[c[2]] - at[c[0]], w = at[c[3]] - at[c[0]];
     return f(u, v, w, determinant(u, v, w));

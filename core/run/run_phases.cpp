@@ -20,6 +20,7 @@ JointOptions joint_options(const RunParameters& parameters) {
   options.gap = parameters.joint_gap;
   options.push_first = true;  // it raises the mean as well
   options.push_gap = std::max(options.push_gap, options.gap);
+  if (parameters.then_mean) options.mean = parameters.mean;
   return options;
 }
 

@@ -270,12 +270,15 @@ class UntanglingObjective {
   };
   [[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE Metrics judge(Point p, bool all) const {
     Metrics found;
-    const bool of_all = all || !rule_.attempt || !formulas::kSignTellsInversion<M, Point>;
+    constexpr bool kTells = formulas::kSignTellsInversion<M, Point>;
+    const bool of_all = all || !rule_.attempt || !kTells;
+    const bool known = all && rule_.attempt && kTells;  // no corner around is inverted, and who asks needs no more
     star_.template for_each<kOthers>([&](const auto& each) {
       if (!found.allowed) return;
       const auto shape = each.with(p);
-      const auto jacobian = corner_jacobians(shape, each.kMoving, [](double) {});
-      const bool doubtful = jacobian.around <= 0.0 || !formulas::kSignTellsInversion<M, Point>;
+      formulas::WholeAndAround<double> jacobian{1.0, 1.0};
+      if (!known) jacobian = corner_jacobians(shape, each.kMoving, [](double) {});
+      const bool doubtful = jacobian.around <= 0.0 || !kTells;
       if (!of_all && !doubtful) return;
       const double value = formulas::metric_around<M>(shape, each.kMoving);
       found.least = scalar::min(found.least, value);

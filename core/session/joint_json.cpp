@@ -60,6 +60,7 @@ StateJson joint_json(const JointState& state) {
                  {"untanglings", state.untanglings},
                  {"pass_began_at", number_in_json(state.pass_began_at)},
                  {"pushed", state.pushed},
+                 {"mean raised", state.mean_raised},
                  {"end", word(state.end)}};
   if (state.beyond) json["beyond"] = true;
   return json;
@@ -85,7 +86,8 @@ JointState to_joint_state(const StateJson& json, std::size_t vertices) {
   }
   state.clusters = to_index(json.at("clusters"));
   state.passes = to_index(json.at("passes"));
-  if (json.contains("untanglings")) state.untanglings = to_index(json.at("untanglings"));  // older files have none
+  if (json.contains("mean raised")) state.mean_raised = json.at("mean raised").get<bool>();  // older files have none
+  if (json.contains("untanglings")) state.untanglings = to_index(json.at("untanglings"));    // older files have none
   state.pass_began_at = to_double(json.at("pass_began_at"));
   state.pushed = json.at("pushed").get<bool>();
   state.beyond = json.value("beyond", false);

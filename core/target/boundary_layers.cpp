@@ -1,6 +1,7 @@
 #include "core/target/boundary_layers.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -18,10 +19,12 @@ constexpr double kFlat = 4.0,
                  kGrown = 1.5;      // of a pronounced stack: width over height of the first, height of the last over that of the first
 constexpr std::size_t kLayers = 3;  // at least
 constexpr double kEven = 0.95, kSteps = 2.5;  // least and most height over that of the layer beneath
+constexpr double kUpright = 0.7;              // least sine of the angle between the wall and the way up
 constexpr std::uint16_t kHighest = 60000;     // layers of a stack
 
 struct Extent {
   double width = 0.0, height = 0.0;  // means, along the wall and away from it
+  double upright = 0.0;              // sine of the angle between the wall and the way up
   /// May it be in a stack upon one of that height?
   [[nodiscard]] bool is_layer_on(double below, double flattest) const {
     return height > 0.0 && width >= flattest * height && height >= kShrinks * below;
@@ -36,8 +39,10 @@ class Shapes {
   /// Of a quadrilateral that stands on its edge.
   [[nodiscard]] Extent extent(Index element, Index edge) const {
     const auto c = mesh_.elements.corners(element);
-    const auto side = [&](Index i) { return distance(c[(edge + i) % 4], c[(edge + i + 1) % 4]); };
-    return {0.5 * (side(0) + side(2)), 0.5 * (side(1) + side(3))};
+    const auto way = [&](Index i) { return difference(c[(edge + i + 1) % 4], c[(edge + i) % 4]); };
+    const auto side = [&](Index i) { return length(way(i)); };
+    const Vec3 along = way(0) - way(2), up = way(1) - way(3);
+    return {0.5 * (side(0) + side(2)), 0.5 * (side(1) + side(3)), length(cross(along, up)) / (length(along) * length(up))};
   }
 
   /// The face that stands opposite to one; none where there is no such face.
@@ -57,15 +62,21 @@ class Shapes {
     const auto c = mesh_.elements.corners(element);
     const auto faces = faces_of(mesh_.elements.kind(element));
     double width = 0.0, height = 0.0;
+    Vec3 up{}, normal{};
     for (const Index one : {face, other}) {
       const auto corners = faces[one].span();
       for (std::size_t i = 0; i < corners.size(); ++i) width += distance(c[corners[i]], c[corners[(i + 1) % corners.size()]]);
+      const Vec3 across = cross(difference(c[corners[1]], c[corners[0]]), difference(c[corners[2]], c[corners[0]]));
+      normal = one == face ? normal + across : normal - across;
     }
     // Wedges and hexahedra: the corner above is the nearest of the other face by their numbers.
-    for (const Index corner : faces[face].span())
-      height += distance(c[corner], c[above(mesh_.elements.kind(element), face, other, corner)]);
+    for (const Index corner : faces[face].span()) {
+      const Vec3 edge = difference(c[above(mesh_.elements.kind(element), face, other, corner)], c[corner]);
+      height += length(edge);
+      up = up + edge;
+    }
     const auto edges = static_cast<double>(faces[face].count);
-    return {0.5 * width / edges, height / edges};
+    return {0.5 * width / edges, height / edges, std::abs(dot(normal, up)) / (length(normal) * length(up))};
   }
 
   /// The corner of the other face that an edge joins with one of the first.
@@ -86,7 +97,9 @@ class Shapes {
   }
 
  private:
-  [[nodiscard]] double distance(Index a, Index b) const { return length(plane_.difference(positions_[a], positions_[b])); }
+  /// The way to a from b.
+  [[nodiscard]] Vec3 difference(Index a, Index b) const { return plane_.difference(positions_[a], positions_[b]); }
+  [[nodiscard]] double distance(Index a, Index b) const { return length(difference(a, b)); }
 
   const Mesh& mesh_;
   const Plane& plane_;
@@ -125,7 +138,7 @@ class Finder {
   void add_to_stack(Index element, const Extent& extent) {
     const bool is_first = height_[element] == 1;
     if (is_first) first_ = last_ = extent, steady_ = true, ++layers_.stacks;
-    steady_ = steady_ && extent.height <= kSteps * last_.height && extent.height >= kEven * last_.height;
+    steady_ = steady_ && extent.height <= kSteps * last_.height && extent.height >= kEven * last_.height && extent.upright >= kUpright;
     if (!steady_) return;
     last_ = extent;
     stack_.push_back(element);

@@ -1,0 +1,94 @@
+// Raises the mean of a cluster whose minimum is as good as it can be within half of the gap, for the other half. Single vertices could not:
+// where all have an element at the minimum, none can move alone.
+
+#include <algorithm>
+
+#include "core/joint/cluster_search.h"
+#include "core/quality/quality.h"
+
+namespace dmoscope {
+
+namespace {
+
+constexpr double kMeanGap = 1e-3;  // relative, of the sum of 1 / quality
+constexpr double kRoom = 1e-9;     // of what stands at its limit
+// What rounded coordinates may take: of the way from the minimum to the floor, and of a step.
+constexpr double kMargin = 0.1, kStepMargin = 1e-5;
+constexpr int kMostHalvings = 4;
+
+/// The greatest of the harmonic mean's steps that a quality reaches: who is above it stays so.
+double step_below(double quality) {
+  double reached = 0.0;
+  for (const double step : kMeanSteps)
+    if (quality >= step) reached = std::max(reached, step);
+  return reached;
+}
+
+/// The mean and the least of elements' qualities.
+struct MeanAndLeast {
+  double mean, least;
+};
+MeanAndLeast mean_and_least(const InputMesh& input, Metric metric, MeanKind kind, std::span<const Index> elements,
+                            std::span<const Vec3> positions) {
+  PowerMean<double> mean(kind);
+  double least = HUGE_VAL;
+  for (const Index e : elements) {
+    const double quality = element_quality(input.quality_context(), positions, metric, e);
+    mean.join(mean.term(quality));
+    least = std::min(least, quality);
+  }
+  return {mean.value(static_cast<double>(elements.size())), least};
+}
+
+}  // namespace
+
+/// Nothing becomes worse than the gap allows, or than the worst element was before this call. What slides does so here, too.
+template <int D>
+void ClusterSearch<D>::raise_mean(const std::vector<Index>& cluster) {
+  const JointSolution<D>& raised = solved_.solution;
+  const bool done = raised.end == InteriorPointEnd::Gap || raised.end == InteriorPointEnd::LeftEarly;
+  if (!done || first_ != nullptr || function_.defined() != nullptr) return;
+  const double bound = function_.quality_of(raised.last.tau - raised.last.gap());
+  const double floor = std::max((1.0 - options_.gap) * bound, function_.quality_of(raised.start_worst));
+  Solved better = posed(cluster);
+  JointProblem<D>& problem = better.local.problem;
+  problem.limited = &function_;
+  const double lowest = floor + kMargin * (reached() - floor);
+  for (std::size_t a = 0; a < problem.atoms.size(); ++a) {
+    const double f = function_.value(problem.atoms[a], problem.edges[a], problem.reference(a));
+    const double step = *options_.mean == MeanKind::Harmonic ? step_below(function_.quality_of(f)) : 0.0;
+    const double kept = std::max(lowest, (1.0 + kStepMargin) * step);
+    problem.limits.push_back(std::max(function_.inverse_of(kept), (1.0 + kRoom) * f));
+  }
+  better.solution =
+      solve_joint<D>(problem, function_, {.gap = kMeanGap, .max_steps = options_.max_steps, .pool = options_.pool}, {}, progress_);
+  newton_steps_ += better.solution.last.steps;
+  ++solutions_;
+  if (!(better.solution.best_worst < better.solution.start_worst)) return;
+
+  const std::span<const Index> free = better.local.free();
+  const std::vector<Index> elements = mesh_.elements_at(free);
+  const auto judged = [&] { return mean_and_least(mesh_.input(), mesh_.metric(), *options_.mean, elements, positions_); };
+  const MeanAndLeast before = judged();
+  double share = 1.0;
+  for (int i = 0; i <= kMostHalvings; ++i, share *= 0.5) {
+    std::vector<Vec3> targets = targets_of(better, share);
+    if (problem.path != nullptr) (void)better.path->settle(share, free, positions_, targets);
+    const JudgedMove move = mesh_.move_to(better.local, targets, positions_, mesh_.metric());
+    const MeanAndLeast after = judged();
+    const bool good =
+        after.mean > before.mean && after.least >= std::min(before.least, floor) && move.inverted_after <= move.inverted_before;
+    for (std::size_t k = 0; k < move.moved_from.size(); ++k) {
+      if (good)
+        moved_from_.emplace_back(free[k], move.moved_from[k]);
+      else
+        positions_[free[k]] = move.moved_from[k];
+    }
+    if (good) return;
+  }
+}
+
+template void ClusterSearch<2>::raise_mean(const std::vector<Index>&);
+template void ClusterSearch<3>::raise_mean(const std::vector<Index>&);
+
+}  // namespace dmoscope

@@ -1,0 +1,123 @@
+// Joint moves before a phase that raises a mean: the sum of 1 / quality falls within a floor, where no single vertex can move.
+
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "core/base/same_bits.h"
+#include "core/joint/joint_mesh.h"
+#include "tests/smooth/promises.h"
+#include "tests/support/volume_grids.h"
+
+namespace dmoscope {
+namespace {
+
+using namespace testing;
+
+/// A regular hexagon of radius 1 about a vertex that is displaced.
+Mesh displaced_fan(double x, double y) {
+  Mesh mesh;
+  mesh.positions.push_back({x, y, 0.0});
+  for (int k = 0; k < 6; ++k) mesh.positions.push_back({std::cos(k * std::numbers::pi / 3.0), std::sin(k * std::numbers::pi / 3.0), 0.0});
+  for (Index k = 0; k < 6; ++k) mesh.elements.add(ElementKind::Triangle, std::array<Index, 3>{0, 1 + k, 1 + (k + 1) % 6});
+  return mesh;
+}
+
+/// Where the sum of 1 / quality puts the fan's vertex, all above a floor.
+Vec3 placed_by_the_sum(double x, double y, double floor) {
+  const auto mesh = input(displaced_fan(x, y));
+  std::vector<std::uint8_t> fixed(7, 1);
+  fixed[0] = 0;
+  const JointMesh<2> joint(*mesh, Metric::MeanRatio, fixed);
+  LocalProblem<2> local = joint.problem(joint.free_vertices(), mesh->mesh.positions);
+  local.problem.limited = &joint.function();
+  local.problem.limits.assign(local.problem.atoms.size(), joint.function().inverse_of(floor));
+  Progress progress;
+  const JointSolution<2> found = solve_joint<2>(local.problem, joint.function(), {.gap = 1e-8}, {}, progress);
+  EXPECT_EQ(found.end, InteriorPointEnd::Gap);
+  return joint.placed(mesh->mesh.positions[0], found.best[0], local.scale);
+}
+
+TEST(ClusterMean, TheSumOfARegularFanIsLeastInItsMiddle) {
+  for (const auto& [x, y] : {std::pair{0.3, 0.1}, std::pair{-0.5, 0.4}, std::pair{0.02, -0.6}}) {
+    const Vec3 at = placed_by_the_sum(x, y, 0.05);
+    EXPECT_NEAR(at.x, 0.0, 1e-4);
+    EXPECT_NEAR(at.y, 0.0, 1e-4);
+  }
+}
+
+double harmonic_mean(const InputMesh& mesh, std::span<const Vec3> positions) {
+  double sum = 0.0;
+  const Index count = mesh.mesh.elements.size();
+  for (Index e = 0; e < count; ++e) sum += 1.0 / element_quality(mesh.quality_context(), positions, Metric::MeanRatio, e);
+  return count / sum;
+}
+
+struct Ended {
+  double minimum, mean;
+  Index inverted;
+};
+Ended raised(const InputMesh& mesh, std::span<const std::uint8_t> fixed, const JointOptions& options) {
+  JointClusters clusters(mesh, Metric::MeanRatio, fixed);
+  std::vector<Vec3> positions = mesh.mesh.positions;
+  JointState state;
+  Progress progress;
+  const auto judged = [&] {
+    return compute_statistics(mesh.quality_context(), std::span<const Vec3>(positions), Metric::MeanRatio, std::span<const Index>(),
+                              nullptr);
+  };
+  Statistics before = judged();
+  for (int call = 0; call < 40; ++call) {
+    const std::vector<Vec3> old = positions;
+    const auto cluster = clusters.raise_worst(positions, state, options, progress);
+    if (!cluster) break;
+    const Statistics now = judged();
+    EXPECT_GE(now.minimum, before.minimum) << "call " << call;
+    EXPECT_LE(now.inverted, before.inverted) << "call " << call;
+    for (Index v = 0; v < old.size(); ++v)
+      if (fixed[v] != 0) {
+        EXPECT_TRUE(same_bits(std::span(positions).subspan(v, 1), std::span(old).subspan(v, 1))) << "vertex " << v;
+      }
+    before = now;
+  }
+  return {before.minimum, harmonic_mean(mesh, positions), before.inverted};
+}
+
+/// The boundary, too, out of order, so that no lattice is the best.
+Mesh roughened(Mesh mesh, double spacing) {
+  std::mt19937 random(5);
+  const auto offset = [&] { return 0.15 * spacing * (static_cast<double>(random()) / 4294967296.0 * 2.0 - 1.0); };
+  const bool volume = info(mesh.elements.kind(0)).dimension == 3;
+  for (Vec3& p : mesh.positions) {
+    p = p + Vec3{offset(), offset(), 0.0};
+    if (volume) p.z += offset();
+  }
+  return mesh;
+}
+
+TEST(ClusterMean, RaisesTheMeanAndGivesUpNoMoreOfTheMinimumThanTheGap) {
+  constexpr double kGap = 0.01;
+  const std::vector<std::pair<std::string, Mesh>> meshes{
+      {"triangles", roughened(lattice(12, 0.35, 4), 1.0 / 12)},
+      {"quadrilaterals", roughened(lattice(10, 0.3, 6, Cells::Quadrilaterals), 0.1)},
+      {"both", roughened(lattice(10, 0.3, 7, Cells::Mixed), 0.1)},
+      {"tetrahedra", roughened(test::volume_grid(5, test::Fill::Tetrahedra, 0.2, 2), 0.2)},
+      {"hexahedra", roughened(test::volume_grid(5, test::Fill::Hexahedra, 0.2, 3), 0.2)}};
+  for (const auto& [name, mesh] : meshes) {
+    SCOPED_TRACE(name);
+    const auto held = input(mesh);
+    const dmoscope::Run run = make_run(held, {});
+    const Ended plain = raised(*held, run.fixed(), {.gap = 0.5 * kGap});  // as near as the minimum comes before the mean rises
+    const Ended tight = raised(*held, run.fixed(), {.gap = 1e-4});
+    const Ended both = raised(*held, run.fixed(), {.gap = kGap, .mean = MeanKind::Harmonic});
+    EXPECT_GE(both.minimum, (1.0 - 1.01 * kGap) * tight.minimum);
+    EXPECT_GT(both.mean, plain.mean);
+    EXPECT_EQ(both.inverted, 0U);
+  }
+}
+
+}  // namespace
+}  // namespace dmoscope

@@ -19,7 +19,8 @@ constexpr double kFlat = 4.0,
                  kGrown = 1.5;      // of a pronounced stack: width over height of the first, height of the last over that of the first
 constexpr std::size_t kLayers = 3;  // at least
 constexpr double kEven = 0.95, kSteps = 2.5;  // least and most height over that of the layer beneath
-constexpr double kUpright = 0.7;              // least sine of the angle between the wall and the way up
+constexpr double kUpright = 0.5;              // sine of the angle between the wall and the way up below which an element leans
+constexpr double kMostLeaning = 0.15;         // share of elements that lean, in stacks that begin flat
 constexpr std::uint16_t kHighest = 60000;     // layers of a stack
 
 struct Extent {
@@ -121,6 +122,7 @@ class Finder {
       from_faces();
     else
       from_edges();
+    if (static_cast<double>(leaning_) > kMostLeaning * static_cast<double>(flat_)) std::ranges::fill(pronounced_, std::uint8_t{0});
     for (Index e = 0; e < mesh_.elements.size(); ++e) {
       if (height_[e] == 0) continue;
       layers_.elements.push_back(e);
@@ -133,18 +135,23 @@ class Finder {
   }
 
  private:
+  [[nodiscard]] static bool is_flat(const Extent& extent) { return extent.width >= kFlat * extent.height; }
   void begin_stack() { stack_.clear(); }
   /// Keeps the steady part of the stack, from the wall on.
   void add_to_stack(Index element, const Extent& extent) {
     const bool is_first = height_[element] == 1;
     if (is_first) first_ = last_ = extent, steady_ = true, ++layers_.stacks;
-    steady_ = steady_ && extent.height <= kSteps * last_.height && extent.height >= kEven * last_.height && extent.upright >= kUpright;
+    if (is_flat(first_)) {
+      ++flat_;
+      if (!(extent.upright >= kUpright)) ++leaning_;
+    }
+    steady_ = steady_ && extent.height <= kSteps * last_.height && extent.height >= kEven * last_.height;
     if (!steady_) return;
     last_ = extent;
     stack_.push_back(element);
   }
   void end_stack() {
-    if (stack_.size() < kLayers || first_.width < kFlat * first_.height || last_.height < kGrown * first_.height) return;
+    if (stack_.size() < kLayers || !is_flat(first_) || last_.height < kGrown * first_.height) return;
     for (const Index element : stack_) pronounced_[element] = 1;
   }
 
@@ -235,8 +242,9 @@ class Finder {
   std::vector<std::uint16_t> height_;  // by element; 0: in no stack
   std::vector<std::uint8_t> base_;     // by element: the side that it stands on
   std::vector<std::uint8_t> pronounced_;
-  std::vector<Index> stack_;   // the steady part of the one that is climbed, from the wall on
-  Extent first_, last_;        // of its elements
+  std::vector<Index> stack_;  // the steady part of the one that is climbed, from the wall on
+  Extent first_, last_;       // of its elements
+  Index flat_ = 0, leaning_ = 0;
   bool steady_ = true;         // has no layer of it so far differed much from the one beneath?
   std::vector<Index> across_;  // by element and edge
   BoundaryLayers layers_;

@@ -23,9 +23,10 @@ struct BoundaryLayers {
 /// A stack begins at an edge (in a volume: a face) of the boundary whose element is at least twice as wide along it as it is high. It goes
 /// on from one side of an element to the opposite one, while elements are at least 1.2 times as wide as high, and not less than 0.8 times
 /// as high as the one below: layers get higher from the wall on. An element is in the stack that comes first to it. Linear in their number.
-/// Pronounced is a stack, as far as each layer is at least 0.95 and at most 2.5 times as high as the one beneath and stands upright (at 45
-/// degrees or more), if it has at least 3 layers, begins with an element 4 times as wide as high, and ends with one 1.5 times as high as
-/// that: as somebody makes them who wants to resolve what happens at a wall.
+/// Pronounced is a stack, as far as each layer is at least 0.95 and at most 2.5 times as high as the one beneath, if it has at least 3
+/// layers, begins with an element 4 times as wide as high, and ends with one 1.5 times as high as that: as somebody makes them who wants to
+/// resolve what happens at a wall. None is in a mesh where over 15 % of the elements of stacks that begin so flat stand at less than 30
+/// degrees on the wall: its grid is distorted.
 [[nodiscard]] BoundaryLayers find_boundary_layers(const Mesh& mesh, const Geometry& geometry);
 
 /// How high an element of a stack stands on one of its sides: the mean of the edges away from it, in mesh units.

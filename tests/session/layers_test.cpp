@@ -69,6 +69,12 @@ TEST(Layers, AreNotWhatIsMerelyStretched) {
   EXPECT_TRUE(input(with_layers(2, 2.0, 0.01))->layers.empty()) << "two";
 }
 
+TEST(Layers, AreNotADistortedGrid) {
+  Mesh mesh = with_layers(5, 1.5, 0.01);
+  for (Vec3& p : mesh.positions) p.x += 4.0 * p.y;  // at 14 degrees on the wall
+  EXPECT_TRUE(input(std::move(mesh))->layers.empty());
+}
+
 TEST(Layers, OfInvertedElementsAreFree) {
   Mesh mesh = with_layers(5, 1.5, 0.01);
   const Index v = 9 + 4;

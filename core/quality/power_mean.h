@@ -15,8 +15,10 @@ namespace dmoscope {
 /// and steps at .1, .2, .3 and .4 see to it that no gain is paid for by one more element below one of these.
 enum class MeanKind : std::uint8_t { Harmonic, Arithmetic, Geometric, InverseSquare };
 
-/// Those of the harmonic one.
-inline constexpr double kMeanSteps[] = {0.4, 0.3, 0.2, 0.1};  // NOLINT(*-avoid-c-arrays): NVRTC has no <array>
+/// Those of the harmonic one, and what an element below adds to the sum of inverses. A lower step counts more than all higher ones of a
+/// star together, and any more than the inverses of its sound elements can gain.
+inline constexpr double kMeanSteps[] = {0.4, 0.3, 0.2, 0.1};           // NOLINT(*-avoid-c-arrays): NVRTC has no <array>
+inline constexpr double kMeanStepAdds[] = {1e3, 16e3, 256e3, 4096e3};  // NOLINT(*-avoid-c-arrays)
 
 /// "mean" (the harmonic one, the usual), "arithmetic-mean", "geometric-mean" or "inverse-square-mean".
 [[nodiscard]] std::string_view name(MeanKind kind);
@@ -67,15 +69,14 @@ class PowerMean {
   }
 
  private:
-  /// What bad elements add to their inverse. A lower step counts more than all higher ones of a star together, and any more than the
-  /// inverses of its sound elements can gain.
+  /// What bad elements add to their inverse.
   [[nodiscard]] static DMOSCOPE_ANYWHERE R steps(R quality) {
-    return step<0>(quality, 1e3) + step<1>(quality, 16e3) + step<2>(quality, 256e3) + step<3>(quality, 4096e3);
+    return step<0>(quality) + step<1>(quality) + step<2>(quality) + step<3>(quality);
   }
   template <int I>
-  [[nodiscard]] static DMOSCOPE_ANYWHERE R step(R quality, double adds) {
+  [[nodiscard]] static DMOSCOPE_ANYWHERE R step(R quality) {
     using scalar::select;
-    constexpr double below = kMeanSteps[I];  // a constant: device code has no access to the array itself
+    constexpr double below = kMeanSteps[I], adds = kMeanStepAdds[I];  // constants: device code has no access to the arrays themselves
     return select(quality < scalar::constant<R>(below), scalar::constant<R>(adds), R(0.0));
   }
 

@@ -1,6 +1,7 @@
 #include "core/run/best_state.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <tuple>
 
@@ -8,12 +9,13 @@
 
 namespace dmoscope {
 
-BestState::BestState(const RunParameters& parameters)
+BestState::BestState(const RunParameters& parameters, For use)
     : rule_(parameters.combination                     ? Rule::Last
             : method_info(parameters.method).optimises ? Rule::MinimumThenMean
                                                        : Rule::Values),
       may_cost_mean_(parameters.mean != MeanKind::Arithmetic),
-      least_rise_(parameters.then_mean || parameters.then_joint ? std::numeric_limits<double>::denorm_min() : kLeastRise) {}
+      least_rise_(parameters.then_mean || parameters.then_joint ? std::numeric_limits<double>::denorm_min() : kLeastRise),
+      use_(use) {}
 
 void BestState::take(const IterationRecord& record) {
   if (!first_ && !is_better(record)) return;
@@ -39,8 +41,13 @@ bool BestState::rises(const IterationRecord& record) const {
 
 bool BestState::is_worse_than_input(const Statistics& now) const {
   if (now.inverted != input_.inverted) return now.inverted > input_.inverted;
-  const double rise = now.minimum - input_.minimum, of_movable = now.movable_minimum - input_.movable_minimum;
-  return rise < 0.0 || (!(rise >= least_rise_) && !(of_movable >= least_rise_) && now.mean < input_.mean);
+  // A mean is not paid for by what rounding adds to the minimum.
+  constexpr double kShare = 1e-3;
+  const auto rises = [this](double from, double to) {
+    return to > from && (use_ == For::NextPhase || to - from >= std::min(kLeastRise, kShare * std::abs(from)));
+  };
+  const bool risen = rises(input_.minimum, now.minimum) || rises(input_.movable_minimum, now.movable_minimum);
+  return now.minimum < input_.minimum || (!risen && now.mean < input_.mean);
 }
 
 bool BestState::is_better(const IterationRecord& record) {

@@ -22,7 +22,9 @@ inline constexpr double kLeastRise = 1e-6;
 /// kLeastRise is none), then greatest mean. Among equals the last.
 class BestState {
  public:
-  explicit BestState(const RunParameters& parameters);
+  /// What is written, or what the next phase begins with: that must not lower the minimum by anything.
+  enum class For : std::uint8_t { Result, NextPhase };
+  explicit BestState(const RunParameters& parameters, For use = For::Result);
   void take(const IterationRecord& record);
   [[nodiscard]] std::uint64_t iteration() const noexcept { return best_; }
 
@@ -37,6 +39,7 @@ class BestState {
   Rule rule_;
   bool may_cost_mean_;  // does the phase that raises another mean than the statistics' cost some of that?
   double least_rise_;   // Rule::MinimumThenMean
+  For use_;
   bool first_ = true;
   std::uint64_t best_ = 0;
   Statistics input_, statistics_;         // of the input and of the best

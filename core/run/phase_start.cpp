@@ -20,7 +20,7 @@ std::optional<std::uint64_t> next_phase_start(const RunParameters& parameters, s
                                               std::uint64_t turn) {
   const PhaseBegin* next = next_phase(parameters);
   if (turn == 0 || next == nullptr || !next->from_best) return std::nullopt;
-  BestState best(parameters);
+  BestState best(parameters, BestState::For::NextPhase);
   for (const IterationRecord& record : records.first(turn)) best.take(record);
   const std::uint64_t before = best.iteration();
   best.take(records[turn]);
@@ -33,7 +33,7 @@ std::optional<std::uint64_t> next_phase_start(const RunParameters& parameters, s
 
 void BestPositions::take(std::span<const IterationRecord> records, std::span<const Vec3> positions) {
   if (seen_ + 1 != records.size()) {
-    best_ = BestState(parameters_);
+    best_ = BestState(parameters_, BestState::For::NextPhase);
     for (const IterationRecord& record : records.first(records.size() - 1)) best_.take(record);
   }
   best_.take(records.back());

@@ -25,7 +25,7 @@ namespace dmoscope {
 /// The positions of the best iteration so far, so that nobody need compute them again.
 class BestPositions {
  public:
-  explicit BestPositions(const RunParameters& parameters) : best_(parameters), parameters_(parameters) {}
+  explicit BestPositions(const RunParameters& parameters) : best_(parameters, BestState::For::NextPhase), parameters_(parameters) {}
   /// After each new record: `positions` are those of the last.
   void take(std::span<const IterationRecord> records, std::span<const Vec3> positions);
   /// None where they are not of that iteration.

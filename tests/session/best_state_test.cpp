@@ -47,6 +47,15 @@ TEST(BestState, OfAnOptimisingMethodIsByTheMinimumThenByTheMean) {
   EXPECT_EQ(best_iteration(dmo, course({{-0.1, 0.8, 0, 3}, {-0.1, 0.7, 0, 2}, {-0.1, 0.6, 0, 2}})), 1U) << "and what is untangled";
 }
 
+TEST(BestState, AMeanIsNotPaidForByWhatRoundingAddsToTheMinimum) {
+  RunParameters best;
+  best.then_joint.emplace();
+  best.then_mean.emplace();
+  EXPECT_EQ(best_iteration(best, course({{0.3, 0.8}, {0.3 + 1e-10, 0.5}})), 0U);
+  EXPECT_EQ(best_iteration(best, course({{0.3, 0.8}, {0.3 + 1e-5, 0.5}})), 1U);
+  EXPECT_EQ(best_iteration(best, course({{1e-7, 0.8}, {2e-7, 0.5}})), 1U) << "twice as good, however small";
+}
+
 /// As where the worst element has a corner between three vertices that stay.
 TEST(BestState, WhatJointMovesRaiseCountsThoughAnotherElementStaysWorse) {
   RunParameters dmo;

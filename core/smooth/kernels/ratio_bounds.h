@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <type_traits>
 
@@ -58,7 +59,8 @@ struct SecondOrder<true, F> {
 /// affine and s quadratic. In the plane its mean ratio is v / s (see RatioForm), in space the cube root of v |v| / s^3 (see MeanRatioForm).
 /// That without the root is its rank. Both functions are taken around the centre of a grid and, in float, with room for all rounding: never
 /// below the true v, never above the true s. What a mean adds up of a rank is concave: at most its tangent at the rank that the element has
-/// in the centre. So no root is needed, and the bound is closest where the grid is fine.
+/// in the centre. So no root is needed, and the bound is closest where the grid is fine. Steps of the harmonic mean that an element pays
+/// wherever the vertex goes count once a grid; of one that may rise a step they are looked up at each place.
 /// Against targets in the plane an element's metric may be its ratio less a shift (see TargetForm). All but needs and sums is of ratios.
 /// D, F: packs of doubles and of floats of one processor; Crossed: see SecondOrder.
 template <class Frame, class D, class F, bool Crossed = false>
@@ -122,7 +124,7 @@ class RatioBounds {
 
   /// For places that are no farther from `centre` than `half` along each axis; in the plane of two.
   void move_to(const std::array<double, 3>& centre, const std::array<double, 3>& half) {
-    greatest_sum_ = sizes_ = 0.0;
+    greatest_sum_ = sizes_ = paid_ = 0.0;
     for (std::size_t i = 0; i < elements_; ++i) {
       double rank = caps_[i], most = caps_[i];
       for (std::size_t k = first_[i]; k < first_[i + 1]; ++k) {
@@ -130,6 +132,7 @@ class RatioBounds {
         rank = rank < reach.here ? rank : reach.here;
         most = most < reach.most ? most : reach.most;
       }
+      take_steps(i, rank, most * kMore);
       const Tangent tangent = tangent_at(rank - shifts_[i]);
       const double at_zero = tangent.at_zero - tangent.slope * shifts_[i];
       slopes_[i] = static_cast<float>(tangent.slope);
@@ -141,15 +144,16 @@ class RatioBounds {
 
   /// What a place must reach: the least mean ratio around the vertex, and the mean of all elements; 0: whatever it is.
   void set_needs(double least, double mean) {
-    if (mean > 0.0)
-      set_needs_of_sum(least, sum_of(mean) * static_cast<double>(elements_));
-    else
-      set_least(least);
+    if (!(mean > 0.0)) return set_least(least);
+    // What rounding `least` + `mean`, the worth of a place, takes from the sum.
+    const double sum = sum_of(mean) * static_cast<double>(elements_), of_worth = 0x1p-51 * (1.0 + least) / mean;
+    set_needs_of_sum(least, has_steps() ? sum + of_worth * sum : sum);
   }
   /// The same by what the mean's elements add up: their inverses, or the inverses' squares, are negative.
   void set_needs_of_sum(double least, double sum) {
     set_least(least);
-    if (mean_ != MeanKind::Geometric) sum_ = static_cast<float>(sum - (static_cast<double>(elements_) + 8.0) * 0x1p-22 * (sizes_ + 1.0));
+    const double room = (static_cast<double>(elements_) + 8.0) * 0x1p-22 * (sizes_ + 1.0);
+    if (mean_ != MeanKind::Geometric) sum_ = static_cast<float>(sum + paid_ - room);
   }
 
   /// May a place reach what is needed? `d`: from the centre.
@@ -168,6 +172,7 @@ class RatioBounds {
         rank = xsimd::min(rank, of_piece);
       }
       possible = possible - F(slopes_[i]) * (F(most_[i]) - rank);
+      if (rises_[i]) possible = possible - more_steps(i, rank);
       hope = hope & (possible >= sum);
       if (xsimd::any(hope)) continue;
       to_front(n);
@@ -192,6 +197,7 @@ class RatioBounds {
   // which moving to another centre costs a few, those of the exact search among them, less than 9.
   static constexpr double kOfFloats = 0x1p-20, kOfDoubles = 0x1p-44, kMore = 1.0 + 0x1p-19, kLess = 1.0 - 0x1p-19;
   static constexpr double kLeastTangent = 1e-3;
+  static constexpr std::size_t kSteps = std::size(kMeanSteps);
   static constexpr float kMost = std::numeric_limits<float>::max();
   static constexpr float kUnknown = 1e6F;        // of a rank: more than any
   static constexpr float kLeastSquares = 1e-6F;  // of 1, beneath which a norm may be rounding alone
@@ -236,6 +242,38 @@ class RatioBounds {
       cap(quadrilateral_forms<Metric::MeanRatio>(q, forms).get(0));
       for (const RatioForm<D>& form : forms) take(form);
     }
+  }
+
+  [[nodiscard]] bool has_steps() const { return mean_ == MeanKind::Harmonic; }
+  /// The rank below which an element pays a step for certain.
+  [[nodiscard]] double step_rank(std::size_t i, std::size_t step) const {
+    const double rank = rank_of_ratio(kMeanSteps[step]) + shifts_[i];
+    return rank - (1.0 - kLess) * size(rank);
+  }
+  [[nodiscard]] double steps_of(std::size_t i, double rank) const {
+    double adds = 0.0;
+    for (std::size_t k = 0; k < kSteps; ++k) adds += rank < step_rank(i, k) ? kMeanStepAdds[k] : 0.0;
+    return adds;
+  }
+  /// `rank`: of an element in the centre; `most`: what it may be anywhere.
+  void take_steps(std::size_t i, double rank, double most) {
+    rises_[i] = false;
+    if (!has_steps()) return;
+    const double least = steps_of(i, most), here = steps_of(i, rank);
+    paid_ += least;
+    if (!(here > least)) return;
+    rises_[i] = true;
+    sizes_ += here;
+    for (std::size_t k = 0; k < kSteps; ++k) {
+      step_ranks_[i][k] = static_cast<float>(step_rank(i, k));
+      step_adds_[i][k] = most < step_rank(i, k) ? 0.0F : static_cast<float>(kMeanStepAdds[k]);
+    }
+  }
+  /// What it pays at places of these ranks and not wherever it goes.
+  [[nodiscard]] F more_steps(std::size_t i, const F& rank) const {
+    F adds(0.0F);
+    for (std::size_t k = 0; k < kSteps; ++k) adds = adds + xsimd::select(rank < F(step_ranks_[i][k]), F(step_adds_[i][k]), F(0.0F));
+    return adds;
   }
 
   static double rank_of_ratio(double ratio) { return kSpace ? ratio * ratio * ratio : ratio; }
@@ -325,6 +363,7 @@ class RatioBounds {
   std::size_t pieces_ = 0, elements_ = 0;
   MeanKind mean_ = MeanKind::Harmonic;
   double greatest_sum_ = 0.0, sizes_ = 0.0;  // of the sum's terms
+  double paid_ = 0.0;                        // of the mean's steps, wherever the vertex goes
   float sum_ = 0.0F;
   double amiss_ = 1.0;
   std::uint16_t first_[kMaxElements + 1];  // of an element's pieces
@@ -332,6 +371,8 @@ class RatioBounds {
   double caps_[kMaxElements], shifts_[kMaxElements];  // the most that an element's rank may be, by its corners that stay
   float least_[kMaxElements];                         // the rank that it must reach
   float slopes_[kMaxElements], most_[kMaxElements];   // of the tangent; the most that the rank may be near the centre
+  bool rises_[kMaxElements];                          // may an element rise a step?
+  float step_ranks_[kMaxElements][kSteps], step_adds_[kMaxElements][kSteps];
   Form forms_[kMaxPieces];
   Near near_[kMaxPieces];
 };

@@ -57,7 +57,7 @@ layers() {
   printf 'The order of the folders in %s:\n%s\n' "$module" "$found"
 }
 layers core base drawing numeric mesh io/reading io/writing io/arrays io io/polygons io/abaqus io/cgns io/exodus io/gmsh io/medit io/nastran io/vtk \
-  io/solvers io/vtu io/pvtu io/xdmf clipping formula target quality search input reference transfer smooth joint smooth/kernels smooth/kernels/targets smooth/visit smooth/methods smooth/execution inspect run session view \
+  io/solvers io/vtu io/pvtu io/xdmf clipping formula target quality search input reference transfer smooth joint smooth/kernels smooth/kernels/targets smooth/kernels/compiled smooth/visit smooth/methods smooth/execution inspect run session view \
   commands engine
 layers ui state analysis commands toolkit plots viewports panels .
 layers mpi world reading mesh files smooth
@@ -79,7 +79,7 @@ fi
 
 # Code compiled for one kind of processor must share no compiled copy with the rest: every function that the linker could take for
 # another's carries its packs' architecture (xsimd) in its name. $1: the build folder.
-for object in ${1:+"$1"/core/CMakeFiles/dmoscope_core.dir/{smooth/kernels/{composite,lane,volume,targets/target_lane,targets/target_volume},formula/formula}_kernel_avx*.o}; do
+for object in ${1:+"$1"/core/CMakeFiles/dmoscope_core.dir/{formula/formula_kernel,smooth/kernels/compiled/kernel_set}_avx*.o}; do
   [[ -f $object ]] || continue
   shared=$(nm "$object" | awk '$2 == "W" && $3 !~ /avx2|avx512/ && $3 !~ /^DW\.ref\./ {print $3}' | c++filt)
   [[ -z $shared ]] && continue

@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "core/search/mesh_star.h"
-#include "core/smooth/kernels/composite_kernel.h"
+#include "core/smooth/kernels/compiled/kernel_set.h"
 #include "tests/smooth/zoo.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/volume_grids.h"
@@ -202,7 +202,7 @@ void compare_lists(const std::shared_ptr<const InputMesh>& mesh, const Composite
     CompositeSearch<Frame> task = search_for<Frame>(composite, {});
     task.star = lists_of(star);
     for (const SimdLevel level : supported_simd_levels()) {
-      const CompositeBest found = composite_list_kernel<Frame>(level, composite.first)(task, candidates.view(), here);
+      const CompositeBest found = kernels(level).in<Frame>().composite_list(composite.first)(task, candidates.view(), here);
       ASSERT_TRUE(found.ready);
       ASSERT_EQ(found.index, first) << "vertex " << v << ", " << name(level);
       ASSERT_EQ(found.worth, best) << "vertex " << v << ", " << name(level);
@@ -267,7 +267,7 @@ Star<double> wheel(int spokes) {
 
 TEST(CompositeKernel, SpeaksForSoundStarsUpToItsLimits) {
   for (const SimdLevel level : supported_simd_levels()) {
-    const auto kernel = composite_kernel<Plane>(level, Metric::MeanRatio);
+    const auto kernel = kernels(level).in<Plane>().composite(Metric::MeanRatio);
     const auto ready = [&](const Star<double>& star, int points) {
       CompositeSearch<Plane> task;
       task.star = lists_of(star);

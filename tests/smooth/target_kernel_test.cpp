@@ -161,7 +161,7 @@ TEST(TargetKernels, JudgeTetrahedraAsTheStatisticsDo) {
       const TetrahedronTargets targets(judge->targets(), mesh->mesh);
       const VolumeStarSearch search({}, targets.crossed());
       for (const SimdLevel level : supported_simd_levels()) {
-        const VolumeKernel kernel = target_volume_kernel(level, targets.crossed());
+        const VolumeKernel kernel = kernels(level).target_volume(targets.crossed());
         for (Index v = 0; v < mesh->mesh.vertex_count(); ++v) {
           const auto incidences = mesh->topology.star(v);
           if (mesh->topology.boundary()[v] != 0 || !targets.fit(incidences)) continue;

@@ -1,8 +1,6 @@
 // The fast search of a volume's star finds the very candidate that a look at all of them finds, whatever the star, the grid and the
 // processor; and stars laid out by indices are those of the mesh.
 
-#include "core/smooth/kernels/volume_kernel.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,6 +17,7 @@
 #include "core/mesh/random.h"
 #include "core/search/grid_search.h"
 #include "core/search/mesh_star.h"
+#include "core/smooth/kernels/compiled/kernel_set.h"
 #include "core/smooth/kernels/indexed_stars.h"
 #include "core/smooth/kernels/volume_form.h"
 #include "core/smooth/two_aims.h"
@@ -134,7 +133,7 @@ void expect_the_same(Sample& sample, int grid, int levels, double omega) {
   const VolumeSearch task = sample.search(grid, levels, omega);
   const VolumeFound expected = search_all(sample, task);
   for (const SimdLevel level : supported_simd_levels()) {
-    const VolumeFound found = volume_kernel(level, Metric::MeanRatio).search(task);
+    const VolumeFound found = kernels(level).volume(Metric::MeanRatio).search(task);
     ASSERT_EQ(found.ready, expected.ready);
     ASSERT_TRUE(found.offset == expected.offset)
         << name(level) << ": " << found.offset.x << " " << found.offset.y << " " << found.offset.z << ", rank " << sample.rank(found.offset)
@@ -186,10 +185,11 @@ TEST(VolumeKernel, LeavesStarsToThePlainSearchThatAreInvertedOrNearlyFlat) {
   dmoscope::Random random(10);
   Sample inverted = Sample::octants(random, {1, 1, -1}, 0.1, "t"), flat = Sample::octants(random, {1, 1, 1e-5}, 0.1, "h");
   for (const SimdLevel level : supported_simd_levels())
-    for (Sample* sample : {&inverted, &flat}) EXPECT_FALSE(volume_kernel(level, Metric::MeanRatio).search(sample->search(8, 3, 0.5)).ready);
+    for (Sample* sample : {&inverted, &flat})
+      EXPECT_FALSE(kernels(level).volume(Metric::MeanRatio).search(sample->search(8, 3, 0.5)).ready);
 }
 
-/// What volume_kernel()'s least_ranks() tells, from the mesh's own elements.
+/// What VolumeKernel's least_ranks() tells, from the mesh's own elements.
 template <Metric M>
 double least_rank(const InputMesh& input, Index vertex, Vec3 place) {
   VolumeStar<double> star;
@@ -253,16 +253,16 @@ TEST_P(Generated, ComparisonsAreByTheLeastRankAndTheMeanOfTheElements) {
     const Vec3 there = here + Vec3{random.between(-size, size), random.between(-size, size), random.between(-size, size)};
     for (const SimdLevel level : supported_simd_levels()) {
       const VolumeComparison task{star.elements, others.data(), here, there};
-      const BeforeAndAfter ratio = volume_kernel(level, Metric::MeanRatio).least_ranks(task);
+      const BeforeAndAfter ratio = kernels(level).volume(Metric::MeanRatio).least_ranks(task);
       EXPECT_NEAR(ratio.before, least_rank<Metric::MeanRatio>(*input, vertex, here), 1e-12);
       EXPECT_NEAR(ratio.after, least_rank<Metric::MeanRatio>(*input, vertex, there), 1e-12);
-      const BeforeAndAfter mean = volume_kernel(level, Metric::MeanRatio).means(task, MeanKind::Arithmetic);
+      const BeforeAndAfter mean = kernels(level).volume(Metric::MeanRatio).means(task, MeanKind::Arithmetic);
       EXPECT_NEAR(mean.before,
                   mean_at_place<Metric::MeanRatio>(input->view<Space>(), input->mesh.positions, vertex, here, MeanKind::Arithmetic), 1e-12);
       EXPECT_NEAR(mean.after,
                   mean_at_place<Metric::MeanRatio>(input->view<Space>(), input->mesh.positions, vertex, there, MeanKind::Arithmetic),
                   1e-12);
-      const BeforeAndAfter jacobian = volume_kernel(level, Metric::ScaledJacobian).least_ranks(task);
+      const BeforeAndAfter jacobian = kernels(level).volume(Metric::ScaledJacobian).least_ranks(task);
       EXPECT_NEAR(jacobian.before, least_rank<Metric::ScaledJacobian>(*input, vertex, here), 1e-12);
       EXPECT_NEAR(jacobian.after, least_rank<Metric::ScaledJacobian>(*input, vertex, there), 1e-12);
     }

@@ -60,10 +60,6 @@ inline constexpr int kMaxCompositePoints = 64;
 template <class Frame>
 using CompositeKernel = CompositeFound<Frame> (*)(const CompositeSearch<Frame>& search);
 
-/// The kernel whose first aim is a metric that is defined for the frame. `level` must be one of supported_simd_levels().
-template <class Frame>
-[[nodiscard]] CompositeKernel<Frame> composite_kernel(SimdLevel level, Metric first);
-
 /// Candidates wherever they are, as plain data: `count` offsets, coordinate by coordinate (of a plane two). Behind the last of each list it
 /// stands again, so that all packs are whole.
 struct CompositeCandidates {
@@ -79,8 +75,6 @@ struct CompositeBest {
 /// Of candidates those that are worth more than `best`, which a place is that the star has no inverted elements at.
 template <class Frame>
 using CompositeListKernel = CompositeBest (*)(const CompositeSearch<Frame>& search, const CompositeCandidates& candidates, double best);
-template <class Frame>
-[[nodiscard]] CompositeListKernel<Frame> composite_list_kernel(SimdLevel level, Metric first);
 
 /// Makes such a list.
 class CandidateList {

@@ -1,5 +1,5 @@
 #pragma once
-// The one definition of the kernel for two aims. Only the composite_kernel_*.cpp, each compiled for one kind of processor, include it; see
+// The one definition of the kernel for two aims. Only the kernel_set_*.cpp, each compiled for one kind of processor, include it; see
 // lane_kernel_impl.h for what that asks of the code.
 
 #include <array>

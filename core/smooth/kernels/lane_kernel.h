@@ -35,11 +35,6 @@ struct LaneTask {
 /// move. Returns how many moved.
 using LaneKernel = std::uint64_t (*)(const LaneTask& task, std::size_t first, std::size_t last);
 
-/// The kernel for a metric. `level` must be one of supported_simd_levels(). All give the same bits.
-[[nodiscard]] LaneKernel lane_kernel(SimdLevel level, Metric metric);
-/// The kernel for the mean ratio against targets: see StarTargets. `level` likewise.
-[[nodiscard]] LaneKernel target_lane_kernel(SimdLevel level, bool crossed);
-
 /// Visits a call of a kernel should make: enough to fill its lanes, few enough to share among threads.
 inline constexpr std::size_t kLaneGrain = 1024;
 

@@ -1,5 +1,5 @@
 #pragma once
-// The one definition of the lanes' kernel. Only the lane_kernel_*.cpp, each compiled for one kind of processor, include it. Whatever
+// The one definition of the lanes' kernel. Only the kernel_set_*.cpp, each compiled for one kind of processor, include it. Whatever
 // runs here must be a template over the packs or always inlined, so that no copy compiled for one processor can be linked into another's
 // code; tests/walls.sh looks after that in optimised builds (others inline less).
 

@@ -26,7 +26,7 @@ struct VolumeSearch {
   Vec3Of<float> box;
   int points = 8, levels = 3;
   double omega = 0.5;
-  VolumeTargets targets{};  // of target_volume_kernel()
+  VolumeTargets targets{};  // of KernelSet::target_volume
 };
 
 struct VolumeFound {
@@ -54,10 +54,5 @@ struct VolumeKernel {
   // Is every hexahedron and wedge certain to be valid inside with the vertex at `after`? Where not, validity_of() has to say.
   bool (*valid_after)(const VolumeComparison& comparison) = nullptr;
 };
-
-/// The kernel for a metric that is defined for volumes. `level` must be one of supported_simd_levels().
-[[nodiscard]] VolumeKernel volume_kernel(SimdLevel level, Metric metric);
-/// The kernel for the mean ratio of tetrahedra against targets; it has no means. `level` likewise.
-[[nodiscard]] VolumeKernel target_volume_kernel(SimdLevel level, bool crossed);
 
 }  // namespace dmoscope

@@ -1,5 +1,7 @@
 #include "core/smooth/methods/aims_kernel.h"
 
+#include "core/smooth/kernels/compiled/kernel_set.h"
+
 namespace dmoscope {
 
 namespace {
@@ -15,7 +17,7 @@ template <class Frame>
 AimsKernel<Frame>::AimsKernel(const SmoothingTask& task, const CompositeObjective& objective)
     : judge_(*task.input, objective),
       aims_(search_for<Frame>(objective, task.search)),
-      kernel_(composite_kernel<Frame>(task.search.simd.value_or(best_simd_level()), objective.first)),
+      kernel_(kernels(task.search).in<Frame>().composite(objective.first)),
       stars_(*task.input, *task.colouring, task.pool) {
   if constexpr (std::is_same_v<Frame, Space>)
     comparison_.emplace(task.search.simd.value_or(best_simd_level()), objective.first, *plain_aims(objective));

@@ -17,14 +17,14 @@ Visit<Frame, Grid> grid_visit(const SmoothingTask& task, const CompositeObjectiv
 std::unique_ptr<Smoother> make_lanes(const SmoothingTask& task, const CompositeObjective& objective) {
   if (!objective.is_single() || task.search.precision != Precision::Float) return nullptr;
   if (is_built_in(objective.first))
-    return std::make_unique<LaneDmo>(task, grid_visit<Plane>(task, objective), lane_kernel(simd_level(task), objective.first));
+    return std::make_unique<LaneDmo>(task, grid_visit<Plane>(task, objective), kernels(task.search).lanes(objective.first));
   const InputMesh& input = *task.input;
   if (!has_target_kernel(input, objective.first, task.search)) return nullptr;
   const auto judge = input.quality_context().judge(objective.first);
   const TargetTable& targets = judge->targets();
   const bool crossed = has_crossed_targets(targets, static_cast<Index>(input.mesh.elements.size()));
   return std::make_unique<LaneDmo>(
-      task, grid_visit<Plane>(task, objective), target_lane_kernel(simd_level(task), crossed),
+      task, grid_visit<Plane>(task, objective), kernels(task.search).target_lanes(crossed),
       [&](const StarTable& table) { return build_star_targets(targets, crossed, input.mesh, input.topology, table, task.pool); });
 }
 

@@ -1,11 +1,13 @@
 #include "core/smooth/methods/grid.h"
 
+#include "core/smooth/kernels/compiled/kernel_set.h"
+
 namespace dmoscope {
 
 Grid::Grid(const SmoothingTask& task, const CompositeObjective& objective)
     : parameters_(task.search), flat_aims_(search_for<Plane>(objective, task.search)) {
   if (task.input->is_surface() && task.search.precision != Precision::Double && is_for_kernels(objective))
-    flat_kernel_ = composite_kernel<Plane>(task.search.simd.value_or(best_simd_level()), objective.first);
+    flat_kernel_ = kernels(task.search).in<Plane>().composite(objective.first);
 }
 
 std::optional<Vec2<double>> Grid::from_above(const SurfacePlaces<Curved>& places, const SurfaceStar& star) const {

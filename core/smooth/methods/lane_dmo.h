@@ -11,14 +11,13 @@
 #include <vector>
 
 #include "core/base/memory.h"
+#include "core/smooth/kernels/compiled/kernel_set.h"
 #include "core/smooth/kernels/lane_kernel.h"
 #include "core/smooth/kernels/targets/star_targets.h"
 #include "core/smooth/methods/grid.h"
 #include "core/smooth/visit/visit.h"
 
 namespace dmoscope {
-
-[[nodiscard]] inline SimdLevel simd_level(const SmoothingTask& task) { return task.search.simd.value_or(best_simd_level()); }
 
 /// Works on its own copy of the positions in the order of the visits, and keeps who needs no visit because nothing of its star moved since
 /// it was last found at its best.

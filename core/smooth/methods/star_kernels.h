@@ -8,7 +8,7 @@
 
 namespace dmoscope {
 
-/// Is the search that of target_lane_kernel() or target_volume_kernel()? It is for the mean ratio against targets.
+/// Is the search that of KernelSet::target_lanes or target_volume? It is for the mean ratio against targets.
 [[nodiscard]] bool has_target_kernel(const InputMesh& input, Metric metric, const SearchParameters& parameters);
 
 /// For the free vertices of a task that aim at an objective; null: the plain search alone. Frame: Plane or Space.

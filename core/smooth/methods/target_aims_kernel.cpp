@@ -6,6 +6,7 @@
 #include "core/base/memory.h"
 #include "core/base/thread_pool.h"
 #include "core/mesh/plane.h"
+#include "core/smooth/kernels/compiled/kernel_set.h"
 #include "core/smooth/kernels/solid_target.h"
 #include "core/smooth/kernels/targets/star_targets.h"
 #include "core/smooth/kernels/targets/target_star.h"
@@ -98,7 +99,7 @@ TargetAimsKernel<Frame>::TargetAimsKernel(const SmoothingTask& task, const Compo
         else
           return SolidStarTargets(judge_->targets(), *task.input);
       }()),
-      kernel_(target_mean_kernel<Frame>(task.search.simd.value_or(best_simd_level()), targets_.crossed())),
+      kernel_(kernels(task.search).in<Frame>().target_mean(targets_.crossed())),
       stars_(*task.input, *task.colouring, task.pool) {
   aims_.points = task.search.grid_points;
   aims_.levels = task.search.levels;

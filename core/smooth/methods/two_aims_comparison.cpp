@@ -1,5 +1,7 @@
 #include "core/smooth/methods/two_aims_comparison.h"
 
+#include "core/smooth/kernels/compiled/kernel_set.h"
+
 namespace dmoscope {
 
 namespace {
@@ -14,7 +16,7 @@ BeforeAndAfter least(Metric metric, const VolumeKernel& kernel, const VolumeComp
 }  // namespace
 
 TwoAimsComparison::TwoAimsComparison(SimdLevel level, Metric first, const Aims& aims)
-    : first_(first), aims_(aims), first_kernel_(volume_kernel(level, first)), second_kernel_(volume_kernel(level, aims.metric)) {}
+    : first_(first), aims_(aims), first_kernel_(kernels(level).volume(first)), second_kernel_(kernels(level).volume(aims.metric)) {}
 
 std::optional<bool> TwoAimsComparison::gains(const IndexedStar& star, const StarPoints<Space>& points, Vec3 from, Vec3 target) const {
   if (!has_metric(star, first_)) return std::nullopt;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/smooth/kernels/compiled/kernel_set.h"
 #include "core/smooth/methods/star_points.h"
 
 namespace dmoscope {
@@ -17,12 +18,10 @@ class VolumeStarSearch {
     Vec3Of<float> narrow_box;
   };
   VolumeStarSearch(Metric metric, const SearchParameters& parameters)
-      : metric_(metric), kernel_(volume_kernel(parameters.simd.value_or(best_simd_level()), metric)), parameters_(parameters) {}
+      : metric_(metric), kernel_(kernels(parameters).volume(metric)), parameters_(parameters) {}
   /// By the mean ratio against targets.
   VolumeStarSearch(const SearchParameters& parameters, bool crossed)
-      : metric_(Metric::MeanRatio),
-        kernel_(target_volume_kernel(parameters.simd.value_or(best_simd_level()), crossed)),
-        parameters_(parameters) {}
+      : metric_(Metric::MeanRatio), kernel_(kernels(parameters).target_volume(crossed)), parameters_(parameters) {}
 
   /// Finds the winner of the first `levels` levels for the vertex; a search of fewer levels begins like one of more. Not ready where the
   /// plain search has to do it.

@@ -5,6 +5,7 @@
 
 #include "core/search/joined_star.h"
 #include "core/smooth/edge_neighbours.h"
+#include "core/smooth/kernels/compiled/kernel_set.h"
 #include "core/smooth/visit/defined_pieces.h"
 
 namespace dmoscope {
@@ -330,7 +331,7 @@ StarJudge<Frame>::StarJudge(const InputMesh& input, CompositeObjective composite
                             std::shared_ptr<const Domain> pairs)
     : input_(&input), view_(input.view<Frame>()), composite_(std::move(composite)), pairs_(std::move(pairs)) {
   if (pairs_ && pairs_->pairs().empty()) pairs_.reset();
-  if (packs && is_for_kernels(composite_)) list_kernel_ = composite_list_kernel<Frame>(*packs, composite_.first);
+  if (packs && is_for_kernels(composite_)) list_kernel_ = kernels(*packs).in<Frame>().composite_list(composite_.first);
   if (!is_built_in(composite_.first)) first_ = input.quality_context().judge(composite_.first);
   if (const auto* second = std::get_if<Metric>(&composite_.second); second != nullptr && !is_built_in(*second))
     second_ = input.quality_context().judge(*second);

@@ -43,8 +43,4 @@ struct TargetMeanKernel {
   TargetMeanWorth (*worth)(const TargetMeanSearch<Frame>& search, OffsetIn<Frame, double> at) = nullptr;
 };
 
-/// `crossed`: see TargetForm, solid_target.h. `level` must be one of supported_simd_levels().
-template <class Frame>
-[[nodiscard]] TargetMeanKernel<Frame> target_mean_kernel(SimdLevel level, bool crossed);
-
 }  // namespace dmoscope

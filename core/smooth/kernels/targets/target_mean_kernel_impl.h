@@ -1,5 +1,5 @@
 #pragma once
-// The one definition of the kernel for the mean against targets. Only the target_mean_kernel_*.cpp include it; see lane_kernel_impl.h for
+// The one definition of the kernel for the mean against targets. Only the kernel_set_*.cpp include it; see lane_kernel_impl.h for
 // what that asks of the code.
 
 #include <array>

@@ -1,5 +1,5 @@
 #pragma once
-// One vertex's visit as target_lane_kernel() does it, but for one vertex: for a GPU's lanes, and for inspecting it. The same bits.
+// One vertex's visit as KernelSet::target_lanes does it, but for one vertex: for a GPU's lanes, and for inspecting it. The same bits.
 
 #include <array>
 

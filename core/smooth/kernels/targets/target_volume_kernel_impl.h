@@ -1,5 +1,5 @@
 #pragma once
-// The one definition of the volumes' kernel for tetrahedra that have targets. Only the target_volume_kernel_*.cpp include it; see
+// The one definition of the volumes' kernel for tetrahedra that have targets. Only the kernel_set_*.cpp include it; see
 // lane_kernel_impl.h for what that asks of the code.
 
 #include <limits>

@@ -1,5 +1,5 @@
 #pragma once
-// The targets of tetrahedra as target_volume_kernel() reads them.
+// The targets of tetrahedra as KernelSet::target_volume reads them.
 
 #include <cstdint>
 #include <span>

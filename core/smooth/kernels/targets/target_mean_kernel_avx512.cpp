@@ -1,8 +1,0 @@
-#include "core/smooth/kernels/targets/target_mean_kernel_impl.h"
-
-namespace dmoscope::target_mean {
-
-TargetMeanKernel<Plane> planar_kernel_avx512(bool crossed) { return kernel_for<Plane, Pack<double>>(crossed); }
-TargetMeanKernel<Space> volume_kernel_avx512(bool crossed) { return kernel_for<Space, Pack<double>>(crossed); }
-
-}  // namespace dmoscope::target_mean

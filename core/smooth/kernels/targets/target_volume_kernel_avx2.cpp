@@ -1,7 +1,0 @@
-#include "core/smooth/kernels/targets/target_volume_kernel_impl.h"
-
-namespace dmoscope {
-
-VolumeKernel target_volume_kernel_avx2(bool crossed) { return volumes::target_kernel_for<Pack<float>, Pack<double>>(crossed); }
-
-}  // namespace dmoscope

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/inspect/element_changes.h"
 #include "core/inspect/recorder.h"
 #include "core/quality/metric_phrase.h"
 #include "core/reference/deviation_bound.h"
@@ -52,7 +53,8 @@ class SurfaceLook {
       search(*place);
     }
     settle();
-    add_elements();
+    trace.elements = element_changes<Frame>(*task_.input, positions_, trace);
+    trace.by_corners = has_corners(mesh_, vertex_);
     return std::move(visit_);
   }
 
@@ -148,21 +150,6 @@ class SurfaceLook {
     for (std::size_t k = visit_.trace.levels.size(); k-- > 0;)
       if (const auto best = visit_.trace.levels[k].best) return visit_.grid.levels[k].fates[static_cast<std::size_t>(*best)];
     return CandidateFate::Counts;
-  }
-
-  void add_elements() {
-    std::vector<Vec3> after(positions_.begin(), positions_.end());
-    after[vertex_] = visit_.trace.to;
-    const QualityContext context = task_.input->quality_context();
-    for (const Incidence& at : mesh_.star(vertex_)) {
-      ElementChange change{at.element};
-      change.before = element_quality(context, positions_, task_.metric, at.element);
-      change.after = element_quality(context, after, task_.metric, at.element);
-      change.inverted_before = smallest_jacobian(context, positions_, at.element) <= 0.0;
-      change.inverted_after = smallest_jacobian(context, after, at.element) <= 0.0;
-      visit_.trace.elements.push_back(change);
-      visit_.trace.by_corners = visit_.trace.by_corners || (std::is_same_v<Frame, Space> && mesh_.corners_of(at.element).size() > 4);
-    }
   }
 
   const SmoothingTask& task_;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/inspect/element_changes.h"
 #include "core/inspect/recorder.h"
 #include "core/inspect/require_star.h"
 #include "core/inspect/single_vertex_task.h"
@@ -57,12 +58,16 @@ std::string untangling_phrase(bool volume, const Untangling& rule) {
          "or the least quality fell); once all are sound the ";
 }
 
+CompositeObjective with_guard(CompositeObjective objective, const std::optional<Guard>& guard) {
+  if (guard) objective.guard = guard;
+  return objective;
+}
+
 /// One look at one vertex. Frame: Plane or Space.
-template <Metric M, class Frame>
+template <class Frame>
 class Look {
  public:
   static constexpr bool kVolume = std::is_same_v<Frame, Space>;
-  static constexpr bool kDefined = M == kDefinedMetric;
   using Offset = OffsetIn<Frame, double>;
   using Trace = VisitTraceIn<Offset>;
 
@@ -73,17 +78,13 @@ class Look {
         mesh_(input.view<Frame>()),
         positions_(positions),
         parameters_(parameters),
-        objective_(composite.value_or(single_objective(metric))),
-        untangling_(untangling) {
-    if (guard) objective_.guard = guard;
+        untangling_(untangling),
+        judge_(input, with_guard(composite.value_or(single_objective(metric)), guard)) {
+    judge_.begin({.untangling = untangling});
     trace_.vertex = vertex;
     trace_.metric = metric;
-    if constexpr (kDefined) {
-      judge_ = input.quality_context().judge(metric);
-      star_judge_.emplace(defined_star_judge<Frame>(input, *judge_));
-    }
     trace_.from = trace_.to = positions[vertex];
-    trace_.by_corners = has_corners();
+    trace_.by_corners = has_corners(mesh_, vertex);
     trace_.before = trace_.after = state(trace_.from);
   }
 
@@ -92,248 +93,170 @@ class Look {
       trace_.end = VisitEnd::Fixed;
     else if (untangling_.repair && trace_.before.jacobian > 0.0)
       trace_.end = VisitEnd::Waits;
-    else if (!objective_.is_single())
-      search_for_both(false);
-    else if ((parameters_.precision == Precision::Double && !kDefined) || !search_fast())
-      search_plainly();
-    if (breaks_guard()) {
-      trace_.fast = false;
-      trace_.halvings = 0;
-      trace_.to = trace_.from;
-      search_for_both(true);
-    }
+    else
+      search();
     trace_.step = mesh_.frame.offset(trace_.to, trace_.from);
     if (trace_.end == VisitEnd::Moved) trace_.after = state(trace_.to);
-    add_elements();
+    trace_.elements = element_changes<Frame>(input_, positions_, trace_);
     return std::move(trace_);
   }
 
  private:
-  /// As the fast smoothers do it: false where the star is the plain search's.
+  void search() {
+    judge_.gather(positions_, trace_.vertex, star_);
+    const bool plain = !judge_.composite().is_single() || (parameters_.precision == Precision::Double && is_built_in(metric_));
+    if (plain || !search_fast()) search_plainly(false);
+    if (trace_.end != VisitEnd::Moved || judge_.keeps_guard(positions_, trace_.vertex, trace_.to)) return;
+    trace_.fast = false;
+    trace_.halvings = 0;
+    trace_.to = trace_.from;
+    search_plainly(true);
+  }
+
+  /// Repeats the search of the kernel for the objective. False: the star is the plain search's.
   bool search_fast() {
-    if constexpr (kDefined)
-      return (has_target_kernel(input_, metric_, parameters_) && search_by_targets()) || search_by_formula();
-    else if constexpr (kVolume)
-      return search_by_volume_kernel();
-    else
-      return search_by_lanes();
-  }
-
-  bool search_by_targets() {
+    if (!is_built_in(metric_)) {
+      const auto judge = input_.quality_context().judge(metric_);
+      return (has_target_kernel(input_, metric_, parameters_) && search_by_targets(judge->targets())) || search_by_formula(*judge);
+    }
     if constexpr (kVolume)
-      return search_by_target_kernel();
+      return search_by_volume_kernel(VolumeStarSearch(metric_, parameters_), {});
     else
-      return search_by_target_lanes();
+      return formulas::with_planar_metric(metric_, [this]<Metric M>() {
+        return search_by_lanes(rank_phrase(metric_), [](const SingleVertexTask& task) {
+          return FastVisit<M, Solo, Stars::All, SingleVertexTask>(task, 0, Solo{});
+        });
+      });
   }
 
-  /// The star by the statistics' formulas with the vertex at a place.
-  [[nodiscard]] StarState state(Vec3 place) const {
-    if constexpr (kDefined)
-      return defined_star_state(*star_judge_, positions_, trace_.vertex, place);
-    else
-      return star_state<M>(mesh_, positions_, trace_.vertex, place);
-  }
-
-  /// Repeats the search of DefinedKernel. Its choice in level L is found by a search of L levels and not by one of L - 1.
-  bool search_by_formula() requires(M == kDefinedMetric) {
-    if (!(trace_.before.jacobian > 0.0)) return false;
-    const DefinedSearch<Frame> search(*star_judge_, parameters_);
-    typename DefinedSearch<Frame>::Scratch scratch;
-    trace_.fast = !search.in_double();
-    trace_.value_phrase = metric_phrase(metric_);
-    const DefinedStar<Frame> star(*star_judge_, positions_, trace_.vertex);
-    const auto find = [&](int levels) { return search.find(positions_, trace_.vertex, levels, scratch); };
-    const auto start = find(0);
-    Recorder<Offset> recorder(start.scale);
-    recorder.begin(star.least({}));
-    if (search.in_double())
-      record_levels<double>(recorder, start.box, star, find);
-    else
-      record_levels<float>(recorder, start.box, star, find);
-    take(std::move(recorder), [this](Offset offset) { return stored(offset); });
-    end([this](Vec3 target) { return confirm(target); });
-    return true;
-  }
-  template <class Real, class Find>
-  void record_levels(Recorder<Offset>& recorder, Offset box, const DefinedStar<Frame>& star, const Find& find) {
-    using Point = OffsetIn<Frame, Real>;
-    const auto narrow = [](Offset p) {
-      if constexpr (kVolume)
-        return Point{static_cast<Real>(p.x), static_cast<Real>(p.y), static_cast<Real>(p.z)};
-      else
-        return Point{static_cast<Real>(p.x), static_cast<Real>(p.y)};
-    };
-    Point centre{};
-    double omega = parameters_.omega;
-    for (int level = 1; level <= parameters_.levels; ++level) {
-      const CandidateGrid<Real, Point> grid{centre, times(narrow(box), static_cast<Real>(omega)), parameters_.grid_points};
-      recorder.level(grid);
-      for (int i = 0; i < grid.points; ++i)
-        grid.for_slice(i, [&](int index, const Point& p) { recorder.candidate(index, p, star.least(point_of<double>(p))); });
-      const Point found = narrow(find(level).offset);
-      if (!(found == centre)) recorder.choose(found);
-      centre = found;
-      omega *= 2.0 / (parameters_.grid_points - 1);
+  bool search_by_targets(const TargetTable& targets) {
+    const auto star = mesh_.star(trace_.vertex);
+    if constexpr (kVolume) {
+      const TetrahedronTargets of_star(targets, input_.mesh, star);
+      std::vector<Incidence> numbered(star.begin(), star.end());
+      for (Index i = 0; i < numbered.size(); ++i) numbered[i].element = i;
+      return of_star.fit(numbered) &&
+             search_by_volume_kernel(VolumeStarSearch(parameters_, of_star.crossed()), {numbered.data(), of_star.numbers()});
+    } else {
+      if (has_crossed_targets(targets, static_cast<Index>(input_.mesh.elements.size()))) return search_by_target_lanes<true>(targets);
+      return search_by_target_lanes<false>(targets);
     }
   }
 
-  /// As LaneDmo does it.
-  bool search_by_lanes() {
-    const SingleVertexTask task(input_, positions_, parameters_, trace_.vertex);
-    if (task.shapes->kind == StarShape::Kind::Alone) return false;
-    Recorder<Offset> recorder(task.frame.scale);
-    const auto outcome = FastVisit<M, Solo, Stars::All, SingleVertexTask>(task, 0, Solo{}).run(recorder);
-    if (!outcome.ready) return false;
-    trace_.fast = true;
-    trace_.value_phrase = rank_phrase(metric_);
-    take_from_lanes(std::move(recorder), task, outcome);
-    return true;
-  }
-  template <class Outcome>
-  void take_from_lanes(Recorder<Offset> recorder, const SingleVertexTask& task, const Outcome& outcome) {
-    const auto place = [&](Offset offset) {
-      // Exact: the offsets are floats times a power of two.
-      const Displacement to = task.frame.displace(&trace_.from.x, static_cast<float>(offset.x * task.frame.inverse),
-                                                  static_cast<float>(offset.y * task.frame.inverse));
-      return Vec3{to.target[0], to.target[1], to.target[2]};
+  /// The star by the statistics' formulas with the vertex at a place.
+  [[nodiscard]] StarState state(Vec3 place) const { return judge_.state(metric_, positions_, trace_.vertex, place); }
+
+  bool search_by_formula(const DefinedJudge& judge) {
+    if (!(trace_.before.jacobian > 0.0)) return false;
+    const auto star_judge = defined_star_judge<Frame>(input_, judge);
+    const DefinedSearch<Frame> search(star_judge, parameters_);
+    typename DefinedSearch<Frame>::Scratch scratch;
+    trace_.fast = !search.in_double();
+    const auto by_levels = [&]<class Real>() {
+      const auto find = [&](int levels) { return search.find(positions_, trace_.vertex, levels, scratch); };
+      const auto start = find(0);
+      record_levels(start.scale, point_of<Real>(start.box), [&](int levels) { return point_of<Real>(find(levels).offset); });
     };
-    take(std::move(recorder), place);
-    using visit_rules::Verdict;
-    const Vec3 target{outcome.to.target[0], outcome.to.target[1], outcome.to.target[2]};
-    end(target, outcome.verdict == Verdict::Move || (outcome.verdict == Verdict::MoveIfExact && confirm(target) == Confirmation::Gains));
-  }
-
-  /// As LaneDmo does it where elements have targets.
-  bool search_by_target_lanes() {
-    const TargetTable& targets = judge_->targets();
-    if (has_crossed_targets(targets, static_cast<Index>(input_.mesh.elements.size()))) return search_by_target_lanes<true>(targets);
-    return search_by_target_lanes<false>(targets);
-  }
-  template <bool Crossed>
-  bool search_by_target_lanes(const TargetTable& targets) {
-    const SingleVertexTask task(input_, positions_, parameters_, trace_.vertex);
-    if (task.shapes->kind == StarShape::Kind::Alone) return false;
-    std::vector<Index> others;
-    std::vector<double> numbers;
-    const StarShape shape = star_shape(input_.mesh, input_.topology, trace_.vertex, others);
-    append_star_targets(targets, Crossed, input_.mesh, input_.topology, trace_.vertex, shape, others, numbers);
-    Recorder<Offset> recorder(task.frame.scale);
-    const auto outcome = TargetVisit<Crossed, SingleVertexTask>(task, 0, numbers.data()).run(recorder);
-    if (!outcome.ready) return false;
-    trace_.fast = true;
-    trace_.value_phrase = metric_phrase(metric_);
-    take_from_lanes(std::move(recorder), task, outcome);
+    if (search.in_double())
+      by_levels.template operator()<double>();
+    else
+      by_levels.template operator()<float>();
     return true;
   }
-
-  /// Repeats the search of FastVolumeKernel.
-  bool search_by_volume_kernel() {
-    StarIn<Frame, double> star;
-    gather_star(MeshStar(mesh_, positions_, trace_.vertex), star);
-    const Objective<M, false, double, Value::Metric, StarViewIn<Frame, double>> objective(star);
-    return search_by_volume_kernel(VolumeStarSearch(M, parameters_), {}, objective);
-  }
-  /// Repeats the search of TargetVolumeKernel.
-  bool search_by_target_kernel() {
-    const auto star = mesh_.star(trace_.vertex);
-    const TetrahedronTargets targets(judge_->targets(), input_.mesh, star);
-    std::vector<Incidence> numbered(star.begin(), star.end());
-    for (Index i = 0; i < numbered.size(); ++i) numbered[i].element = i;
-    if (!targets.fit(numbered)) return false;
-    const DefinedStar<Frame> defined_star(*star_judge_, positions_, trace_.vertex);
-    return search_by_volume_kernel(VolumeStarSearch(parameters_, targets.crossed()), {numbered.data(), targets.numbers()},
-                                   [&](Vec3 p) { return defined_star.least(p); });
-  }
-  /// What the kernel chose in level L is what it finds in L levels and does not find in L - 1. objective(p): what a place is worth.
-  template <class Objective>
-  bool search_by_volume_kernel(const VolumeStarSearch& search, const VolumeTargets& targets, const Objective& objective) {
+  bool search_by_volume_kernel(const VolumeStarSearch& search, const VolumeTargets& targets) {
     if (untangling_.looks_inside() && has_inverted(mesh_, positions_, trace_.vertex)) return false;
     const IndexedStars stars(input_, trace_.vertex);
     VolumeStarSearch::Points points;
     const auto find = [&](int levels) { return search.find(stars.of(trace_.vertex), positions_, trace_.vertex, levels, points, targets); };
     if (!find(0).ready) return false;
     trace_.fast = true;
+    record_levels(points.scale, points.narrow_box, [&](int levels) { return find(levels).offset; });
+    return true;
+  }
+  /// Tells a search that reports no candidates: its choice in level L is what it finds in L levels, and not in L - 1. find(levels): an
+  /// offset, in units of `scale`, as the search rounds it.
+  template <class Point, class Find>
+  void record_levels(double scale, Point box, const Find& find) {
+    using Real = decltype(box.x);
     trace_.value_phrase = metric_phrase(metric_);
-    Recorder<Offset> recorder(points.scale);
-    recorder.begin(objective(Vec3{}));
-    Vec3Of<float> centre{};
+    const auto score = judge_.score_of(star_, positions_, trace_.vertex, false);
+    Recorder<Offset> recorder(scale);
+    recorder.begin(score(Offset{}));
+    Point centre{};
     double omega = parameters_.omega;
     for (int level = 1; level <= parameters_.levels; ++level) {
-      const CandidateGrid<float, Vec3Of<float>> grid{centre, times(points.narrow_box, static_cast<float>(omega)), parameters_.grid_points};
+      const CandidateGrid<Real, Point> grid{centre, times(box, static_cast<Real>(omega)), parameters_.grid_points};
       recorder.level(grid);
       for (int i = 0; i < grid.points; ++i)
-        grid.for_slice(i, [&](int index, Vec3Of<float> p) { recorder.candidate(index, p, objective(Vec3{p.x, p.y, p.z})); });
-      const Vec3Of<float> found = find(level).offset;
+        grid.for_slice(i, [&](int index, const Point& p) { recorder.candidate(index, p, score(point_of<double>(p))); });
+      const Point found = find(level);
       if (!(found == centre)) recorder.choose(found);
       centre = found;
       omega *= 2.0 / (parameters_.grid_points - 1);
     }
-    take(std::move(recorder), [this](Offset offset) { return stored(offset); });
+    take(std::move(recorder));
     end([this](Vec3 target) { return confirm(target); });
+  }
+
+  template <bool Crossed>
+  bool search_by_target_lanes(const TargetTable& targets) {
+    std::vector<Index> others;
+    std::vector<double> numbers;
+    const StarShape shape = star_shape(input_.mesh, input_.topology, trace_.vertex, others);
+    if (shape.kind == StarShape::Kind::Alone) return false;
+    append_star_targets(targets, Crossed, input_.mesh, input_.topology, trace_.vertex, shape, others, numbers);
+    return search_by_lanes(metric_phrase(metric_),
+                           [&](const SingleVertexTask& task) { return TargetVisit<Crossed, SingleVertexTask>(task, 0, numbers.data()); });
+  }
+  /// make_visit(task): what a lane does.
+  template <class MakeVisit>
+  bool search_by_lanes(std::string value_phrase, const MakeVisit& make_visit) {
+    const SingleVertexTask task(input_, positions_, parameters_, trace_.vertex);
+    if (task.shapes->kind == StarShape::Kind::Alone) return false;
+    Recorder<Offset> recorder(task.frame.scale);
+    const auto outcome = make_visit(task).run(recorder);
+    if (!outcome.ready) return false;
+    trace_.fast = true;
+    trace_.value_phrase = std::move(value_phrase);
+    take(std::move(recorder), [&](Offset offset) {
+      // Exact: the offsets are floats times a power of two.
+      const Displacement to = task.frame.displace(&trace_.from.x, static_cast<float>(offset.x * task.frame.inverse),
+                                                  static_cast<float>(offset.y * task.frame.inverse));
+      return Vec3{to.target[0], to.target[1], to.target[2]};
+    });
+    using visit_rules::Verdict;
+    const Vec3 target{outcome.to.target[0], outcome.to.target[1], outcome.to.target[2]};
+    end(target, outcome.verdict == Verdict::Move || (outcome.verdict == Verdict::MoveIfExact && confirm(target) == Confirmation::Gains));
     return true;
   }
 
-  /// As the reference does it.
-  void search_plainly() {
-    Recorder<Offset> recorder(1.0);
-    if constexpr (kDefined) {
-      const DefinedStar<Frame> star(*star_judge_, positions_, trace_.vertex);
-      recorder = Recorder<Offset>(star.scale());
-      (void)search_star<M>(star.view(), star.star().box, parameters_, untangling_, Solo{}, recorder);
-    } else {
-      StarIn<Frame, double> star;
-      gather_star(MeshStar(mesh_, positions_, trace_.vertex), star);
-      recorder = Recorder<Offset>(star.scale);
-      (void)search_star<M>(StarViewIn<Frame, double>(star), star.box, parameters_, untangling_, Solo{}, recorder);
-    }
-    trace_.untangling = !(recorder.here > 0.0);
-    trace_.value_phrase = (trace_.untangling ? untangling_phrase(kVolume, untangling_) : "") + metric_phrase(metric_);
-    take(std::move(recorder), [this](Offset offset) { return stored(offset); });
-    end([this](Vec3 target) { return confirm(target); });
-  }
-
-  /// Repeats the plain search for two aims, which finds the winner of the packs.
-  void search_for_both(bool guarded) {
-    StarJudge<Frame> judge(input_, objective_);
-    judge.begin({.untangling = untangling_});
-    StarIn<Frame, double> star;
-    judge.gather(positions_, trace_.vertex, star);
-    Recorder<Offset> recorder(star.scale);
-    trace_.combined = !objective_.is_single();
-    trace_.untangling = judge.is_tangled(star);
+  /// Repeats the plain search, which finds the winner of the packs. `guarded`: see StarScore.
+  void search_plainly(bool guarded) {
+    const CompositeObjective& objective = judge_.composite();
+    Recorder<Offset> recorder(star_.scale);
+    trace_.combined = !objective.is_single();
+    trace_.untangling = judge_.is_tangled(star_);
     if (!untangling_.repair || trace_.untangling) {
-      const Offset middle = trace_.untangling ? middle_of<Offset>(StarViewIn<Frame, double>(star)) : Offset{};
-      (void)grid_search<double>(judge.score_of(star, positions_, trace_.vertex, trace_.untangling, guarded), star.box, parameters_,
+      const Offset middle = trace_.untangling ? middle_of<Offset>(JudgedStarView<Frame>(star_)) : Offset{};
+      (void)grid_search<double>(judge_.score_of(star_, positions_, trace_.vertex, trace_.untangling, guarded), star_.box, parameters_,
                                 recorder, Solo{}, trace_.untangling ? &middle : nullptr);
     }
-    trace_.value_phrase = (trace_.untangling ? untangling_phrase(kVolume, untangling_) : "") + both_phrase(objective_);
-    take(std::move(recorder), [this](Offset offset) { return stored(offset); });
+    trace_.value_phrase = (trace_.untangling ? untangling_phrase(kVolume, untangling_) : "") + both_phrase(objective);
+    take(std::move(recorder));
     end([&](Vec3 target) {
-      const Confirmation found = judge.confirm(positions_, trace_.vertex, target);
-      const bool kept = !guarded || found != Confirmation::Gains || judge.keeps_guard(positions_, trace_.vertex, target);
+      const Confirmation found = confirm(target);
+      const bool kept = !guarded || found != Confirmation::Gains || judge_.keeps_guard(positions_, trace_.vertex, target);
       return kept ? found : Confirmation::TooFar;
     });
-  }
-  /// Whether the guard alone does not let the vertex go where it would.
-  [[nodiscard]] bool breaks_guard() const {
-    if (trace_.end != VisitEnd::Moved || !objective_.guard) return false;
-    return !StarJudge<Frame>(input_, objective_).keeps_guard(positions_, trace_.vertex, trace_.to);
-  }
-
-  [[nodiscard]] bool has_corners() const {
-    const auto is_cornered = [this](const Incidence& at) { return mesh_.corners_of(at.element).size() > 4; };
-    return kVolume && std::ranges::any_of(mesh_.star(trace_.vertex), is_cornered);
   }
 
   /// Where an offset leads as the smoothers in double store it.
   [[nodiscard]] Vec3 stored(Offset offset) const { return displaced(mesh_.frame, trace_.from, offset, input_.mesh.single_precision); }
-  [[nodiscard]] Confirmation confirm(Vec3 target) const {
-    if constexpr (kDefined)
-      return defined_confirm_at(*star_judge_, positions_, trace_.vertex, target, untangling_);
-    else
-      return confirm_at<M>(mesh_, positions_, trace_.vertex, target, untangling_);
-  }
+  [[nodiscard]] Confirmation confirm(Vec3 target) const { return judge_.confirm(positions_, trace_.vertex, target); }
 
+  void take(Recorder<Offset> recorder) {
+    take(std::move(recorder), [this](Offset offset) { return stored(offset); });
+  }
   /// place(offset): where the vertex would be stored.
   template <class Place>
   void take(Recorder<Offset> recorder, const Place& place) {
@@ -369,34 +292,14 @@ class Look {
       trace_.end = VisitEnd::Moved, trace_.to = target;
   }
 
-  void add_elements() {
-    for (const Incidence& incidence : mesh_.star(trace_.vertex)) {
-      ElementChange change{incidence.element};
-      const auto judge = [&](Vec3 place, double& quality, bool& inverted) {
-        const auto at = [&](Index v) { return v == trace_.vertex ? place : positions_[v]; };
-        visit_shape(mesh_.frame_of(incidence.element), mesh_.corners_of(incidence.element), at, [&](const auto& shape) {
-          if constexpr (kDefined)
-            quality = star_judge_->quality({incidence.element, kNoIndex}, positions_, trace_.vertex, place);
-          else
-            quality = evaluate<M>(shape);
-          inverted = least_jacobian(shape) <= 0.0;
-        });
-      };
-      judge(trace_.from, change.before, change.inverted_before);
-      judge(trace_.to, change.after, change.inverted_after);
-      trace_.elements.push_back(change);
-    }
-  }
-
   const InputMesh& input_;
   Metric metric_;
-  std::shared_ptr<const DefinedJudge> judge_;
-  std::optional<DefinedStarJudge<Frame>> star_judge_;  // of a metric that is not built in
   MeshView<Frame> mesh_;
   PositionView positions_;
   const SearchParameters& parameters_;
-  CompositeObjective objective_;
   const Untangling& untangling_;
+  StarJudge<Frame> judge_;
+  JudgedStar<Frame> star_;
   Trace trace_;
 };
 
@@ -454,20 +357,14 @@ VisitTrace trace_visit(const InputMesh& input, PositionView positions, std::span
                        const SearchParameters& parameters, Index vertex, const std::optional<CompositeObjective>& composite,
                        const Untangling& untangling, const std::optional<Guard>& guard) {
   const bool is_fixed = require_traceable(input, Shape::Planar, fixed, metric, parameters, vertex);
-  const auto look = [&]<Metric M>() {
-    return Look<M, Plane>(input, positions, metric, parameters, vertex, composite, untangling, guard).run(is_fixed);
-  };
-  return is_built_in(metric) ? formulas::with_planar_metric(metric, look) : look.template operator()<kDefinedMetric>();
+  return Look<Plane>(input, positions, metric, parameters, vertex, composite, untangling, guard).run(is_fixed);
 }
 
 VolumeTrace trace_volume_visit(const InputMesh& input, PositionView positions, std::span<const std::uint8_t> fixed, Metric metric,
                                const SearchParameters& parameters, Index vertex, const std::optional<CompositeObjective>& composite,
                                const Untangling& untangling, const std::optional<Guard>& guard) {
   const bool is_fixed = require_traceable(input, Shape::Volume, fixed, metric, parameters, vertex);
-  const auto look = [&]<Metric M>() {
-    return Look<M, Space>(input, positions, metric, parameters, vertex, composite, untangling, guard).run(is_fixed);
-  };
-  return is_built_in(metric) ? formulas::with_volume_metric(metric, look) : look.template operator()<kDefinedMetric>();
+  return Look<Space>(input, positions, metric, parameters, vertex, composite, untangling, guard).run(is_fixed);
 }
 
 }  // namespace dmoscope

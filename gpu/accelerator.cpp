@@ -1,7 +1,5 @@
 #include "gpu/accelerator.h"
 
-#include <utility>
-
 #include "core/base/error.h"
 #include "gpu/cuda_queue.h"
 #include "gpu/device.h"

@@ -1,7 +1,6 @@
 #pragma once
 // The star of a vertex as a lane sees it, where the order of its elements matters.
 
-#include <cstdint>
 #include <type_traits>
 
 #include "core/search/mesh_star.h"

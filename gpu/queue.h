@@ -9,7 +9,6 @@
 #include <span>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "core/base/thread_pool.h"
 #include "core/quality/metric.h"

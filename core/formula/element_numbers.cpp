@@ -1,6 +1,5 @@
 #include "core/formula/element_numbers.h"
 
-#include <cmath>
 #include <numbers>
 
 #include "core/mesh/corner_tables.h"

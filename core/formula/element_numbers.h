@@ -4,10 +4,8 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include "core/formula/program_builder.h"
 

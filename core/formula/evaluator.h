@@ -2,8 +2,6 @@
 // Evaluates programs for many places or elements at once, with the vector instructions of the processor. The same bits for any of them.
 
 #include <cstddef>
-#include <functional>
-#include <span>
 #include <vector>
 
 #include "core/formula/program.h"

@@ -1,6 +1,7 @@
 #include "core/formula/formula.h"
 
-#include <utility>
+#include <mutex>
+#include <optional>
 
 #include <fmt/format.h>
 

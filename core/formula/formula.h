@@ -1,10 +1,7 @@
 #pragma once
 // A metric that a person wrote: read, understood, and ready to be evaluated.
 
-#include <array>
 #include <memory>
-#include <mutex>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>

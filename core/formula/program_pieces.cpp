@@ -1,7 +1,6 @@
 // Splits a number of a program into the smooth numbers that it is the least of.
 
 #include <algorithm>
-#include <optional>
 
 #include "core/formula/program_builder.h"
 

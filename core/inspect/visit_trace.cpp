@@ -1,7 +1,6 @@
 #include "core/inspect/visit_trace.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 

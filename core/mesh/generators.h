@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <functional>
 #include <span>
-#include <vector>
 
 #include "core/base/progress.h"
 #include "core/mesh/mesh.h"

@@ -1,7 +1,6 @@
 #include "core/mesh/ties.h"
 
 #include <algorithm>
-#include <array>
 #include <tuple>
 
 namespace dmoscope {

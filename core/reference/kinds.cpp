@@ -1,7 +1,6 @@
 #include "core/reference/kinds.h"
 
 #include <algorithm>
-#include <iterator>
 
 #include <fmt/format.h>
 

@@ -1,7 +1,6 @@
 #pragma once
 // What a run made of a mesh as a whole, against its input: not its metric's minimum alone.
 
-#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>

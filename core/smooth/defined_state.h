@@ -1,7 +1,6 @@
 #pragma once
 // How good a star is by a metric that is defined by a formula or a target, judged as the statistics do.
 
-#include <memory>
 #include <vector>
 
 #include "core/input/input_mesh.h"

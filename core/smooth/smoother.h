@@ -6,7 +6,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 
 #include "core/quality/power_mean.h"
 #include "core/quality/quality.h"

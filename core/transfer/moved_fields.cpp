@@ -1,7 +1,6 @@
 #include "core/transfer/moved_fields.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 

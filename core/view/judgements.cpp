@@ -1,7 +1,6 @@
 #include "core/view/judgements.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "core/quality/quality.h"

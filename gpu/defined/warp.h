@@ -1,8 +1,6 @@
 #pragma once
 // All lanes of a warp, which search one star together: see core/search/team.h.
 
-#include <cstddef>
-
 #include "core/base/host_device.h"
 
 namespace dmoscope::gpu {

@@ -1,7 +1,6 @@
 #include "mpi/smooth/shared_mesh.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>

@@ -3,8 +3,6 @@
 
 #include <array>
 #include <charconv>
-#include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 

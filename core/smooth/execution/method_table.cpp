@@ -4,9 +4,7 @@
 #include <array>
 #include <string>
 #include <string_view>
-#include <vector>
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "core/base/error.h"

@@ -3,7 +3,6 @@
 // lane_kernel_impl.h for what that asks of the code.
 
 #include <array>
-#include <limits>
 
 #include "core/numeric/pack.h"
 // After the packs:

@@ -2,8 +2,6 @@
 // The fast search of a volume's star, for one vertex: in float, and what two places are worth in double. The same code compiled for several
 // processors, chosen at run time; all give the same bits.
 
-#include <cstddef>
-
 #include "core/base/vec.h"
 #include "core/mesh/topology.h"
 #include "core/quality/metric.h"

@@ -1,7 +1,6 @@
 #pragma once
 // The grid search for two aims by packs of candidates, in double: it finds what the plain search finds.
 
-#include <memory>
 #include <optional>
 
 #include "core/smooth/methods/two_aims_comparison.h"

@@ -2,7 +2,6 @@
 // The grid search by a metric that is defined by a formula or a target: many candidates at once, an element at a time, the worst first;
 // candidates that cannot win any more are left out from there on. It finds the candidate that a look at all would find.
 
-#include <array>
 #include <vector>
 
 #include "core/formula/evaluator.h"

@@ -1,7 +1,6 @@
 #pragma once
 // The search of single vertices for the mean of the mean ratio against targets: it finds what the plain search finds.
 
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>

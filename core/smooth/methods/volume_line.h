@@ -7,7 +7,6 @@
 // that too: it rises to its maximum and falls from there on, and which of the two it does at some t, its slope there tells.
 
 #include <algorithm>
-#include <cmath>
 #include <span>
 #include <vector>
 

@@ -1,7 +1,6 @@
 #pragma once
 // The fast search of a volume's star: in float by the kernel.
 
-#include <cstddef>
 #include <optional>
 #include <vector>
 

@@ -1,11 +1,9 @@
 #pragma once
 // An objective on the star of one vertex: all that the methods see of metrics, formulas, targets and two aims (composite_objective.h).
 
-#include <cmath>
 #include <limits>
 #include <memory>
 #include <optional>
-#include <utility>
 #include <variant>
 #include <vector>
 

@@ -3,8 +3,6 @@
 // threshold. In float, by bounds, it finds which candidates may win, and in double, by packs, which of these does: for certain, or it
 // leaves the star to the plain search. The same code compiled for several processors, chosen at run time; all find the same.
 
-#include <cstddef>
-
 #include "core/numeric/simd.h"
 #include "core/smooth/kernels/composite_kernel.h"
 

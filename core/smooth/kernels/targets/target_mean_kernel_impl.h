@@ -3,7 +3,6 @@
 // what that asks of the code.
 
 #include <array>
-#include <cstdint>
 #include <limits>
 
 #include "core/numeric/pack.h"

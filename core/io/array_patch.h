@@ -18,7 +18,7 @@ struct CoordinateArray {
   int axis = -1;
   int components = 3;
   bool by_axis = false;
-  std::vector<Index> vertices;  // of its entries; empty: the i-th is that of vertex first + i
+  std::vector<Index> vertices{};  // of its entries; empty: the i-th is that of vertex first + i
   Index first = 0;
   Index count = 0;  // entries
   ScalarType type = ScalarType::Float64;

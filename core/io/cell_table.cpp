@@ -47,8 +47,7 @@ class Groups {
   }
 
   std::size_t add(const GroupLabel& label, int dimension) {
-    mesh_.groups.push_back(
-        {.name = label.name, .role = label.role, .code = label.code, .dimension = std::min(dimension, 2), .members = {}});
+    mesh_.groups.push_back({.name = label.name, .role = label.role, .code = label.code, .dimension = std::min(dimension, 2)});
     return mesh_.groups.size() - 1;
   }
 

@@ -263,7 +263,7 @@ bool try_coast(const CoastMap& map, const Request& request, Mesh& mesh) {
     for (const Index v : t) renamed[v] = 0;
   }
   mesh = {};
-  Field depth{.name = "depth", .on = Field::On::Vertices, .components = 1, .type = "double", .role = "depth", .values = {}};
+  Field depth{.name = "depth", .on = Field::On::Vertices, .type = "double", .role = "depth"};
   std::vector<std::uint8_t> open;
   for (std::size_t v = 0; v < points.size(); ++v) {
     if (renamed[v] == kNoIndex) continue;

@@ -21,9 +21,9 @@ struct Inner {
 /// Elements all of whose corners lie in the inner part are its own.
 template <class InInner>
 void add_materials(Mesh& mesh, const InInner& in_inner) {
-  Group inner{.name = "inner", .role = "material", .code = 1, .dimension = 2, .members = {}};
-  Group outer{.name = "outer", .role = "material", .code = 2, .dimension = 2, .members = {}};
-  Field field{.name = "material", .on = Field::On::Elements, .components = 1, .type = "int", .role = "material", .values = {}};
+  Group inner{.name = "inner", .role = "material", .code = 1, .dimension = 2};
+  Group outer{.name = "outer", .role = "material", .code = 2, .dimension = 2};
+  Field field{.name = "material", .on = Field::On::Elements, .type = "int", .role = "material"};
   for (Index e = 0; e < mesh.elements.size(); ++e) {
     const bool own = std::ranges::all_of(mesh.elements.corners(e), in_inner);
     (own ? inner : outer).members.push_back(e);

@@ -109,8 +109,8 @@ struct Field {
   On on = On::Vertices;
   int components = 1;           // values.size() == components * (number of vertices or elements)
   std::string type = "double";  // the file's own word for its scalar ("float", "int", ...)
-  std::string role;             // the file's own word for what it is ("SCALARS", "VECTORS", "depth", ...), may be empty
-  std::vector<double> values;
+  std::string role{};           // the file's own word for what it is ("SCALARS", "VECTORS", "depth", ...), may be empty
+  std::vector<double> values{};
   bool said_material = false;  // a person said that it names materials, see name_materials()
   /// Where it stands in the file that it was read from: for errors that are found late, and to write it again.
   struct Place {
@@ -127,11 +127,11 @@ struct Field {
 /// A named set that the file carried: boundary strings of fort.14, markers of SU2.
 struct Group {
   std::string name;
-  std::string role;            // "open boundary", "land boundary", "marker", ...
-  int code = 0;                // the file's number for it (IBTYPE of fort.14), 0 if it has none
-  int dimension = 0;           // 0: members are vertices; 1: members are edges, two vertices each; 2: elements, or else `faces`
-  std::vector<Index> members;  // 0-based
-  ElementTable faces{};        // dimension 2, members empty: faces of a volume mesh by their corners, in the file's own winding
+  std::string role;              // "open boundary", "land boundary", "marker", ...
+  int code = 0;                  // the file's number for it (IBTYPE of fort.14), 0 if it has none
+  int dimension = 0;             // 0: members are vertices; 1: members are edges, two vertices each; 2: elements, or else `faces`
+  std::vector<Index> members{};  // 0-based
+  ElementTable faces{};          // dimension 2, members empty: faces of a volume mesh by their corners, in the file's own winding
 
   [[nodiscard]] bool of_elements() const noexcept { return dimension == 2 && faces.size() == 0; }
   /// The vertices of a group of vertices, edges or faces, some more than once; none of a group of elements.

@@ -230,7 +230,7 @@ class ShareMaker {
             {.name = fmt::format("{}", value), .role = "material", .dimension = 2, .members = std::move(elements)});
     }
     for (const VertexString& string : block_.strings) {
-      Group group{.name = string.name, .role = "land boundary", .dimension = 0, .members = {}};
+      Group group{.name = string.name, .role = "land boundary", .dimension = 0};
       for (const WholeIndex v : string.vertices)
         if (const Index here = share_.find_vertex(v); here != kNoIndex) group.members.push_back(here);
       if (!group.members.empty()) share_.mesh.groups.push_back(std::move(group));

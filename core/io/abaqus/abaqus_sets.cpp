@@ -172,8 +172,7 @@ class GroupMaker {
 
   void add(Parts parts, const std::string& name, std::string_view role) {
     const auto group = [&](int dimension) -> Group& {
-      return mesh_.groups.emplace_back(
-          Group{.name = name, .role = std::string(role), .code = 0, .dimension = dimension, .members = {}, .faces = {}});
+      return mesh_.groups.emplace_back(Group{.name = name, .role = std::string(role), .code = 0, .dimension = dimension, .faces = {}});
     };
     if (!parts.elements.empty()) group(2).members = std::move(parts.elements);
     if (parts.faces.size() > 0) group(2).faces = std::move(parts.faces);

@@ -207,7 +207,7 @@ class CgnsCellReader {
   void vertices(const CgnsZone& zone, const CgnsCondition& one) {
     const auto [at, added] = vertex_groups_.try_emplace(one.name);
     Group& group = at->second;
-    if (added) group = {.name = one.name, .role = std::string(kCgnsCondition), .code = 0, .dimension = 0, .members = {}};
+    if (added) group = {.name = one.name, .role = std::string(kCgnsCondition), .code = 0, .dimension = 0};
     const auto each = [&](std::int64_t point) {
       if (point < 1 || point > zone.count) {
         tree_.fail(zone.node,

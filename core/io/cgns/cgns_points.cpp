@@ -177,15 +177,8 @@ class ZoneReader {
       const std::string name = std::string("Coordinate") + "XYZ"[axis];
       const auto node = tree_.named(*original, name);
       if (!node) tree_.fail(*original, fmt::format("it has no {}", name));
-      points_.coordinates.read(tree_.file(),
-                               {.name = CgnsTree::array(*node),
-                                .axis = axis,
-                                .components = 1,
-                                .by_axis = false,
-                                .vertices = {},
-                                .first = zone.first,
-                                .count = zone.count},
-                               all_);
+      points_.coordinates.read(
+          tree_.file(), {.name = CgnsTree::array(*node), .axis = axis, .components = 1, .first = zone.first, .count = zone.count}, all_);
     }
   }
 

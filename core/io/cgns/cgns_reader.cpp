@@ -115,9 +115,7 @@ class CgnsReader {
     file_.take_room(things, sizeof(double));
     fields_.push_back({.name = name,
                        .on = on,
-                       .components = 1,
                        .type = std::string(vtk_word(info.type)),
-                       .role = "",
                        .values = std::vector<double>(things, std::numeric_limits<double>::quiet_NaN())});
     return fields_.back();
   }

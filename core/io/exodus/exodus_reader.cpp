@@ -141,7 +141,7 @@ class ExodusReader {
     for (std::uint64_t s = 0; s < n; ++s) {
       const std::string array = fmt::format("node_ns{}", s + 1);
       if (!file_->find(array)) continue;  // empty
-      Group group{.name = labels[s].name, .role = labels[s].role, .code = labels[s].code, .dimension = 0, .members = {}};
+      Group group{.name = labels[s].name, .role = labels[s].role, .code = labels[s].code, .dimension = 0};
       for (const std::int64_t node : file_->wholes(array)) group.members.push_back(vertex(node, fmt::format("node set {}", s + 1)));
       if (!group.members.empty()) mesh_.groups.push_back(std::move(group));
     }
@@ -193,7 +193,7 @@ class ExodusReader {
     const std::string called = fmt::format("side set {}", number);
     if (elements.size() != sides.size()) fail(fmt::format("{}: {} elements, but {} sides", called, elements.size(), sides.size()));
     const auto group = [&](int dimension) {
-      return Group{.name = label.name, .role = label.role, .code = label.code, .dimension = dimension, .members = {}};
+      return Group{.name = label.name, .role = label.role, .code = label.code, .dimension = dimension};
     };
     Group edges = group(1), faces = group(2), whole = group(2);
     for (std::size_t i = 0; i < elements.size(); ++i) {
@@ -275,7 +275,7 @@ class ExodusReader {
   }
 
   static Field result(const std::string& name, Field::On on, const ArrayInfo& info) {
-    return {.name = name, .on = on, .components = 1, .type = std::string(vtk_word(info.type)), .role = "", .values = {}};
+    return {.name = name, .on = on, .type = std::string(vtk_word(info.type))};
   }
 
   /// What stays in the file alone.
@@ -325,14 +325,12 @@ CoordinateArrays read_exodus_points(ArrayFile& file, std::vector<Vec3>& position
   CoordinateArrays coordinates;
   const auto n = static_cast<Index>(*nodes);
   if (file.find("coord")) {
-    coordinates.read(file, {.name = "coord", .axis = -1, .components = d, .by_axis = true, .vertices = {}, .first = 0, .count = n},
-                     positions);
+    coordinates.read(file, {.name = "coord", .components = d, .by_axis = true, .count = n}, positions);
     return coordinates;
   }
   for (int axis = 0; axis < d; ++axis) {
     const std::string name = fmt::format("coord{}", "xyz"[axis]);
-    coordinates.read(file, {.name = name, .axis = axis, .components = 1, .by_axis = false, .vertices = {}, .first = 0, .count = n},
-                     positions);
+    coordinates.read(file, {.name = name, .axis = axis, .count = n}, positions);
   }
   return coordinates;
 }

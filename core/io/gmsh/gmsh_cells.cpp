@@ -308,12 +308,7 @@ void GmshCells::add_entity_field(Mesh& mesh, std::span<const Index> rows) const 
     }
   }
   if (!telling) return;
-  Field field{.name = std::string(kGmshGeometrical),
-              .on = Field::On::Elements,
-              .components = 1,
-              .type = "int",
-              .role = std::string(kGmshEntity),
-              .values = {}};
+  Field field{.name = std::string(kGmshGeometrical), .on = Field::On::Elements, .type = "int", .role = std::string(kGmshEntity)};
   field.values.reserve(mesh.elements.size());
   for (Index e = 0; e < mesh.elements.size(); ++e) {
     field.values.push_back(static_cast<double>(origins_[cells_.origin(rows.empty() ? e : rows[e])].entity));

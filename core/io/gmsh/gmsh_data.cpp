@@ -57,12 +57,8 @@ void GmshData::read(Field::On on, const TagPlaces& tags) {
   const bool of_nodes = on == Field::On::Vertices;
   const Head head = read_head();
   const std::size_t n = head.components;
-  Field field{.name = head.name,
-              .on = on,
-              .components = static_cast<int>(n),
-              .type = "double",
-              .role = of_nodes ? "NodeData" : "ElementData",
-              .values = {}};
+  Field field{
+      .name = head.name, .on = on, .components = static_cast<int>(n), .type = "double", .role = of_nodes ? "NodeData" : "ElementData"};
   const std::size_t size = tags.size() * n;
   const bool hold = size <= room_;
   if (hold) {

@@ -37,7 +37,7 @@ void MeditContents::make_group(const MeditMarks& marks) {
   if (shape >= CellShape::Triangle) return make_face_group(marks, shape);
   const bool of_edges = shape == CellShape::Line;
   const std::size_t things = of_edges ? edges_.size() / 2 : mesh.positions.size();
-  Group group{.name = marks.keyword, .role = std::string(kMeditMark), .code = 0, .dimension = of_edges ? 1 : 0, .members = {}};
+  Group group{.name = marks.keyword, .role = std::string(kMeditMark), .code = 0, .dimension = of_edges ? 1 : 0};
   for (std::size_t i = 0; i < marks.numbers.size(); ++i) {
     const std::int64_t number = marks.numbers[i];
     if (number < 1 || static_cast<std::uint64_t>(number) > things) fail_mark(marks, i, things, of_edges ? "edges" : "vertices");
@@ -61,7 +61,7 @@ void MeditContents::make_face_group(const MeditMarks& marks, CellShape shape) {
     begins.push_back(corner);
     places.push_back(static_cast<Index>(c));
   }
-  Group group{.name = marks.keyword, .role = std::string(kMeditMark), .code = 0, .dimension = 2, .members = {}};
+  Group group{.name = marks.keyword, .role = std::string(kMeditMark), .code = 0, .dimension = 2};
   const bool of_elements = cells_.dimension() == 2;
   for (std::size_t i = 0; i < marks.numbers.size(); ++i) {
     const std::int64_t number = marks.numbers[i];
@@ -79,12 +79,8 @@ void MeditContents::make_face_group(const MeditMarks& marks, CellShape shape) {
 }
 
 void MeditContents::add_field(Field::On on, std::vector<double> values) {
-  mesh.fields.push_back({.name = std::string(kMeditField),
-                         .on = on,
-                         .components = 1,
-                         .type = "int",
-                         .role = std::string(kMeditReference),
-                         .values = std::move(values)});
+  mesh.fields.push_back(
+      {.name = std::string(kMeditField), .on = on, .type = "int", .role = std::string(kMeditReference), .values = std::move(values)});
 }
 
 /// Elements and groups. References of elements are groups while these are few, else (a number for each element, say) a field.

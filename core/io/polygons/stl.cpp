@@ -99,7 +99,7 @@ Mesh read_stl(SourceFile& source, const IoContext& context) {
   Mesh mesh;
   Welder welder;
   std::vector<Index> place_vertices;
-  Field attributes{.name = "attribute", .on = Field::On::Elements, .components = 1, .type = "ushort", .role = "attribute", .values = {}};
+  Field attributes{.name = "attribute", .on = Field::On::Elements, .type = "ushort", .role = "attribute"};
   bool any_attribute = false;
   std::size_t solids = 0;
   const auto solid = [&](std::string_view name) {

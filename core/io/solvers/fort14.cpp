@@ -72,13 +72,7 @@ class Reader {
 
  private:
   void read_nodes(std::size_t count) {
-    Field depth{.name = "depth",
-                .on = Field::On::Vertices,
-                .components = 1,
-                .type = "double",
-                .role = "depth",
-                .values = {},
-                .place = {.with_positions = true, .at = 2}};
+    Field depth{.name = "depth", .on = Field::On::Vertices, .type = "double", .role = "depth", .place = {.with_positions = true, .at = 2}};
     reserve_large(mesh_.positions, count);
     reserve_large(depth.values, count);
     numbers_.reserve(count);

@@ -76,8 +76,7 @@ class BoundaryReader {
   }
 
   void read_open(std::size_t b) {
-    Group group{
-        .name = fmt::format("{} {}", kFort14Open, b + 1), .role = std::string(kFort14Open), .code = 0, .dimension = 0, .members = {}};
+    Group group{.name = fmt::format("{} {}", kFort14Open, b + 1), .role = std::string(kFort14Open), .code = 0, .dimension = 0};
     const std::size_t size = read_size();
     const std::string_view type = tokens_.token_on_line();  // IBTYPEE may be left out; a remark may be there instead
     int code = 0;
@@ -96,8 +95,7 @@ class BoundaryReader {
   }
 
   void read_land(std::size_t b) {
-    Group group{
-        .name = fmt::format("{} {}", kFort14Land, b + 1), .role = std::string(kFort14Land), .code = 0, .dimension = 0, .members = {}};
+    Group group{.name = fmt::format("{} {}", kFort14Land, b + 1), .role = std::string(kFort14Land), .code = 0, .dimension = 0};
     const std::size_t size = read_size();
     const std::int64_t type = tokens_.read_integer("type of a land boundary (IBTYPE)");
     if (type < -1000000 || type > 1000000) tokens_.fail(fmt::format("type of a land boundary (IBTYPE) out of range: {}", type));
@@ -107,7 +105,7 @@ class BoundaryReader {
     if (is_fort14_weir(group.code) && source_ != nullptr)
       source_->add_only_in_file("heights, coefficients and pairs of vertices of the weirs");
     // A weir has two banks; the file lists both in one string, the farther one beside the nearer.
-    Group far_side{.name = group.name + ", far side", .role = group.role, .code = group.code, .dimension = 0, .members = {}};
+    Group far_side{.name = group.name + ", far side", .role = group.role, .code = group.code, .dimension = 0};
     group.members.reserve(size);
     for (std::size_t i = 0; i < size; ++i) {
       begin_line("vertex of a land boundary");

@@ -82,7 +82,7 @@ class MikeReader {
 
   void read_nodes(std::size_t count) {
     const auto field = [](const char* name, const char* type, const char* role) {
-      return Field{.name = name, .on = Field::On::Vertices, .components = 1, .type = type, .role = role, .values = {}};
+      return Field{.name = name, .on = Field::On::Vertices, .type = type, .role = role};
     };
     Field level = field("elevation", "double", "elevation"), code = field("code", "int", "");
     level.place.with_positions = code.place.with_positions = true;

@@ -151,9 +151,7 @@ class SelafinReader {
       const std::uint64_t begin = in_.offset() + kMark;
       mesh_.fields.push_back({.name = name,
                               .on = Field::On::Vertices,
-                              .components = 1,
                               .type = size_ == sizeof(double) ? "double" : "float",
-                              .role = "",
                               .values = reals(points, "a variable"),
                               .place = {.begin = begin, .bytes = static_cast<std::uint32_t>(size_)}});
     }

@@ -191,7 +191,6 @@ class Sms2dmReader {
     (void)split_cells(numbered_.cells(), labels_, mesh_, source_);
     mesh_.fields.push_back({.name = std::string(kElevation),
                             .on = Field::On::Vertices,
-                            .components = 1,
                             .type = "double",
                             .role = std::string(kElevation),
                             .values = std::move(elevations_),
@@ -217,8 +216,7 @@ class Sms2dmReader {
         mesh_.groups.push_back({.name = string.name.empty() ? plain : std::string(string.name),
                                 .role = std::string(kString),
                                 .code = std::max(string.number, 0),
-                                .dimension = dimension,
-                                .members = {}});
+                                .dimension = dimension});
         if (string.number > 0) known[{string.number, dimension}] = at;
       }
       std::vector<Index>& members = mesh_.groups[at].members;

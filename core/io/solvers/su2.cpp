@@ -280,7 +280,7 @@ class Su2Reader {
   /// Group has room for one kind of members: those of fewest dimensions beside others stay in the file alone.
   void add_marker(MarkerElements found) {
     ++markers_;
-    Group group{.name = tag_, .role = std::string(kSu2Marker), .code = 0, .dimension = 1, .members = {}};
+    Group group{.name = tag_, .role = std::string(kSu2Marker), .code = 0, .dimension = 1};
     if (found.faces.size() > 0) {
       group.dimension = 2;
       group.faces = std::move(found.faces);

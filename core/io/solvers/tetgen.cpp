@@ -30,10 +30,8 @@ std::vector<Field> fields_of(Field::On on, std::size_t attributes, bool marker, 
   const auto add = [&](std::string name, std::string_view type, std::string_view role) {
     fields.push_back({.name = std::move(name),
                       .on = on,
-                      .components = 1,
                       .type = std::string(type),
                       .role = std::string(role),
-                      .values = {},
                       .place = {.with_positions = on == Field::On::Vertices, .at = static_cast<std::uint32_t>(before + fields.size())}});
     fields.back().values.reserve(rows);
   };

@@ -198,9 +198,9 @@ class LowCells {
   }
 
  private:
-  Group vertices_{.name = "vertex cells", .role = std::string(kVtkCells), .code = 0, .dimension = 0, .members = {}};
-  Group lines_{.name = "line cells", .role = std::string(kVtkCells), .code = 0, .dimension = 1, .members = {}};
-  Group faces_{.name = "face cells", .role = std::string(kVtkCells), .code = 0, .dimension = 2, .members = {}};
+  Group vertices_{.name = "vertex cells", .role = std::string(kVtkCells), .code = 0, .dimension = 0};
+  Group lines_{.name = "line cells", .role = std::string(kVtkCells), .code = 0, .dimension = 1};
+  Group faces_{.name = "face cells", .role = std::string(kVtkCells), .code = 0, .dimension = 2};
   std::array<std::size_t, 3> counts_{};
 };
 

@@ -32,15 +32,7 @@ CoordinateArrays read_xdmf_points(const XdmfDocument& document, pugi::xml_node i
   file.take_room(count, sizeof(Vec3));
   positions.assign(count, Vec3{0.0, 0.0, 0.0});
   CoordinateArrays coordinates;
-  coordinates.read(file,
-                   {.name = place->array,
-                    .axis = -1,
-                    .components = static_cast<int>(each),
-                    .by_axis = false,
-                    .vertices = {},
-                    .first = 0,
-                    .count = count},
-                   positions);
+  coordinates.read(file, {.name = place->array, .components = static_cast<int>(each), .count = count}, positions);
   return coordinates;
 }
 
@@ -63,15 +55,7 @@ Notes patch_xdmf(AtomicFile& file, const Mesh& mesh, const MovedMesh& moved, con
     const bool plane = mesh.source->layout().components == 2;
     CoordinateArrays coordinates;
     std::vector<Vec3> before(mesh.positions.size());
-    coordinates.read(*arrays,
-                     {.name = document.elsewhere(item)->array,
-                      .axis = -1,
-                      .components = plane ? 2 : 3,
-                      .by_axis = false,
-                      .vertices = {},
-                      .first = 0,
-                      .count = mesh.vertex_count()},
-                     before);
+    coordinates.read(*arrays, {.name = document.elsewhere(item)->array, .components = plane ? 2 : 3, .count = mesh.vertex_count()}, before);
     bytes = coordinates.replaced(*arrays, mesh.positions, moved.positions, file.path().string(), notes,
                                  changed_arrays(*arrays, mesh, moved.fields, notes));
   }

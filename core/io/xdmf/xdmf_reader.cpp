@@ -202,9 +202,7 @@ class XdmfReader {
     std::vector<std::uint64_t> places;
     Field field{.name = name,
                 .on = of_points ? Field::On::Vertices : Field::On::Elements,
-                .components = 1,
                 .type = "float",
-                .role = "",
                 .values = document_.numbers(document_.item(node), &places)};
     const bool precise = std::string_view(item.attribute("Precision").value()) == "8";
     if (equal_ignoring_case(type, "Int")) {
@@ -244,7 +242,7 @@ class XdmfReader {
     const std::size_t things = of_points ? mesh_.positions.size() : cells_.size();
     std::vector<Index> elements(of_points ? 0 : cells_.size(), kNoIndex);
     for (Index e = 0; !of_points && e < mesh_.elements.size(); ++e) elements[rows_.empty() ? e : rows_[e]] = e;
-    Group group{.name = node.attribute("Name").value(), .role = "set", .code = 0, .dimension = of_points ? 0 : 2, .members = {}};
+    Group group{.name = node.attribute("Name").value(), .role = "set", .code = 0, .dimension = of_points ? 0 : 2};
     for (const std::int64_t number : document_.wholes(document_.item(node))) {
       if (number < 0 || static_cast<std::uint64_t>(number) >= things) {
         document_.fail(node, fmt::format("{} out of range (the file has {} {})", number, things, of_points ? "points" : "cells"));

@@ -56,11 +56,16 @@ void CoordinateArrays::read(ArrayFile& file, CoordinateArray array, std::span<Ve
   arrays_.push_back(std::move(array));
 }
 
-bool CoordinateArrays::describe(CoordinateLayout& layout) const {
+void CoordinateArrays::describe(SourceFile& source) const {
+  if (std::ranges::any_of(arrays_, [](const CoordinateArray& array) { return is_whole(array.type); }))
+    source.set_not_patchable("its coordinates are whole numbers");
+  source.set_layout(layout());
+}
+
+CoordinateLayout CoordinateArrays::layout() const {
+  CoordinateLayout layout{.components = 0};
   layout.binary = true;
-  layout.components = 0;
   for (const CoordinateArray& array : arrays_) {
-    if (is_whole(array.type)) return false;
     const int first = array.axis < 0 ? 0 : array.axis;
     const int last = array.axis < 0 ? array.components - 1 : array.axis;
     for (int axis = first; axis <= last; ++axis) {
@@ -68,7 +73,7 @@ bool CoordinateArrays::describe(CoordinateLayout& layout) const {
     }
     layout.components = std::max(layout.components, last + 1);
   }
-  return true;
+  return layout;
 }
 
 std::vector<ArrayValues> changed_arrays(ArrayFile& file, const Mesh& mesh, std::span<const FieldValues> fields, Notes& notes) {
@@ -99,9 +104,8 @@ void CoordinateArrays::renumber(std::span<const Index> vertex_of) {
 
 std::string CoordinateArrays::replaced(ArrayFile& file, std::span<const Vec3> before, std::span<const Vec3> moved,
                                        const std::string& target, Notes& notes, std::vector<ArrayValues> changed) const {
-  CoordinateLayout layout;
-  (void)describe(layout);
-  for (std::size_t v = 0; v < moved.size() && layout.components == 2; ++v) {
+  const CoordinateLayout held = layout();
+  for (std::size_t v = 0; v < moved.size() && held.components == 2; ++v) {
     if (moved[v].z != 0.0) throw OutputError(target, fmt::format("vertex {} has z = {}, but the file holds only x and y", v, moved[v].z));
   }
   std::size_t rounded = 0;
@@ -112,7 +116,7 @@ std::string CoordinateArrays::replaced(ArrayFile& file, std::span<const Vec3> be
       double value = coordinate_of(moved[vertex], axis);
       if (equal_bits(value, coordinate_of(before[vertex], axis)) || i >= values.values.size()) return;
       // A vertex may be in several arrays, of floats and of doubles: it is at the same place in all of them.
-      if (layout.scalar[static_cast<std::size_t>(axis)] == CoordinateScalar::Float32) {
+      if (held.scalar[static_cast<std::size_t>(axis)] == CoordinateScalar::Float32) {
         if (!std::isfinite(static_cast<float>(value))) {
           throw OutputError(target, fmt::format("coordinate {} of vertex {} is too large for a 32-bit float", value, vertex));
         }

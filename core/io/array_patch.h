@@ -30,8 +30,8 @@ class CoordinateArrays {
   /// Reads an array's numbers into `positions`, which is large enough. Throws InputError: not as many numbers as it should have, one that
   /// is not finite.
   void read(ArrayFile& file, CoordinateArray array, std::span<Vec3> positions);
-  /// What SourceFile::layout() should say. A whole-number type cannot be written again: false.
-  [[nodiscard]] bool describe(CoordinateLayout& layout) const;
+  /// Tells the file its layout, and that whole numbers cannot be written again.
+  void describe(SourceFile& source) const;
 
   /// The file's bytes with the coordinates in which `moved` differs from `before`, and with the arrays that `changed` besides; `notes` say
   /// what was rounded. `target` is what errors call the file that is written. Throws OutputError (z of a file that has none; too large for
@@ -42,6 +42,7 @@ class CoordinateArrays {
   void renumber(std::span<const Index> vertex_of);
 
  private:
+  [[nodiscard]] CoordinateLayout layout() const;
   std::vector<CoordinateArray> arrays_;
 };
 

@@ -74,6 +74,19 @@ struct OriginLabels {
 /// Returns the cell that each element was; empty if every cell is one. Throws InputError (too many corners).
 [[nodiscard]] std::vector<Index> split_cells(const CellTable& cells, std::span<const OriginLabels> labels, Mesh& mesh, SourceFile& source);
 
+/// A field's numbers of some of its rows: indices of any type.
+template <class Rows>
+[[nodiscard]] std::vector<double> rows_of_values(const Field& field, const Rows& rows) {
+  const auto n = static_cast<std::ptrdiff_t>(field.components);
+  std::vector<double> kept;
+  kept.reserve(rows.size() * static_cast<std::size_t>(n));
+  for (const auto row : rows) {
+    const auto first = field.values.begin() + static_cast<std::ptrdiff_t>(row) * n;
+    kept.insert(kept.end(), first, first + n);
+  }
+  return kept;
+}
+
 // --- For writers ---
 
 /// A number for every group: its code where that is positive and its own among the groups of its kind (vertices, edges, faces,

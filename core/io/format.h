@@ -20,6 +20,8 @@
 
 namespace dmoscope {
 
+class TextBuffer;
+
 /// Sentences for a person: what a file could not carry.
 using Notes = std::vector<std::string>;
 
@@ -95,9 +97,21 @@ class FormerMesh {
 /// Appends an element. Throws InputError when the corners of all elements would no longer be counted by an Index.
 void add_element(Mesh& mesh, ElementKind kind, std::span<const Index> corners, const SourceFile& source);
 
-/// The corners of an element for a file that is made anew, in our order. Those of the plane go out in the winding that they came in
-/// (Mesh::flipped undone; `buffer` holds them where they differ), volume elements the right way round: inside out they are of no use.
-[[nodiscard]] std::span<const Index> file_corners(const Mesh& mesh, Index element, std::array<Index, 8>& buffer);
+/// Corners of an element as a file has them.
+struct FileCorners {
+  std::array<Index, 8> at{};
+  std::size_t count = 0;
+  [[nodiscard]] const Index* begin() const noexcept { return at.data(); }
+  [[nodiscard]] const Index* end() const noexcept { return at.data() + count; }
+  [[nodiscard]] const Index* data() const noexcept { return at.data(); }
+  [[nodiscard]] std::size_t size() const noexcept { return count; }
+  [[nodiscard]] Index operator[](std::size_t i) const noexcept { return at[i]; }
+};
+/// Those of a file that is made anew, in our order. In the plane they go out in the winding that they came in (Mesh::flipped undone),
+/// volume elements the right way round: inside out they are of no use.
+[[nodiscard]] FileCorners file_corners(const Mesh& mesh, std::size_t element);
+/// Writes " 5 8 7": the corners, counted from `base`, each behind a blank.
+void put_corners(TextBuffer& out, const FileCorners& corners, Index base);
 
 /// Throws OutputError if the mesh has an element of three dimensions: "... holds only triangles and quadrilaterals".
 void require_surface_elements(const AtomicFile& file, const Mesh& mesh, std::string_view format_title);

@@ -17,6 +17,7 @@
 #include "core/io/reading/tokenizer.h"
 #include "core/io/source_again.h"
 #include "core/io/writing/patch_writer.h"
+#include "core/io/writing/text_writer.h"
 #include "core/mesh/collapsed.h"
 
 namespace dmoscope {
@@ -275,12 +276,17 @@ void add_element(Mesh& mesh, ElementKind kind, std::span<const Index> corners, c
   mesh.elements.add(kind, corners);
 }
 
-std::span<const Index> file_corners(const Mesh& mesh, Index element, std::array<Index, 8>& buffer) {
-  const std::span<const Index> corners = mesh.elements.corners(element);
-  if (mesh.flipped.empty() || mesh.flipped[element] == 0 || info(mesh.elements.kind(element)).dimension == 3) return corners;
-  std::copy(corners.begin(), corners.end(), buffer.begin());
-  flip_corners(mesh.elements.kind(element), buffer.data());
-  return {buffer.data(), corners.size()};
+FileCorners file_corners(const Mesh& mesh, std::size_t element) {
+  const auto e = static_cast<Index>(element);
+  FileCorners corners{{}, mesh.elements.corners(e).size()};
+  std::ranges::copy(mesh.elements.corners(e), corners.at.begin());
+  const ElementKind kind = mesh.elements.kind(e);
+  if (!mesh.flipped.empty() && mesh.flipped[e] != 0 && info(kind).dimension < 3) flip_corners(kind, corners.at.data());
+  return corners;
+}
+
+void put_corners(TextBuffer& out, const FileCorners& corners, Index base) {
+  for (const Index c : corners) out << ' ' << c + base;
 }
 
 void require_surface_elements(const AtomicFile& file, const Mesh& mesh, std::string_view format_title) {

@@ -76,10 +76,8 @@ class AbaqusWriter : MeshWriter {
       while (last < mesh_.elements.size() && mesh_.elements.kind(static_cast<Index>(last)) == kind) ++last;
       out_ << "*ELEMENT, TYPE=" << type_of(kind) << '\n';
       const auto line = [&](auto& out, std::size_t i) {
-        std::array<Index, 8> buffer{};
-        const auto e = static_cast<Index>(first + i);
-        out << e + 1;
-        for (const Index c : file_corners(mesh_, e, buffer)) out << ", " << c + 1;
+        out << first + i + 1;
+        for (const Index c : file_corners(mesh_, first + i)) out << ", " << c + 1;
         out << '\n';
       };
       constexpr std::size_t kMany = 64;  // worth the threads
@@ -154,8 +152,7 @@ class AbaqusWriter : MeshWriter {
   [[nodiscard]] Index number_in_file(ElementSide side) const {
     if (mesh_.flipped.empty() || mesh_.flipped[side.element] == 0) return side.side + 1;
     ElementTable one;
-    std::array<Index, 8> buffer{};
-    one.add(mesh_.elements.kind(side.element), file_corners(mesh_, side.element, buffer));
+    one.add(mesh_.elements.kind(side.element), file_corners(mesh_, side.element));
     auto wanted = vertices_of_side(mesh_.elements, side);
     std::ranges::sort(wanted);
     for (Index s = 0; s < side_count(one.kind(0)); ++s) {

@@ -47,9 +47,7 @@ class CgnsReader {
 
   Mesh read() {
     CgnsPoints points = read_cgns_points(tree_, &source_);
-    CoordinateLayout layout;
-    if (!points.coordinates.describe(layout)) source_.set_not_patchable("its coordinates are whole numbers");
-    source_.set_layout(layout);
+    points.coordinates.describe(source_);
     mesh_.title = points.base;
     CgnsCells cells = read_cgns_cells(tree_, points, source_, progress_);
     if (cells.cells.dimension() < 2) file_.fail("the file has no element of two or three dimensions");

@@ -25,10 +25,8 @@ class ExodusReader {
 
   Mesh read() {
     const CoordinateArrays coordinates = read_exodus_points(*file_, mesh_.positions);
-    CoordinateLayout layout;
-    if (!coordinates.describe(layout)) source_.set_not_patchable("its coordinates are whole numbers");
-    source_.set_layout(layout);
-    space_ = layout.components;
+    coordinates.describe(source_);
+    space_ = source_.layout().components;
     if (file_->find("title")) mesh_.title = trimmed(file_->text("title"));
     blocks();
     rows_ = split_cells(cells_, labels_, mesh_, source_);

@@ -1,3 +1,4 @@
+#include "core/io/cell_table.h"
 #include "core/io/gmsh/gmsh_data.h"
 
 #include <algorithm>
@@ -112,12 +113,7 @@ void GmshData::add_to(Mesh& mesh, std::span<const Index> rows) {
 }
 
 void GmshData::keep_rows(Field& field, std::span<const Index> rows) {
-  const auto n = static_cast<std::size_t>(field.components);
-  std::vector<double> kept;
-  kept.reserve(rows.size() * n);
-  for (const Index row : rows) {
-    for (std::size_t k = 0; k < n; ++k) kept.push_back(field.values[row * n + k]);
-  }
+  std::vector<double> kept = rows_of_values(field, rows);
   const auto values = [](const std::vector<double>& list) {
     return std::count_if(list.begin(), list.end(), [](double v) { return !std::isnan(v); });
   };

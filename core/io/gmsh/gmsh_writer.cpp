@@ -96,9 +96,7 @@ class GmshWriter : MeshWriter {
       number += members(group);
     }
     out_.for_each(mesh_.elements.size(), [&](TextBuffer& part, std::size_t i) {
-      const auto e = static_cast<Index>(i);
-      std::array<Index, 8> buffer{};
-      line(part, number + i, shape_of(mesh_.elements.kind(e)), physical[i], entities[i], file_corners(mesh_, e, buffer));
+      line(part, number + i, shape_of(mesh_.elements.kinds()[i]), physical[i], entities[i], file_corners(mesh_, i));
     });
     out_ << "$EndElements\n";
     first_element_ = number;

@@ -201,8 +201,7 @@ class MeditWriter : MeshWriter {
       if (cells.references.empty()) order.push_back(kind);
       in_order = in_order && order.back() == kind;
       element_numbers_.push_back(cells.references.size());
-      std::array<Index, 8> buffer{};
-      add(cells, file_corners(mesh_, e, buffer), references[e]);
+      add(cells, file_corners(mesh_, e), references[e]);
     }
     for (const ElementKind kind : order) {
       const auto k = static_cast<std::size_t>(kind);

@@ -128,10 +128,7 @@ class NastranWriter : MeshWriter {
   void elements() {
     const std::vector<int> properties = numbers_of_elements(mesh_, numbers_, title_, notes_);
     out_.for_each(mesh_.elements.size(), [&](TextBuffer& part, std::size_t i) {
-      const auto e = static_cast<Index>(i);
-      std::array<Index, 8> buffer{};
-      put_cell(part, shape_of(mesh_.elements.kind(e)), i + 1, properties[i] == 0 ? no_group_ : properties[i],
-               file_corners(mesh_, e, buffer));
+      put_cell(part, shape_of(mesh_.elements.kinds()[i]), i + 1, properties[i] == 0 ? no_group_ : properties[i], file_corners(mesh_, i));
     });
     next_ = mesh_.elements.size() + 1;
   }

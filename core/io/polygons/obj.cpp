@@ -155,9 +155,8 @@ Notes write_obj(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positi
     part << "v " << positions[v].x << ' ' << positions[v].y << ' ' << positions[v].z << '\n';
   });
   out.for_each(mesh.elements.size(), [&](TextBuffer& part, std::size_t e) {
-    std::array<Index, 8> buffer{};
     part << 'f';
-    for (const Index c : file_corners(mesh, static_cast<Index>(e), buffer)) part << ' ' << c + 1;
+    put_corners(part, file_corners(mesh, e), 1);
     part << '\n';
   });
   out.finish();

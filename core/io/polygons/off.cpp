@@ -213,10 +213,9 @@ Notes write_off(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positi
   out.for_each(positions.size(),
                [&](TextBuffer& part, std::size_t v) { part << positions[v].x << ' ' << positions[v].y << ' ' << positions[v].z << '\n'; });
   out.for_each(mesh.elements.size(), [&](TextBuffer& part, std::size_t e) {
-    std::array<Index, 8> buffer{};
-    const auto corners = file_corners(mesh, static_cast<Index>(e), buffer);
+    const FileCorners corners = file_corners(mesh, e);
     part << corners.size();
-    for (const Index c : corners) part << ' ' << c;
+    put_corners(part, corners, 0);
     part << '\n';
   });
   out.finish();

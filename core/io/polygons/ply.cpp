@@ -299,10 +299,9 @@ class PlyWriter : MeshWriter {
       values(part, of_vertices, v);
     });
     out_.for_each(mesh_.elements.size(), [&](TextBuffer& part, std::size_t e) {
-      std::array<Index, 8> buffer{};
-      const std::span<const Index> corners = file_corners(mesh_, static_cast<Index>(e), buffer);
+      const FileCorners corners = file_corners(mesh_, e);
       part << corners.size();
-      for (const Index corner : corners) part << ' ' << corner;
+      put_corners(part, corners, 0);
       values(part, of_faces, e);
     });
     return finish();

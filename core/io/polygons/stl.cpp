@@ -254,8 +254,7 @@ Notes write_stl(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positi
   const std::string name = one_line(mesh.title);  // a NUL would make it a binary file
   out << "solid " << name << '\n';
   out.for_each(mesh.elements.size(), [&](TextBuffer& part, std::size_t e) {
-    std::array<Index, 8> buffer{};
-    const std::span<const Index> corners = file_corners(mesh, static_cast<Index>(e), buffer);
+    const FileCorners corners = file_corners(mesh, e);
     const Vec3 normal = facet_normal(positions[corners[0]], positions[corners[1]], positions[corners[2]]);
     part << "  facet normal " << normal.x << ' ' << normal.y << ' ' << normal.z << "\n    outer loop\n";
     for (const Index v : corners) {

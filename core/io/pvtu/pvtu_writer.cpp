@@ -132,11 +132,10 @@ class PvtuWriter {
     std::vector<Vec3> places;
     for (const Index v : vertices) places.push_back(positions_[v]);
     for (const Index e : elements) {
-      std::array<Index, 8> buffer{}, own{};
-      const auto corners = file_corners(mesh_, e, buffer);
+      FileCorners corners = file_corners(mesh_, e);
       for (std::size_t i = 0; i < corners.size(); ++i)
-        own[i] = static_cast<Index>(std::ranges::lower_bound(vertices, corners[i]) - vertices.begin());
-      piece.elements.add(mesh_.elements.kind(e), std::span(own).first(corners.size()));
+        corners.at[i] = static_cast<Index>(std::ranges::lower_bound(vertices, corners[i]) - vertices.begin());
+      piece.elements.add(mesh_.elements.kind(e), corners);
     }
     for (std::size_t k = 0; k < kept_.size(); ++k) {
       const Field& field = mesh_.fields[kept_[k]];

@@ -190,10 +190,9 @@ Notes write_fort14(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> pos
     part << v + 1 << ' ' << positions[v].x << ' ' << positions[v].y << ' ' << depth_of(v) << '\n';
   });
   out.for_each(mesh.elements.size(), [&](TextBuffer& part, std::size_t e) {
-    std::array<Index, 8> buffer{};
-    const auto corners = file_corners(mesh, static_cast<Index>(e), buffer);
+    const FileCorners corners = file_corners(mesh, e);
     part << e + 1 << ' ' << corners.size();
-    for (const Index c : corners) part << ' ' << c + 1;
+    put_corners(part, corners, 1);
     part << '\n';
   });
   write_boundaries(out, mesh, kept, kFort14Open);

@@ -267,13 +267,11 @@ class Writer : MeshWriter {
     const std::vector<int> materials = numbers_of_elements(mesh_, numbers_, title_, notes_);
     out_ << k2dmSignature << '\n';
     if (!mesh_.title.empty()) out_ << "MESHNAME \"" << in_quotes(mesh_.title) << "\"\n";
-    out_.for_each(mesh_.elements.size(), [&](TextBuffer& part, std::size_t i) {
-      const auto e = static_cast<Index>(i);
-      std::array<Index, 8> buffer{};
-      const auto corners = file_corners(mesh_, e, buffer);
+    out_.for_each(mesh_.elements.size(), [&](TextBuffer& part, std::size_t e) {
+      const FileCorners corners = file_corners(mesh_, e);
       part << (corners.size() == 3 ? "E3T " : "E4Q ") << e + 1;
-      for (const Index c : corners) part << ' ' << c + 1;
-      part << ' ' << materials[i] << '\n';
+      put_corners(part, corners, 1);
+      part << ' ' << materials[e] << '\n';
     });
     nodes();
     for (std::size_t i = 0; i < groups_.size(); ++i) strings(i);

@@ -381,12 +381,10 @@ Notes write_su2(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positi
   TextWriter out(file, context);
   if (!mesh.title.empty()) out << "% " << one_line(mesh.title) << '\n';
   out << "NDIME= " << (volume ? 3 : 2) << "\nNELEM= " << mesh.elements.size() << '\n';
-  out.for_each(mesh.elements.size(), [&](TextBuffer& part, std::size_t i) {
-    std::array<Index, 8> buffer{};
-    const auto e = static_cast<Index>(i);
-    part << kTypes[static_cast<std::size_t>(mesh.elements.kind(e))] << ' ';
-    for (const Index c : vtk_corners(mesh, e, buffer)) part << c << ' ';
-    part << e << '\n';
+  out.for_each(mesh.elements.size(), [&](TextBuffer& part, std::size_t e) {
+    part << kTypes[static_cast<std::size_t>(kinds[e])];
+    put_corners(part, vtk_corners(mesh, e), 0);
+    part << ' ' << e << '\n';
   });
   write_points(out, positions, volume);
   out << "NMARK= " << markers.size() << '\n';

@@ -258,9 +258,8 @@ void write_elements(AtomicFile& file, const Mesh& mesh, const IoContext& context
   TextWriter out(file, context);
   out << mesh.elements.size() << ' ' << info(only_kind(file, mesh)).corners << ' ' << columns.attributes.size() << '\n';
   out.for_each(mesh.elements.size(), [&](TextBuffer& part, std::size_t e) {
-    std::array<Index, 8> buffer{};
     part << e + 1;
-    for (const Index c : file_corners(mesh, static_cast<Index>(e), buffer)) part << ' ' << c + 1;
+    put_corners(part, file_corners(mesh, e), 1);
     for (const ValueColumn& column : columns.attributes) part << ' ' << column.at(e);
     part << '\n';
   });

@@ -1,3 +1,4 @@
+#include "core/io/cell_table.h"
 #include "core/io/vtk/vtk_cells.h"
 
 #include <algorithm>
@@ -233,13 +234,7 @@ std::vector<std::size_t> add_vtk_elements(Mesh& mesh, SourceFile& source, const 
 
 void keep_rows(Field& field, std::span<const std::size_t> rows, SourceFile& source) {
   source.add_only_in_file("data of cells that are no elements");
-  const auto n = static_cast<std::size_t>(field.components);
-  std::vector<double> kept;
-  kept.reserve(rows.size() * n);
-  for (const std::size_t row : rows) {
-    for (std::size_t k = 0; k < n; ++k) kept.push_back(field.values[row * n + k]);
-  }
-  field.values = std::move(kept);
+  field.values = rows_of_values(field, rows);
 }
 
 int vtk_cell_type(ElementKind kind) noexcept {

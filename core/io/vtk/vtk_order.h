@@ -21,13 +21,10 @@ constexpr void exchange_vtk_order(ElementKind kind, Index* c) noexcept {
 }
 
 /// file_corners() in VTK's order.
-[[nodiscard]] inline std::span<const Index> vtk_corners(const Mesh& mesh, Index element, std::array<Index, 8>& buffer) {
-  const std::span<const Index> ours = file_corners(mesh, element, buffer);
-  const ElementKind kind = mesh.elements.kind(element);
-  if (kind != ElementKind::Wedge) return ours;
-  if (ours.data() != buffer.data()) std::copy(ours.begin(), ours.end(), buffer.begin());
-  exchange_vtk_order(kind, buffer.data());
-  return {buffer.data(), ours.size()};
+[[nodiscard]] inline FileCorners vtk_corners(const Mesh& mesh, std::size_t element) {
+  FileCorners corners = file_corners(mesh, element);
+  exchange_vtk_order(mesh.elements.kind(static_cast<Index>(element)), corners.at.data());
+  return corners;
 }
 
 }  // namespace dmoscope

@@ -52,10 +52,9 @@ class VtkWriter : MeshWriter {
     const Index n = mesh_.elements.size();
     out_ << "CELLS " << n << ' ' << n + mesh_.elements.all_corners().size() << '\n';
     out_.for_each(n, [this](TextBuffer& part, std::size_t e) {
-      std::array<Index, 8> buffer{};
-      const std::span<const Index> corners = vtk_corners(mesh_, static_cast<Index>(e), buffer);
+      const FileCorners corners = vtk_corners(mesh_, e);
       part << corners.size();
-      for (const Index corner : corners) part << ' ' << corner;
+      put_corners(part, corners, 0);
       part << '\n';
     });
     out_ << "CELL_TYPES " << n << '\n';

@@ -2,6 +2,7 @@
 // VTU and VTP files: VTK's XML UnstructuredGrid and PolyData; and its structured grids (.vts, .vtr, .vti), which are read alone. ASCII,
 // base64 (inline or appended) and raw appended data, uncompressed or zlib, either byte order, sizes of 32 or 64 bits.
 
+#include <array>
 #include <span>
 #include <string>
 #include <string_view>
@@ -13,6 +14,19 @@
 #include "core/mesh/mesh.h"
 
 namespace dmoscope {
+
+/// The attribute of PointData and CellData that names the array which has a role, and the role's name in VTK legacy files.
+struct VtuRole {
+  const char* attribute;
+  std::string_view role;
+};
+inline constexpr std::array kVtuRoles{VtuRole{"Scalars", "SCALARS"},
+                                      VtuRole{"Vectors", "VECTORS"},
+                                      VtuRole{"Normals", "NORMALS"},
+                                      VtuRole{"Tensors", "TENSORS"},
+                                      VtuRole{"TCoords", "TEXTURE_COORDINATES"},
+                                      VtuRole{"GlobalIds", "GLOBAL_IDS"},
+                                      VtuRole{"PedigreeIds", "PEDIGREE_IDS"}};
 
 /// Reads a VTU or VTP file; see FormatHandler::read. Several pieces become one mesh, without joining points on their seams. Cells of fewer
 /// dimensions than the elements are passed over as in VTK legacy files.

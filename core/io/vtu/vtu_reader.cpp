@@ -25,19 +25,6 @@
 namespace dmoscope {
 namespace {
 
-/// The attribute of PointData and CellData that names the array which has a role, and the role's name in VTK legacy files.
-struct ActiveRole {
-  const char* attribute;
-  std::string_view role;
-};
-constexpr std::array kRoles{ActiveRole{"Scalars", "SCALARS"},
-                            ActiveRole{"Vectors", "VECTORS"},
-                            ActiveRole{"Normals", "NORMALS"},
-                            ActiveRole{"Tensors", "TENSORS"},
-                            ActiveRole{"TCoords", "TEXTURE_COORDINATES"},
-                            ActiveRole{"GlobalIds", "GLOBAL_IDS"},
-                            ActiveRole{"PedigreeIds", "PEDIGREE_IDS"}};
-
 class VtuReader {
  public:
   VtuReader(SourceFile& source, const IoContext& context)
@@ -345,7 +332,7 @@ class VtuReader {
     field.on = on;
     field.components = static_cast<int>(array.components);
     field.type = array.node.attribute("type").value();
-    for (const ActiveRole& active : kRoles) {
+    for (const VtuRole& active : kVtuRoles) {
       if (!array.name.empty() && array.name == data.attribute(active.attribute).value()) field.role = active.role;
     }
     fields_.push_back(std::move(field));

@@ -105,9 +105,8 @@ class VtuWriter {
     const Index n = mesh_.elements.size();
     std::vector<Index> corners;
     corners.reserve(mesh_.elements.all_corners().size());
-    std::array<Index, 8> buffer{};
     for (Index e = 0; e < n; ++e) {
-      const auto own = vtk_corners(mesh_, e, buffer);
+      const FileCorners own = vtk_corners(mesh_, e);
       corners.insert(corners.end(), own.begin(), own.end());
     }
     const auto offsets = mesh_.elements.offsets();
@@ -123,21 +122,11 @@ class VtuWriter {
   }
 
   void data(Field::On on, std::string_view element, std::size_t count) {
-    struct Role {
-      std::string_view role, attribute;
-    };
-    constexpr static std::array roles{Role{"SCALARS", "Scalars"},
-                                      Role{"VECTORS", "Vectors"},
-                                      Role{"NORMALS", "Normals"},
-                                      Role{"TENSORS", "Tensors"},
-                                      Role{"TEXTURE_COORDINATES", "TCoords"},
-                                      Role{"GLOBAL_IDS", "GlobalIds"},
-                                      Role{"PEDIGREE_IDS", "PedigreeIds"}};
     const auto is_of = [&](const Field& field) {
       return field.on == on && field.components >= 1 && field.values.size() == count * static_cast<std::size_t>(field.components);
     };
     xml_ += fmt::format("      <{}", element);
-    for (const Role& role : roles) {
+    for (const VtuRole& role : kVtuRoles) {
       const auto active = std::find_if(mesh_.fields.begin(), mesh_.fields.end(),
                                        [&](const Field& field) { return is_of(field) && equal_ignoring_case(field.role, role.role); });
       if (active != mesh_.fields.end()) xml_ += fmt::format(" {}=\"{}\"", role.attribute, xml_escaped(active->name));

@@ -83,9 +83,7 @@ class XdmfReader {
 
   void points_elsewhere(pugi::xml_node item, bool plane) {
     const CoordinateArrays coordinates = read_xdmf_points(document_, item, plane, mesh_.positions);
-    CoordinateLayout layout;
-    if (!coordinates.describe(layout)) source_.set_not_patchable("its coordinates are whole numbers");
-    source_.set_layout(layout);
+    coordinates.describe(source_);
   }
 
   /// A file is written again with the one beside it that has all its numbers.
@@ -221,17 +219,8 @@ class XdmfReader {
     } else if (!places.empty()) {
       field.place = {places.front(), static_cast<std::uint32_t>(field.components)};
     }
-    if (!of_points && !rows_.empty()) keep_rows(field);
+    if (!of_points && !rows_.empty()) field.values = rows_of_values(field, rows_);
     mesh_.fields.push_back(std::move(field));
-  }
-
-  void keep_rows(Field& field) const {
-    const auto n = static_cast<std::size_t>(field.components);
-    std::vector<double> kept;
-    for (const Index row : rows_) {
-      for (std::size_t k = 0; k < n; ++k) kept.push_back(field.values[row * n + k]);
-    }
-    field.values = std::move(kept);
   }
 
   /// Numbers of points or cells.

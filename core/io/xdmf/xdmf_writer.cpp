@@ -49,10 +49,8 @@ class XdmfWriter {
     }
     out_ << "\" NumberType=\"Int\" Precision=\"8\" Format=\"XML\">\n";
     out_.for_each(kinds.size(), [&](TextBuffer& part, std::size_t i) {
-      const auto e = static_cast<Index>(i);
-      std::array<Index, 8> buffer{};
       if (mixed) part << kXdmfTypes[static_cast<std::size_t>(shape_of(kinds[i]))] << ' ';
-      const auto of_element = file_corners(mesh_, e, buffer);
+      const FileCorners of_element = file_corners(mesh_, i);
       for (std::size_t k = 0; k < of_element.size(); ++k) part << of_element[k] << (k + 1 == of_element.size() ? '\n' : ' ');
     });
     out_ << "</DataItem>\n</Topology>\n";

@@ -11,16 +11,19 @@
 #include "core/base/unknown_value.h"
 #include "core/input/mesh_share.h"
 #include "core/joint/joint_clusters.h"
-#include "core/smooth/methods/active_set_ascent.h"
-#include "core/smooth/methods/angle_based.h"
 #include "core/smooth/methods/dmo.h"
 #include "core/smooth/methods/dvr.h"
-#include "core/smooth/methods/laplace.h"
-#include "core/smooth/methods/pattern_search.h"
 #include "core/smooth/methods/then_mean.h"
 #include "core/smooth/visit/star_judge.h"
 
 namespace dmoscope {
+
+// Each defined in a source of methods/; make_smoother() checks the arguments.
+std::unique_ptr<Smoother> make_laplace_smoother(const SmoothingTask& task);
+std::unique_ptr<Smoother> make_smart_laplace_smoother(const SmoothingTask& task);
+std::unique_ptr<Smoother> make_angle_based_smoother(const SmoothingTask& task);
+std::unique_ptr<Smoother> make_pattern_search_smoother(const SmoothingTask& task);
+std::unique_ptr<Smoother> make_active_set_smoother(const SmoothingTask& task);
 
 namespace {
 constexpr auto kMethods = std::to_array<MethodInfo>(

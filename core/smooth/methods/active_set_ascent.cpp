@@ -1,4 +1,5 @@
-#include "core/smooth/methods/active_set_ascent.h"
+// Active-set ascent (Freitag, Jones and Plassmann 1995; Mesquite's NonSmoothDescent): the least quality of a star is raised along the
+// steepest direction in which none of those that are about the least falls, from one such set to the next.
 
 #include <limits>
 #include <vector>

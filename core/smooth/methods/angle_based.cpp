@@ -1,4 +1,5 @@
-#include "core/smooth/methods/angle_based.h"
+// Angle-based smoothing (Zhou and Shimada 2000): each vertex goes to the mean of the places at which it halves the angles of the ring of
+// its edge neighbours, one place per angle, whatever becomes of the elements.
 
 #include <vector>
 

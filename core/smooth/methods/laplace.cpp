@@ -1,4 +1,5 @@
-#include "core/smooth/methods/laplace.h"
+// Laplacian smoothing: each vertex goes to the mean of its edge neighbours, whatever comes of it; or, smart (Freitag 1997), only where it
+// gains.
 
 #include "core/smooth/visit/visit.h"
 

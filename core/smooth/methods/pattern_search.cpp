@@ -1,4 +1,5 @@
-#include "core/smooth/methods/pattern_search.h"
+// Compass search (the pattern search that Park and Shontz 2010 use on meshes): four steps along the axes are tried, the best is made, and
+// the steps grow or shrink, until they are small.
 
 #include "core/search/compass_search.h"
 #include "core/smooth/visit/visit.h"

@@ -1,6 +1,6 @@
 // What the search's formulas tell of a move is believed only where rounding cannot decide.
 
-#include "core/smooth/methods/two_aims_comparison.h"
+#include "core/smooth/methods/aims_kernel.h"
 
 #include <gtest/gtest.h>
 

@@ -67,8 +67,8 @@ Launcher metric_launcher(Work work) {
       return launch<bodies::Visit<M, Stars::Others>, Solo>;
     case Work::VisitInTeam:
       return launch<bodies::Visit<M, Stars::All, true>, CudaTeam>;
-    case Work::VisitTwoAims:
-      return two_aims_launcher<M>();
+    case Work::VisitComposite:
+      return composite_launcher<M>();
     case Work::Settle:
       return launch<bodies::Settle<M>, CudaTeam>;
     case Work::Judge:

@@ -16,15 +16,15 @@ struct Task;
 /// Starts the kernel on `stream` of the current device, for lanes or teams 0 to count - 1; count > 0. Throws CudaError.
 using Launcher = void (*)(const Task& task, std::size_t count, cudaStream_t stream);
 
-/// Launches VisitTwoAims, VisitVolumeTwoAims.
+/// Launches VisitComposite, VisitVolumeComposite.
 template <Metric M>
-[[nodiscard]] Launcher two_aims_launcher();
+[[nodiscard]] Launcher composite_launcher();
 template <Metric M>
-[[nodiscard]] Launcher volume_two_aims_launcher();
-/// Launches work that depends on a metric: Visit, VisitInTeam, VisitTwoAims, Settle, Judge.
+[[nodiscard]] Launcher volume_composite_launcher();
+/// Launches work that depends on a metric: Visit, VisitInTeam, VisitComposite, Settle, Judge.
 template <Metric M>
 [[nodiscard]] Launcher metric_launcher(Work work);
-/// Launches work on volumes: VisitVolume, VisitVolumeTwoAims, JudgeVolume.
+/// Launches work on volumes: VisitVolume, VisitVolumeComposite, JudgeVolume.
 template <Metric M>
 [[nodiscard]] Launcher volume_launcher(Work work);
 /// Launches work by metrics that are defined by formulas or targets. Frame: Plane or Space. `in_double`: the search is.

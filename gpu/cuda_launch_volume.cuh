@@ -8,7 +8,7 @@ namespace dmoscope::gpu {
 
 template <Metric M>
 Launcher volume_launcher(Work work) {
-  if (work == Work::VisitVolumeTwoAims) return volume_two_aims_launcher<M>();
+  if (work == Work::VisitVolumeComposite) return volume_composite_launcher<M>();
   if (work == Work::VisitVolume) return launch<bodies::VisitVolume<M>, StagingCudaTeam<kBlock, kStageBytes>>;
   return launch<bodies::JudgeVolume<M>, Solo>;
 }

@@ -45,7 +45,7 @@ class DeviceDmo final : public Smoother {
   }
 
   void begin(const Sweep& sweep) override {
-    const std::optional<Aims> aims = aims_of(sweep);
+    const std::optional<PlainComposite> aims = aims_of(sweep);
     const Untangling untangling = sweep.floor ? Untangling{} : sweep.untangling;  // to raise the mean is to worsen nothing anyway
     if (untangling == task_.untangling && aims == aims_) return;
     task_.untangling = untangling;
@@ -110,15 +110,15 @@ class DeviceDmo final : public Smoother {
     mesh_.add_up();
   }
   /// What a sweep's visits aim at besides the metric.
-  [[nodiscard]] std::optional<Aims> aims_of(const Sweep& sweep) const {
+  [[nodiscard]] std::optional<PlainComposite> aims_of(const Sweep& sweep) const {
     const auto composite = composite_objective_of_visit(metric_, combination_, size_, sweep);
-    return composite ? plain_aims(*composite) : std::nullopt;
+    return composite ? plain_composite(*composite) : std::nullopt;
   }
-  void set_aims(const std::optional<Aims>& aims) {
+  void set_aims(const std::optional<PlainComposite>& aims) {
     aims_ = aims;
-    task_.aims = aims.value_or(Aims{});
+    task_.aims = aims.value_or(PlainComposite{});
   }
-  [[nodiscard]] Work two_aims() const { return mesh_.is_volume() ? Work::VisitVolumeTwoAims : Work::VisitTwoAims; }
+  [[nodiscard]] Work two_aims() const { return mesh_.is_volume() ? Work::VisitVolumeComposite : Work::VisitComposite; }
 
   [[nodiscard]] std::size_t largest_class() const {
     std::size_t largest = 0;
@@ -218,9 +218,9 @@ class DeviceDmo final : public Smoother {
   std::shared_ptr<Queue> queue_;
   std::shared_ptr<const Colouring> colouring_;
   Metric metric_;
-  std::optional<Combination> combination_;
+  std::optional<CompositeTerms> combination_;
   std::shared_ptr<const SizeField> size_;
-  std::optional<Aims> aims_;  // of the visits now; none: the metric alone
+  std::optional<PlainComposite> aims_;  // of the visits now; none: the metric alone
   DeviceMesh mesh_;
   std::optional<DeviceMetric> defined_;  // of a metric that is not built in
   Buffer<std::uint32_t> counts_;         // moved, then the deferred visits of each class

@@ -9,9 +9,9 @@
 
 #include "core/base/error.h"
 #include "gpu/bodies.h"
+#include "gpu/composite_bodies.h"
 #include "gpu/defined/bodies.h"
 #include "gpu/defined/target_bodies.h"
-#include "gpu/two_aims_bodies.h"
 #include "gpu/volume_bodies.h"
 
 namespace dmoscope::gpu {
@@ -37,8 +37,8 @@ Lanes lanes_of(Work work) {
       return run_lanes<bodies::Visit<M, Stars::Others>>;
     case Work::VisitInTeam:
       return run_lanes<bodies::Visit<M, Stars::All, true>>;
-    case Work::VisitTwoAims:
-      return run_lanes<bodies::VisitTwoAims<M, Plane>>;
+    case Work::VisitComposite:
+      return run_lanes<bodies::VisitComposite<M, Plane>>;
     case Work::Settle:
       return run_lanes<bodies::Settle<M>>;
     case Work::Judge:
@@ -50,7 +50,7 @@ Lanes lanes_of(Work work) {
 
 template <Metric M>
 Lanes volume_lanes_of(Work work) {
-  if (work == Work::VisitVolumeTwoAims) return run_lanes<bodies::VisitTwoAims<M, Space>>;
+  if (work == Work::VisitVolumeComposite) return run_lanes<bodies::VisitComposite<M, Space>>;
   return work == Work::VisitVolume ? run_lanes<bodies::VisitVolume<M>> : run_lanes<bodies::JudgeVolume<M>>;
 }
 

@@ -11,9 +11,9 @@
 #include "core/run/summary.h"
 #include "core/search/parameters.h"
 #include "core/search/untangling.h"
+#include "core/smooth/composite_visit.h"
 #include "core/smooth/kernels/search_frame.h"
 #include "core/smooth/kernels/star_table.h"
-#include "core/smooth/two_aims.h"
 #include "gpu/defined/defined_task.h"
 
 namespace dmoscope::gpu {
@@ -47,7 +47,7 @@ struct Task {
   SearchFrame frame{};
   SearchParameters parameters;
   Untangling untangling{};
-  Aims aims{};  // of visits with two; the first metric is the launch's
+  PlainComposite aims{};  // of visits with two; the first metric is the launch's
 
   // A class's deferred visits: space for as many as the largest class has, and how many there are.
   Deferred* deferred = nullptr;

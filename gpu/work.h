@@ -4,14 +4,14 @@
 namespace dmoscope::gpu {
 
 enum class Work {
-  VisitSmallFans,      // one vertex per lane: the fast search of rank listed[i] or first + i, where its star is one of Stars::SmallFans
-  VisitLargeFans,      // the same, Stars::LargeFans
-  VisitOthers,         // the same, Stars::Others
-  VisitInTeam,         // all stars, one vertex per team of lanes, settled at once: for classes too small to fill the device
-  Settle,              // what the first three deferred, shared among all teams
-  VisitVolume,         // of a volume, one vertex per team of lanes: rank first + i
-  VisitTwoAims,        // the same with two aims, of a planar mesh
-  VisitVolumeTwoAims,  // and of a volume
+  VisitSmallFans,        // one vertex per lane: the fast search of rank listed[i] or first + i, where its star is one of Stars::SmallFans
+  VisitLargeFans,        // the same, Stars::LargeFans
+  VisitOthers,           // the same, Stars::Others
+  VisitInTeam,           // all stars, one vertex per team of lanes, settled at once: for classes too small to fill the device
+  Settle,                // what the first three deferred, shared among all teams
+  VisitVolume,           // of a volume, one vertex per team of lanes: rank first + i
+  VisitComposite,        // the same with two aims, of a planar mesh
+  VisitVolumeComposite,  // and of a volume
   // By a metric that is defined by a formula or a target, for a stretch of visits, of which each lane or team has some (see
   // gpu/defined/bodies.h):
   VisitTargets,        // one vertex per lane: planar stars by the mean ratio against targets
@@ -38,7 +38,7 @@ enum class Work {
 
 /// Whether work is on volumes, whose metrics are those of formulas::with_volume_metric().
 [[nodiscard]] constexpr bool is_of_solids(Work work) {
-  return work == Work::VisitVolume || work == Work::VisitVolumeTwoAims || work == Work::JudgeVolume;
+  return work == Work::VisitVolume || work == Work::VisitVolumeComposite || work == Work::JudgeVolume;
 }
 
 /// Whether work is by a metric that is defined by a formula or a target.

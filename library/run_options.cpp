@@ -51,7 +51,7 @@ void set_objective(dmoscope::RunParameters& parameters, Words& words) {
   if (combination.empty() && !size.empty()) throw dmoscope::UsageError("size-function is for combine with density");
   if (!metric.empty()) parameters.metric = naming("metric", [&] { return dmoscope::parse_metric(metric); });
   if (!combination.empty())
-    std::tie(parameters.metric, parameters.combination) = naming("combine", [&] { return dmoscope::parse_combination(combination, size); });
+    std::tie(parameters.metric, parameters.combination) = naming("combine", [&] { return dmoscope::parse_composite(combination, size); });
   if (const std::string target = take(words, "target"); !target.empty())
     naming("target", [&] { aim_at(parameters, dmoscope::parse_target(target)); });
 }

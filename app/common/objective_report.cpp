@@ -8,7 +8,7 @@
 namespace dmoscope::app {
 namespace {
 
-Json json_of(const Combination& combination, const Run& run) {
+Json json_of(const CompositeTerms& combination, const Run& run) {
   Json object;
   object["first"] = info(run.parameters().metric).name;
   object["threshold"] = combination.threshold;

@@ -126,7 +126,7 @@ RunParameters parameters_of(const RunOptions& options) {
   parameters.method = options.method;
   parameters.metric = parse_metric(options.metric);
   if (!options.combine.empty())
-    std::tie(parameters.metric, parameters.combination) = parse_combination(options.combine, options.size_function);
+    std::tie(parameters.metric, parameters.combination) = parse_composite(options.combine, options.size_function);
   if (!options.target.empty()) aim_at(parameters, parse_target(options.target));
   if (!options.recipe.empty()) static_cast<void>(recipe(options.recipe));
   if (!options.then.empty()) {

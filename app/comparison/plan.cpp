@@ -21,7 +21,7 @@ void choose_aim(RunOptions& chosen, std::string aim) {
   const std::string then = aim.starts_with(kThen) ? aim.substr(kThen.size()) : "nothing";
   if (aim != "alone" && then == "nothing")
     throw UsageError("after the comma stands 'alone', or 'then' and what --then takes, such as 'then mean'");
-  if (!chosen.combine.empty()) chosen.metric = info(parse_combination(chosen.combine, chosen.size_function).first).name;
+  if (!chosen.combine.empty()) chosen.metric = info(parse_composite(chosen.combine, chosen.size_function).first).name;
   chosen.combine.clear();
   chosen.size_function.clear();
   chosen.then = aim == "alone" ? "" : then;
@@ -96,8 +96,8 @@ void add_every(ComparisonPlan& plan, const std::string& what, const RunOptions& 
   };
   if (what == "method") {
     // Those that know no such combination are there to compare with.
-    std::optional<Combination> combination;
-    if (!open.combine.empty()) combination = parse_combination(open.combine, open.size_function).second;
+    std::optional<CompositeTerms> combination;
+    if (!open.combine.empty()) combination = parse_composite(open.combine, open.size_function).second;
     for (const MethodInfo& method : method_table())
       add(fmt::format("{}{}", method.name, combination && !can_combine(method, *combination) ? ",alone" : ""));
   } else if (what == "metric") {

@@ -40,7 +40,7 @@ void density_on(Lab& lab, Figure& figure, const std::shared_ptr<const InputMesh>
   for (const bool inverse : {false, true}) {
     const char* h = inverse ? "h2" : "h1";
     const SizeFunction size{.kind = inverse ? SizeFunction::Kind::InverseDistance : SizeFunction::Kind::Distance, .point = point};
-    const auto run = lab.run(input, {.combination = Combination{kThreshold, size}}, lab.choose<std::uint64_t>(30, 100, 300), figure);
+    const auto run = lab.run(input, {.combination = CompositeTerms{kThreshold, size}}, lab.choose<std::uint64_t>(30, 100, 300), figure);
     if (!run) return;
     figure.check(mesh, fmt::format("{}: minimum", h), run->after.minimum,
                  Claim::at_least("0.7, the threshold", papers ? kThreshold : std::min(kThreshold, run->before().minimum),

@@ -33,7 +33,7 @@ struct Measurement {
   Index vertices = 0;
   std::uint64_t free = 0;
   Metric metric = Metric::MeanRatio;
-  std::optional<Combination> combination;  // of the metric with a second aim
+  std::optional<CompositeTerms> combination;  // of the metric with a second aim
   std::string method;
   Backend backend = Backend::Cpu;
   Precision precision = Precision::Float;

@@ -113,7 +113,7 @@ void choose_backends(BenchPlan& plan, const std::string& list) {
 
 /// One metric with a second aim, instead of the list of metrics; sizes, where they are the aim, are the same everywhere.
 void combine(BenchPlan& plan, const std::string& text) {
-  const auto [first, combination] = parse_combination(text);
+  const auto [first, combination] = parse_composite(text);
   plan.metrics = {first};
   plan.combination = combination;
 }

@@ -55,19 +55,19 @@ struct BenchElements {
 
 /// The options understood; no list has the same entry twice.
 struct BenchPlan {
-  std::vector<std::size_t> sizes;            // of the meshes to generate, in vertices; empty when a file is given
-  std::vector<BenchElements> elements;       // of the meshes to generate
-  std::vector<Metric> metrics;               // left out where a mesh has elements they are not defined for
-  std::optional<Combination> combination{};  // of the one metric with a second aim
-  bool all_metrics;                          // asked for as "all", not by their names
-  bool cpu = true;                           // whether to measure it, besides the reference
-  Acceleration acceleration{};               // what to measure besides the CPU, or why nothing is
-  std::vector<SimdLevel> levels;             // of this processor
-  std::vector<unsigned> threads;             // at least 1 each
-  std::size_t repeats;                       // of every measurement
-  std::uint64_t iterations;                  // timed, from the input on
-  std::uint64_t active;                      // the iteration whose time is compared with the first's; 0: none
-  bool end_to_end = false;                   // whether to show the time from the mesh on the host to the smoothed one there
+  std::vector<std::size_t> sizes;               // of the meshes to generate, in vertices; empty when a file is given
+  std::vector<BenchElements> elements;          // of the meshes to generate
+  std::vector<Metric> metrics;                  // left out where a mesh has elements they are not defined for
+  std::optional<CompositeTerms> combination{};  // of the one metric with a second aim
+  bool all_metrics;                             // asked for as "all", not by their names
+  bool cpu = true;                              // whether to measure it, besides the reference
+  Acceleration acceleration{};                  // what to measure besides the CPU, or why nothing is
+  std::vector<SimdLevel> levels;                // of this processor
+  std::vector<unsigned> threads;                // at least 1 each
+  std::size_t repeats;                          // of every measurement
+  std::uint64_t iterations;                     // timed, from the input on
+  std::uint64_t active;                         // the iteration whose time is compared with the first's; 0: none
+  bool end_to_end = false;                      // whether to show the time from the mesh on the host to the smoothed one there
 };
 
 /// Throws UsageError for what does not exist, is out of range, fits no other choice, or needs more memory than there is.

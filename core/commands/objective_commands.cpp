@@ -21,7 +21,7 @@ void combine(CommandContext& context, Arguments arguments) {
     change_run(context, [](RunParameters& p) { p.combination.reset(); });
     return;
   }
-  auto parsed = parse_combination(arguments[0], arguments.size() > 1 ? arguments[1] : "");
+  auto parsed = parse_composite(arguments[0], arguments.size() > 1 ? arguments[1] : "");
   const bool follows = context.session.shown() == context.session.active().parameters().metric;
   change_run(context, [&](RunParameters& p) { std::tie(p.metric, p.combination) = std::move(parsed); });
   if (follows) context.session.show(context.session.active().parameters().metric);

@@ -40,7 +40,7 @@ struct Conditions {
   StandingRule rule;
   double max_deviation;
   std::vector<Index> by_hand;
-  std::optional<Combination> combination;
+  std::optional<CompositeTerms> combination;
 };
 
 /// Whether the look goes on.
@@ -153,8 +153,8 @@ class Look {
   void try_threshold(HeldMinimum& found, double& best) const {
     Conditions alone = conditions();
     alone.combination.reset();
-    const Combination& now = *q_.task.combination;
-    Combination raised = now;
+    const CompositeTerms& now = *q_.task.combination;
+    CompositeTerms raised = now;
     raised.threshold = std::min(0.99, std::floor(100.0 * after(alone, q_.task.domain)) / 100.0);
     if (!(raised.threshold > now.threshold)) return;
     const HoldSwitch change{"combine", to_text(q_.task.metric, raised), Holding::Threshold, raised.threshold,

@@ -12,7 +12,7 @@
 namespace dmoscope {
 
 std::optional<JointCluster> joint_hold(const InputMesh& input, std::span<const Vec3> positions, std::span<const std::uint8_t> fixed,
-                                       JointSliding sliding, const JointAims& aims, std::size_t at_most, ThreadPool* pool,
+                                       JointSliding sliding, const JointObjective& aims, std::size_t at_most, ThreadPool* pool,
                                        Progress& progress, const std::function<bool()>& go_on) {
   if (!why_not_joint(input, aims).empty()) return std::nullopt;
   JointOptions options;

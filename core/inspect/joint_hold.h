@@ -15,7 +15,7 @@ namespace dmoscope {
 /// require_joint), or where there is no such element. `fixed`: one entry a vertex. `at_most`: vertices of the cluster; 0: as many as in a
 /// run. `pool` may be null. Throws Cancelled, also once `go_on`, which is asked after every Newton step, says no.
 [[nodiscard]] std::optional<JointCluster> joint_hold(const InputMesh& input, std::span<const Vec3> positions,
-                                                     std::span<const std::uint8_t> fixed, JointSliding sliding, const JointAims& aims,
+                                                     std::span<const std::uint8_t> fixed, JointSliding sliding, const JointObjective& aims,
                                                      std::size_t at_most, ThreadPool* pool, Progress& progress,
                                                      const std::function<bool()>& go_on);
 

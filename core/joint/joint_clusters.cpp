@@ -42,7 +42,7 @@ class JointClusters::Base {
 template <int D>
 class JointClusters::Of final : public Base {
  public:
-  Of(const InputMesh& input, const JointAims& aims, const std::vector<std::uint8_t>& fixed, JointSliding sliding)
+  Of(const InputMesh& input, const JointObjective& aims, const std::vector<std::uint8_t>& fixed, JointSliding sliding)
       : mesh_(input, aims.metric, fixed), sliding_(std::move(sliding)) {
     if (!aims.combination) return;
     threshold_ = aims.combination->threshold;
@@ -91,7 +91,7 @@ class JointClusters::Of final : public Base {
   JointSliding sliding_;
 };
 
-std::string why_not_joint(const InputMesh& input, const JointAims& aims) {
+std::string why_not_joint(const InputMesh& input, const JointObjective& aims) {
   const int dimension = input.is_volume() ? 3 : 2;
   KindSet kinds = 0;
   for (const ElementKind kind : input.mesh.elements.kinds())
@@ -104,11 +104,12 @@ std::string why_not_joint(const InputMesh& input, const JointAims& aims) {
   return obstacle.empty() ? obstacle : "joint moves: " + obstacle;
 }
 
-void require_joint(const InputMesh& input, const JointAims& aims) {
+void require_joint(const InputMesh& input, const JointObjective& aims) {
   if (const std::string why_not = why_not_joint(input, aims); !why_not.empty()) throw UsageError(why_not);
 }
 
-JointClusters::JointClusters(const InputMesh& input, const JointAims& aims, std::span<const std::uint8_t> fixed, JointSliding sliding) {
+JointClusters::JointClusters(const InputMesh& input, const JointObjective& aims, std::span<const std::uint8_t> fixed,
+                             JointSliding sliding) {
   require_joint(input, aims);
   const std::vector<std::uint8_t> stays = held(input, fixed, sliding.domain.get());
   if (input.in_space())

@@ -23,11 +23,11 @@ namespace dmoscope {
 
 /// What joint moves raise: the least of a metric; or, of a combination of two, that up to the threshold, and then the least of the second
 /// among the elements whose vertices have nothing at or below the threshold around them, while the first stays above it there.
-struct JointAims {
+struct JointObjective {
   Metric metric;
-  std::optional<Combination> combination{};
-  JointAims(Metric one) : metric(one) {}  // NOLINT(google-explicit-constructor): a metric is an aim
-  JointAims(Metric first, std::optional<Combination> both) : metric(first), combination(std::move(both)) {}
+  std::optional<CompositeTerms> combination{};
+  JointObjective(Metric one) : metric(one) {}  // NOLINT(google-explicit-constructor): a metric is an aim
+  JointObjective(Metric first, std::optional<CompositeTerms> both) : metric(first), combination(std::move(both)) {}
 };
 
 /// A Newton step, as a watcher sees it.
@@ -110,15 +110,15 @@ struct JointSliding {
 };
 
 /// Why vertices of a mesh cannot be moved jointly: see joint_obstacle(); or the second aim is no metric. Empty where they can.
-[[nodiscard]] std::string why_not_joint(const InputMesh& input, const JointAims& aims);
+[[nodiscard]] std::string why_not_joint(const InputMesh& input, const JointObjective& aims);
 /// Throws UsageError with that.
-void require_joint(const InputMesh& input, const JointAims& aims);
+void require_joint(const InputMesh& input, const JointObjective& aims);
 
 /// The input must outlive it. It works in memory of its own, so one thread at a time.
 class JointClusters {
  public:
   /// `fixed`: one entry a vertex, non-zero where it may not move. Throws as require_joint() does.
-  JointClusters(const InputMesh& input, const JointAims& aims, std::span<const std::uint8_t> fixed, JointSliding sliding = {});
+  JointClusters(const InputMesh& input, const JointObjective& aims, std::span<const std::uint8_t> fixed, JointSliding sliding = {});
   ~JointClusters();
   JointClusters(JointClusters&&) noexcept;
   JointClusters& operator=(JointClusters&&) noexcept;

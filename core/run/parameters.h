@@ -38,7 +38,7 @@ struct RunParameters {
   Metric metric = Metric::MeanRatio;
   SearchParameters search{};
   MethodOptions options{};
-  std::optional<Combination> combination{};      // of `metric`, the first, with a second aim
+  std::optional<CompositeTerms> combination{};   // of `metric`, the first, with a second aim
   std::optional<PhaseBegin> then_joint{};        // a phase of joint moves after the method's
   std::optional<PhaseBegin> then_mean{};         // a phase that raises a mean, the last one
   MeanKind mean = MeanKind::Harmonic;            // which one

@@ -54,7 +54,7 @@ std::shared_ptr<const Colouring> make_colouring(const InputMesh& input, std::spa
 }
 
 std::shared_ptr<const SizeField> make_size_field(const std::shared_ptr<const InputMesh>& input,
-                                                 const std::optional<Combination>& combination) {
+                                                 const std::optional<CompositeTerms>& combination) {
   const SizeFunction* function = combination ? combination->size() : nullptr;
   if (input->geometry.shape != Shape::Planar) return nullptr;  // refused by require_possible()
   return function != nullptr ? std::make_shared<const SizeField>(input, *function) : nullptr;

@@ -247,7 +247,7 @@ class Run {
   [[nodiscard]] bool raise_of_worst_follows(std::uint64_t iteration) const;
   [[nodiscard]] bool is_joint(std::uint64_t iteration) const;
   [[nodiscard]] std::vector<std::uint8_t> held_jointly() const;
-  [[nodiscard]] JointAims joint_aims() const;
+  [[nodiscard]] JointObjective joint_aims() const;
   [[nodiscard]] JointClusters& joint_clusters();
   void move_jointly(Progress& progress);
   void untangle_jointly(Progress& progress);

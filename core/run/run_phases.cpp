@@ -97,10 +97,10 @@ std::shared_ptr<const JointStanding> Run::joint_standing() const {
 }
 
 /// A guard is a first aim that is reached already.
-JointAims Run::joint_aims() const {
+JointObjective Run::joint_aims() const {
   if (!guard_ || parameters_.combination) return {parameters_.metric, parameters_.combination};
-  const JointAims guarded(guard_->metric, Combination{std::nextafter(guard_->floor, 0.0), parameters_.metric});
-  return why_not_joint(*input_, guarded).empty() ? guarded : JointAims(parameters_.metric);
+  const JointObjective guarded(guard_->metric, CompositeTerms{std::nextafter(guard_->floor, 0.0), parameters_.metric});
+  return why_not_joint(*input_, guarded).empty() ? guarded : JointObjective(parameters_.metric);
 }
 
 JointClusters& Run::joint_clusters() {

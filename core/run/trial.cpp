@@ -92,7 +92,7 @@ void apply_switch(const HoldSwitch& change, RunParameters& p) {
   } else if (change.name == "then") {
     set_then(p, change.value, {});
   } else if (change.name == "combine") {
-    std::tie(p.metric, p.combination) = parse_combination(change.value, change.beside);
+    std::tie(p.metric, p.combination) = parse_composite(change.value, change.beside);
   } else {
     parameter_info(change.name).from_text(p, change.value);
   }

@@ -155,7 +155,7 @@ RunParameters to_parameters(const Json& json) {
     }
   }
   if (json.contains("combination"))
-    std::tie(p.metric, p.combination) = parse_combination(json.at("combination").get<std::string>(), json.value("size_function", ""));
+    std::tie(p.metric, p.combination) = parse_composite(json.at("combination").get<std::string>(), json.value("size_function", ""));
   if (json.contains("kinds")) p.kinds = to_kinds(json.at("kinds"));
   p.then_joint = to_phase(json, "then_joint");
   p.then_mean = to_phase(json, "then_mean");

@@ -104,13 +104,13 @@ SizeFunction parse_size_function(std::string_view text) {
   refuse_size(text);
 }
 
-std::string to_text(Metric first, const Combination& combination) {
+std::string to_text(Metric first, const CompositeTerms& combination) {
   const auto* metric = std::get_if<Metric>(&combination.second);
   return fmt::format("{}:{}:{}", info(first).name, combination.threshold, metric != nullptr ? info(*metric).name : kDensity);
 }
 
-std::pair<Metric, Combination> parse_combination(std::string_view text, std::string_view size) {
-  Combination combination;
+std::pair<Metric, CompositeTerms> parse_composite(std::string_view text, std::string_view size) {
+  CompositeTerms combination;
   const auto parts = parts_of_combination(text);
   if (!read_number(parts[1], combination.threshold)) throw UsageError(fmt::format("the threshold '{}' is no number", parts[1]));
   const Metric first = parse_metric(parts[0]);
@@ -128,14 +128,14 @@ std::pair<Metric, Combination> parse_combination(std::string_view text, std::str
   return {first, std::move(combination)};
 }
 
-std::string phrase(Metric first, const Combination& combination) {
+std::string phrase(Metric first, const CompositeTerms& combination) {
   const std::string start = fmt::format("{} > {}", metric_phrase(first), combination.threshold);
   const SizeFunction* size = combination.size();
   if (size == nullptr) return fmt::format("{} · {}", start, metric_phrase(std::get<Metric>(combination.second)));
   return fmt::format("{} · {} {}", start, kDensity, size->kind == SizeFunction::Kind::Field ? size->field : short_name(size->kind));
 }
 
-void validate(Metric first, const Combination& combination) {
+void validate(Metric first, const CompositeTerms& combination) {
   if (!(combination.threshold > 0.0 && combination.threshold < 1.0))
     throw UsageError(fmt::format("the threshold of a combination must be above 0 and below 1, not {}", combination.threshold));
   if (const auto* second = std::get_if<Metric>(&combination.second); second != nullptr && *second == first)

@@ -29,11 +29,11 @@ struct SizeFunction {
 
 /// What a star is worth to a vertex (paper eq. 8): its least first metric where that is no more than the threshold; beyond the threshold
 /// all stars are better than those below, and the second aim counts: the least of another metric, or the density (eq. 6, 7).
-struct Combination {
+struct CompositeTerms {
   double threshold = 0.7;
   std::variant<Metric, SizeFunction> second = SizeFunction{};
   [[nodiscard]] const SizeFunction* size() const noexcept { return std::get_if<SizeFunction>(&second); }  // null: a metric
-  friend bool operator==(const Combination&, const Combination&) = default;
+  friend bool operator==(const CompositeTerms&, const CompositeTerms&) = default;
 };
 
 /// "constant", "h1:X,Y", "h2:X,Y" (",Z" where that is not 0), "field:NAME".
@@ -42,10 +42,10 @@ struct Combination {
 [[nodiscard]] SizeFunction parse_size_function(std::string_view text);
 
 /// "mean-ratio:0.7:density", "mean-ratio:0.7:min-angle"; the size function is apart.
-[[nodiscard]] std::string to_text(Metric first, const Combination& combination);
+[[nodiscard]] std::string to_text(Metric first, const CompositeTerms& combination);
 /// The reverse; `size`: as above, empty: everywhere the same, and nothing else where the second aim is a metric. Throws UsageError, also
 /// as validate() does.
-[[nodiscard]] std::pair<Metric, Combination> parse_combination(std::string_view text, std::string_view size = {});
+[[nodiscard]] std::pair<Metric, CompositeTerms> parse_composite(std::string_view text, std::string_view size = {});
 
 /// A metric whose least in a star falls neither below the floor nor, where it is below that, any further, whatever else is raised.
 struct Guard {
@@ -55,9 +55,9 @@ struct Guard {
 };
 
 /// For titles: "mean-ratio > 0.7 · density h1".
-[[nodiscard]] std::string phrase(Metric first, const Combination& combination);
+[[nodiscard]] std::string phrase(Metric first, const CompositeTerms& combination);
 
 /// Throws UsageError for what no mesh can have: the threshold, the point, the same metric twice.
-void validate(Metric first, const Combination& combination);
+void validate(Metric first, const CompositeTerms& combination);
 
 }  // namespace dmoscope

@@ -11,7 +11,7 @@
 #include "core/mesh/nodal_field.h"
 #include "core/mesh/position_view.h"
 #include "core/smooth/composite_objective.h"
-#include "core/smooth/two_aims.h"
+#include "core/smooth/composite_visit.h"
 
 namespace dmoscope {
 

@@ -45,15 +45,15 @@ struct SmoothingTask {
   Metric metric = Metric::MeanRatio;
   SearchParameters search{};
   MethodOptions options{};
-  std::optional<Combination> combination{};  // dmo and joint: `metric` is its first one
-  std::shared_ptr<const SizeField> size{};   // of a combination with a size function
-  std::optional<Guard> guard{};              // what falls no further, whatever is raised
-  bool then_joint = false;                   // whether a phase of joint moves may come, which is the run's
-  bool then_mean = false;                    // whether a phase may come that raises the mean, see Sweep
-  bool slides = false;                       // whether vertices of the boundary or of interfaces slide
-  std::shared_ptr<const Domain> domain{};    // where: domain_for() the rule
-  double max_deviation = 0.0;                // of edges and faces from the input, in mesh units: see slide.h
-  std::span<const Index> immovable{};        // see immovable_elements; for statistics on a device
+  std::optional<CompositeTerms> combination{};  // dmo and joint: `metric` is its first one
+  std::shared_ptr<const SizeField> size{};      // of a combination with a size function
+  std::optional<Guard> guard{};                 // what falls no further, whatever is raised
+  bool then_joint = false;                      // whether a phase of joint moves may come, which is the run's
+  bool then_mean = false;                       // whether a phase may come that raises the mean, see Sweep
+  bool slides = false;                          // whether vertices of the boundary or of interfaces slide
+  std::shared_ptr<const Domain> domain{};       // where: domain_for() the rule
+  double max_deviation = 0.0;                   // of edges and faces from the input, in mesh units: see slide.h
+  std::span<const Index> immovable{};           // see immovable_elements; for statistics on a device
   ThreadPool* pool = nullptr;
 };
 

@@ -58,8 +58,8 @@ figures() {
       sub(/.*Metric\)/, "", number); sub(/[^0-9].*/, "", number)
       if (name ~ /bodies::Visit</)
         name = name ~ /Stars\)0/ ? "VisitSmallFans" : name ~ /Stars\)1/ ? "VisitLargeFans" : name ~ /Stars\)2/ ? "VisitOthers" : "VisitInTeam"
-      else if (name ~ /bodies::VisitTwoAims</)
-        name = name ~ /dmoscope::Space/ ? "VisitVolumeTwoAims" : "VisitTwoAims"
+      else if (name ~ /bodies::VisitComposite</)
+        name = name ~ /dmoscope::Space/ ? "VisitVolumeComposite" : "VisitComposite"
       else if (name ~ /bodies::[A-Za-z]*(Defined|Targets)</) {  # of which frame and number, or of what targets
         form = name ~ /Targets</ ? (name ~ /<true>|<\(bool\)1>/ ? "crossed" : "plain") : (name ~ /dmoscope::Space/ ? "space" : "plane")
         if (name ~ /double>/) form = form "-double"

@@ -170,8 +170,8 @@ TEST(DeviceRun, RaisesTheMeanAlike) {
 }
 
 TEST(DeviceRun, CombinesAlike) {
-  for (const Combination& combination :
-       {Combination{0.4, Metric::MinAngle}, Combination{0.4, SizeFunction{SizeFunction::Kind::Distance, {2, 3, 0}, {}}}}) {
+  for (const CompositeTerms& combination :
+       {CompositeTerms{0.4, Metric::MinAngle}, CompositeTerms{0.4, SizeFunction{SizeFunction::Kind::Distance, {2, 3, 0}, {}}}}) {
     RunParameters parameters;
     parameters.combination = combination;
     Pair pair(dmoscope::testing::lattice(10, 0.9, 93), parameters);

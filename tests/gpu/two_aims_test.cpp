@@ -4,8 +4,8 @@
 
 #include "core/run/run.h"
 #include "core/smooth/visit/star_judge.h"
+#include "gpu/composite_bodies.h"
 #include "gpu/host_queue.h"
-#include "gpu/two_aims_bodies.h"
 #include "tests/gpu/meshes.h"
 #include "tests/gpu/volumes.h"
 #include "tests/support/sanitized.h"
@@ -77,8 +77,8 @@ TEST(DeviceTwoAimsScore, SumsAsTheProcessorDoes) {
     Star<double> expected;
     gather_star(MeshStar<Plane>(input->planar_view(), positions, vertex), expected);
     const ListedStar<Plane> star(input->planar_view(), positions, vertex);
-    const Aims aims{.threshold = 0.1};
-    const bodies::TwoAimsScore<Metric::MeanRatio, Plane> score(aims, star, {}, {});
+    const PlainComposite aims{.threshold = 0.1};
+    const bodies::CompositeLaneScore<Metric::MeanRatio, Plane> score(aims, star, {}, {});
     const Vec2<double> place{0.01, -0.02};
     const double least = metric_functions<Plane>(Metric::MeanRatio).least_at(expected, place, -1.0);
     if (score.tangled() || !aims.beyond(least)) continue;

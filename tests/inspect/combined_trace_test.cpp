@@ -83,7 +83,7 @@ dmoscope::Run make_run(const std::shared_ptr<const InputMesh>& mesh, RunParamete
 TEST(CompositeTrace, OfTwoMetrics) {
   const auto mesh = testing::input(testing::lattice(9, 0.3, 3));
   RunParameters parameters;
-  parameters.combination = Combination{0.6, Metric::MinAngle};
+  parameters.combination = CompositeTerms{0.6, Metric::MinAngle};
   auto run = make_run(mesh, parameters);
   follow(run, [&](const std::vector<Vec3>& positions, Index vertex, Vec3 place, double) {
     return star_at(*mesh, positions, Metric::MinAngle, vertex, place).first;
@@ -94,7 +94,7 @@ TEST(CompositeTrace, OfDensity) {
   const auto mesh = testing::input(testing::lattice(9, 0.3, 4));
   const Vec3 point{0.3, 0.3, 0.0};
   RunParameters parameters;
-  parameters.combination = Combination{0.5, SizeFunction{SizeFunction::Kind::InverseDistance, point, {}}};
+  parameters.combination = CompositeTerms{0.5, SizeFunction{SizeFunction::Kind::InverseDistance, point, {}}};
   auto run = make_run(mesh, parameters);
   follow(run, [&](const std::vector<Vec3>& positions, Index vertex, Vec3 place, double) {
     Vec3 sum{};

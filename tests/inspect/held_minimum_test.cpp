@@ -230,7 +230,7 @@ TEST(WhatHolds, BelowTheThresholdOfTwoAimsMoreIterationsRaiseIt) {
   for (const char* method : {"dmo", "dvr", "active-set"}) {
     RunParameters parameters;
     parameters.method = method;
-    parameters.combination = Combination{0.75, Metric::MinAngle};
+    parameters.combination = CompositeTerms{0.75, Metric::MinAngle};
     const dmoscope::Run run = run_of(lattice(8, 0.45, 3), parameters, 1);
     const HeldMinimum held = held_of(run);
     ASSERT_LT(held.quality, 0.75) << method;

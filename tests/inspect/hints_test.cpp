@@ -72,7 +72,7 @@ RunParameters any_mix(testing::Random& random) {
   p.method = method_table()[static_cast<std::size_t>(random(0.0, static_cast<double>(method_table().size())))].name;
   if (random() < 0.25)
     std::tie(p.metric, p.combination) =
-        parse_combination(one_of({"mean-ratio:0.3:scaled-jacobian", "mean-ratio:0.3:density", "scaled-jacobian:0.2:mean-ratio"}));
+        parse_composite(one_of({"mean-ratio:0.3:scaled-jacobian", "mean-ratio:0.3:density", "scaled-jacobian:0.2:mean-ratio"}));
   else
     p.metric = parse_metric(one_of({"mean-ratio", "scaled-jacobian", "min-angle", "formula:det/norm^2", "mean-ratio@input"}));
   set_then(p, one_of({"nothing", "mean", "joint", "joint,mean"}), {});
@@ -165,7 +165,7 @@ TEST(HintsAfterARun, ALookForAMethodThatIsEndedKeepsWhatItFound) {
 
 TEST(HintsAfterARun, TheThresholdOfTwoAimsIsNamed) {
   RunParameters p;
-  std::tie(p.metric, p.combination) = parse_combination("mean-ratio:0.4:density", "h1:-1,-1");
+  std::tie(p.metric, p.combination) = parse_composite("mean-ratio:0.4:density", "h1:-1,-1");
   const auto mesh = input(lattice(kCells, 0.45, 8));
   const dmoscope::Run run = run_of(mesh, p, 300);
   const HeldMinimum held = held_of(run);

@@ -110,7 +110,7 @@ class VolumeFollower {
  private:
   static RunParameters parameters_of(const Wish& wish) {
     RunParameters parameters{.metric = wish.metric, .search = wish.search, .backend = Backend::Cpu};
-    if (wish.second) parameters.combination = Combination{.threshold = 0.4, .second = *wish.second};
+    if (wish.second) parameters.combination = CompositeTerms{.threshold = 0.4, .second = *wish.second};
     return parameters;
   }
   [[nodiscard]] VolumeTrace look(const std::vector<Vec3>& positions, Index vertex) const {

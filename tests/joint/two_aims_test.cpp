@@ -22,7 +22,7 @@ using ::testing::HasSubstr;
 RunParameters two_aims(std::string_view combination, const char* method = "joint") {
   RunParameters parameters;
   parameters.method = method;
-  std::tie(parameters.metric, parameters.combination) = parse_combination(combination);
+  std::tie(parameters.metric, parameters.combination) = parse_composite(combination);
   return parameters;
 }
 

@@ -107,7 +107,7 @@ TEST(SharedSmoothing, HasTheSameBitsByOtherMetricsAndInDouble) {
 TEST(SharedSmoothing, HasTheSameBitsByTwoAims) {
   const World world;
   RunParameters parameters;
-  parameters.combination = Combination{0.5, Metric::ScaledJacobian};
+  parameters.combination = CompositeTerms{0.5, Metric::ScaledJacobian};
   compare(world, {"coast", generated("coast", 300)}, parameters, 4);
   compare(world, {"tetrahedra", generated("tetrahedra", 200)}, parameters, 3);
 }
@@ -134,7 +134,7 @@ TEST(SharedSmoothing, HasTheSameBitsWhereElementsAreAlmostInvertedInside) {
   const World world;
   RunParameters one_aim{.layers = LayerRule::Free}, other_method = one_aim, two_aims = one_aim;
   other_method.method = "pattern-search";
-  two_aims.combination = Combination{0.3, Metric::ScaledJacobian};
+  two_aims.combination = CompositeTerms{0.3, Metric::ScaledJacobian};
   for (const Sample& sample :
        {Sample{"twisted block", test::twisted_block(3, test::Fill::Mixed, 11)}, Sample{"crushed can", test::crushed_can(0.6, 0.25, 5)}})
     for (const RunParameters& parameters : {one_aim, other_method, two_aims}) compare(world, sample, parameters, 4);

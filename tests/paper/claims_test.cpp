@@ -174,7 +174,7 @@ TEST(Paper, DensityFollowsTheSizeFunctionAboveTheThreshold) {
   const auto ratio = [&](std::span<const Vec3> positions) { return mean_edge_near(positions, true) / mean_edge_near(positions, false); };
   const double before = ratio(mesh->mesh.positions);
   for (const auto kind : {SizeFunction::Kind::Distance, SizeFunction::Kind::InverseDistance}) {
-    const dmoscope::Run run = smoothed(mesh, {.combination = Combination{0.7, SizeFunction{.kind = kind, .point = point}}}, 40);
+    const dmoscope::Run run = smoothed(mesh, {.combination = CompositeTerms{0.7, SizeFunction{.kind = kind, .point = point}}}, 40);
     EXPECT_GE(run.statistics().minimum, std::min(0.7, minimum_after(run, 0)) - 1e-9);
     if (kind == SizeFunction::Kind::Distance) {
       EXPECT_LT(ratio(run.positions()), 0.97 * before) << "h1: finer near the point";

@@ -141,7 +141,7 @@ void expect_the_same_after_it_was_saved(const RunParameters& parameters, bool be
 TEST(JointPhase, GoesOnWithTheSameBitsAfterItWasSaved) {
   expect_the_same_after_it_was_saved(then_joint(), false);
   RunParameters both = then_joint();
-  both.combination = Combination{0.3, Metric::MinAngle};
+  both.combination = CompositeTerms{0.3, Metric::MinAngle};
   expect_the_same_after_it_was_saved(both, true);
 }
 

@@ -383,7 +383,7 @@ TEST(MeanPhase, IsUndoneAndSaved) {
   EXPECT_FALSE(other.session.active().parameters().then_mean);
 }
 
-TEST(Combination, IsSaidAndSaved) {
+TEST(CompositeTerms, IsSaidAndSaved) {
   const test::TemporaryFolder folder;
   const std::string file = (folder / "session.json").string();
   Told told;

@@ -1,8 +1,6 @@
 // The search for two aims by packs of candidates finds what the plain one finds, to the bit, by any instructions; and speaks for every star
 // that it is meant for.
 
-#include "core/smooth/methods/aims_kernel.h"
-
 #include <cmath>
 #include <cstring>
 #include <memory>
@@ -13,6 +11,7 @@
 
 #include "core/search/mesh_star.h"
 #include "core/smooth/kernels/compiled/kernel_set.h"
+#include "core/smooth/methods/composite_star_kernel.h"
 #include "tests/smooth/zoo.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/volume_grids.h"
@@ -38,7 +37,7 @@ std::vector<CompositeObjective> kinds_of_aims(const std::shared_ptr<const InputM
   }
   if (!mesh->is_volume()) {
     const SizeFunction h1{SizeFunction::Kind::Distance, mesh->mesh.positions[0] + Vec3{0.2, 0.1, 0.0}, {}};
-    all.push_back(composite_objective(metrics[0], Combination{0.3, h1}, std::make_shared<const SizeField>(mesh, h1)));
+    all.push_back(composite_objective(metrics[0], CompositeTerms{0.3, h1}, std::make_shared<const SizeField>(mesh, h1)));
   }
   return all;
 }
@@ -80,11 +79,11 @@ OffsetIn<Frame, double> plain_way(const StarJudge<Frame>& judge, const StarIn<Fr
 
 template <class Frame>
 void compare(const Specimen& specimen, const std::shared_ptr<const InputMesh>& mesh, const CompositeObjective& composite, Count& count) {
-  std::vector<std::unique_ptr<AimsKernel<Frame>>> searches;
+  std::vector<std::unique_ptr<CompositeStarKernel<Frame>>> searches;
   SmoothingTask task = task_of(mesh, specimen.search);
   for (const SimdLevel level : supported_simd_levels()) {
     task.search.simd = level;
-    searches.push_back(std::make_unique<AimsKernel<Frame>>(task, composite));
+    searches.push_back(std::make_unique<CompositeStarKernel<Frame>>(task, composite));
   }
   const std::vector<Vec3>& positions = mesh->mesh.positions;
   StarIn<Frame, double> star;
@@ -244,7 +243,7 @@ TEST(CompositeKernel, AStarAtTheFloorIsBeyondIt) {
     if (!(least > 0.0)) continue;
     const CompositeObjective aims = raise_mean_above(Metric::MeanRatio, least);
     const SmoothingTask task = task_of(mesh, {});
-    const auto fast = AimsKernel<Plane>(task, aims).search(star, mesh->mesh.positions, v);
+    const auto fast = CompositeStarKernel<Plane>(task, aims).search(star, mesh->mesh.positions, v);
     const Vec2<double> way = times(fast.offset, star.scale), plain = plain_way(StarJudge<Plane>(*mesh, aims), star, v, task);
     EXPECT_TRUE(fast.ready) << v;
     EXPECT_EQ(std::memcmp(&way, &plain, sizeof(plain)), 0) << v;

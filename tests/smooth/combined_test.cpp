@@ -31,7 +31,7 @@ using testing::make_run;
 
 RunParameters combined(double threshold, std::variant<Metric, SizeFunction> second) {
   RunParameters parameters;
-  parameters.combination = Combination{threshold, std::move(second)};
+  parameters.combination = CompositeTerms{threshold, std::move(second)};
   return parameters;
 }
 
@@ -194,7 +194,7 @@ TEST(VisitByTwoAims, GoesForTheWeightedMeanOfTheNeighbours) {
     }
     return -std::hypot(at.x - x / weights, at.y - y / weights);
   };
-  const auto [beyond, below] = compare(*mesh, composite_objective(Metric::MeanRatio, Combination{0.6}, size), density);
+  const auto [beyond, below] = compare(*mesh, composite_objective(Metric::MeanRatio, CompositeTerms{0.6}, size), density);
   EXPECT_GT(beyond, 20);
   EXPECT_GT(below, 5);
 }
@@ -446,22 +446,22 @@ TEST(Combined, RefusesWhatCannotBe) {
   refused(triangles, both);
 }
 
-TEST(Combination, IsWrittenAsItIsRead) {
+TEST(CompositeTerms, IsWrittenAsItIsRead) {
   for (const char* text : {"mean-ratio:0.7:density", "min-angle:0.1:radius-ratio"}) {
-    const auto [metric, combination] = parse_combination(text);
+    const auto [metric, combination] = parse_composite(text);
     EXPECT_EQ(to_text(metric, combination), text);
   }
   for (const char* text : {"constant", "h1:1.5,-2", "h2:0.1,1e-07,3", "field:depth below: sea"})
     EXPECT_EQ(to_text(parse_size_function(text)), text);
-  const auto [metric, combination] = parse_combination("mean-ratio:0.7:density", "h2:1,2");
+  const auto [metric, combination] = parse_composite("mean-ratio:0.7:density", "h2:1,2");
   EXPECT_EQ(*combination.size(), (SizeFunction{SizeFunction::Kind::InverseDistance, {1, 2, 0}, {}}));
   EXPECT_EQ(phrase(metric, combination), "mean ratio > 0.7 · density h2");
   for (const char* text : {"", "mean-ratio", "mean-ratio:0.7", "mean-ratio:x:density", "mean-ratio:0:density", "mean-ratio:nan:density",
                            "beauty:0.7:density", "mean-ratio:0.7:beauty", "mean-ratio:0.7:density:h1", "mean-ratio:0.7:mean-ratio"})
-    EXPECT_THROW((void)parse_combination(text), UsageError) << text;
+    EXPECT_THROW((void)parse_composite(text), UsageError) << text;
   for (const char* text : {"h1", "h1:", "h1:1", "h1:1,2,3,4", "h1:1,x", "h1:inf,0", "h3:1,2", "field:", "constant:1"})
     EXPECT_THROW((void)parse_size_function(text), UsageError) << text;
-  EXPECT_THROW((void)parse_combination("mean-ratio:0.7:min-angle", "constant"), UsageError);
+  EXPECT_THROW((void)parse_composite("mean-ratio:0.7:min-angle", "constant"), UsageError);
 }
 
 }  // namespace

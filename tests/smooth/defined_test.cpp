@@ -306,7 +306,7 @@ TEST(DefinedMetrics, ThenMeanAndTwoAims) {
     RunParameters both{.metric = parse_metric("formula:smin/smax")};
     const Metric second = parse_metric("shape-size");
     const double first = records.front().statistics.minimum, threshold = first + 0.05;
-    both.combination = Combination{.threshold = threshold, .second = second};
+    both.combination = CompositeTerms{.threshold = threshold, .second = second};
     auto two = make_run(mesh, both);
     const auto second_mean = [&] {
       return compute_statistics(mesh->quality_context(), two.positions(), second, two.fixed(), nullptr).mean;

@@ -52,9 +52,9 @@ TEST_P(Inside, NothingIsInvertedThere) {
 std::vector<RunParameters> other_ways(const MethodInfo& method) {
   const std::string name(method.name);
   RunParameters slides{.method = name, .boundary = BoundaryRule::Slide}, both{.method = name}, other{.method = name};
-  both.combination = Combination{0.3, Metric::ScaledJacobian};
+  both.combination = CompositeTerms{0.3, Metric::ScaledJacobian};
   other.metric = Metric::ScaledJacobian;
-  other.combination = Combination{0.2, Metric::Condition};
+  other.combination = CompositeTerms{0.2, Metric::Condition};
   RunParameters all = both;
   all.boundary = BoundaryRule::Slide;
   return {slides, both, other, all};
@@ -185,7 +185,7 @@ TEST(InsideAlone, IsUntangledByAllThatOptimise) {
     }
   }
   RunParameters two_aims;
-  two_aims.combination = Combination{0.3, Metric::ScaledJacobian};
+  two_aims.combination = CompositeTerms{0.3, Metric::ScaledJacobian};
   EXPECT_TRUE(sound_after(two_aims));
 }
 

@@ -62,7 +62,7 @@ TEST(Methods, RefuseWhatTheyCannotDo) {
   const auto mesh = input(lattice(4, 0.1, 1));
   for (const double relaxation : {0.0, -0.5, 1.001, std::nan("")})
     EXPECT_THROW((void)make_run(mesh, {.method = "laplace", .options = {.relaxation = relaxation}}), UsageError) << relaxation;
-  EXPECT_THROW((void)make_run(mesh, {.method = "laplace", .combination = Combination{0.5, Metric::MinAngle}}), UsageError);
+  EXPECT_THROW((void)make_run(mesh, {.method = "laplace", .combination = CompositeTerms{0.5, Metric::MinAngle}}), UsageError);
   for (const char* method : {"laplace", "smart-laplace", "dvr"})
     EXPECT_THROW((void)make_run(mesh, {.method = method, .backend = Backend::Cuda}), UsageError);
 }

@@ -189,7 +189,7 @@ TEST(NeverWorseAlso, WithBothPhasesOtherGridsAndTheSearchInDouble) {
 
 TEST(NeverWorseAlso, CombinedDownToTheThreshold) {
   Tried tried;
-  const Combination combination{.threshold = 0.3, .second = Metric::MinAngle};
+  const CompositeTerms combination{.threshold = 0.3, .second = Metric::MinAngle};
   for_spoiled({{"triangles", lattice(6, 0.2, 71), 6.0}}, Metric::MeanRatio, 12, [&](const auto& mesh, const std::string& what) {
     expect_never_worse(mesh, {.combination = combination}, 10, what + ", combined", tried, combination.threshold);
   });

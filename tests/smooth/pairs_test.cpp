@@ -45,23 +45,23 @@ void expect_together(const dmoscope::Run& run) {
 }
 
 TEST(Pairs, StayTogetherByEveryMethodAndObjective) {
-  struct Aims {
+  struct PlainComposite {
     std::string name;
-    std::optional<Combination> combination{};
+    std::optional<CompositeTerms> combination{};
     bool then_mean = false;
     const char* metric = "mean-ratio";
   };
-  const std::vector<Aims> all{{"one"},
-                              {"mean", {}, true},
-                              {"two", Combination{0.3, Metric::ScaledJacobian}},
-                              {"formula", {}, true, "formula:det/norm^2"},
-                              {"target", {}, true, "mean-ratio@input:2"}};
+  const std::vector<PlainComposite> all{{"one"},
+                                        {"mean", {}, true},
+                                        {"two", CompositeTerms{0.3, Metric::ScaledJacobian}},
+                                        {"formula", {}, true, "formula:det/norm^2"},
+                                        {"target", {}, true, "mean-ratio@input:2"}};
   for (const double up : {0.0, 1.0})
     for (const Cells cells : {Cells::Triangles, Cells::Mixed}) {
       const auto mesh = input(two_sheets(cells, up));
       ASSERT_EQ(mesh->is_surface(), up > 0.0);
       for (const MethodInfo& method : method_table())
-        for (const Aims& aims : all) {
+        for (const PlainComposite& aims : all) {
           RunParameters parameters = sliding_by();
           parameters.method = method.name;
           parameters.metric = parse_metric(aims.metric);

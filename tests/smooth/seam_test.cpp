@@ -157,14 +157,14 @@ TEST(Seam, APieceIsSmoothedAsIfItWereShiftedByHand) {
 
 TEST(Seam, AimsAndSizesAreThoseOfThePieceShiftedByHand) {
   RunParameters way;
-  way.combination = Combination{0.5, Metric::MinAngle};
+  way.combination = CompositeTerms{0.5, Metric::MinAngle};
   expect_as_by_hand(piece(), by_hand(piece()), way);
   for (const SizeFunction::Kind kind : {SizeFunction::Kind::Field, SizeFunction::Kind::Distance}) {
     SizeFunction size{};
     size.kind = kind;
     size.field = "depth";
     size.point = {-178.0, -17.0, 0.0};
-    way.combination = Combination{0.3, size};
+    way.combination = CompositeTerms{0.3, size};
     expect_as_by_hand(piece(), by_hand(piece()), way);
   }
 }

@@ -153,7 +153,7 @@ TEST(SlidingOnSurfaces, AreTheSameBits) {
     for (const int aims : {0, 1, 2}) {
       RunParameters parameters = sliding_by();
       if (aims == 1) parameters.then_mean = PhaseBegin{.patience = 2};
-      if (aims == 2) parameters.combination = Combination{0.3, Metric::ScaledJacobian};
+      if (aims == 2) parameters.combination = CompositeTerms{0.3, Metric::ScaledJacobian};
       dmoscope::Run expected = make_run(mesh, parameters);
       expected.iterate(3, progress);
       for (const unsigned threads : {2U, 8U}) {

@@ -394,7 +394,7 @@ TEST(SlidingBits, AreTheSame) {
     for (const int aims : {0, 1, 2}) {
       RunParameters parameters = sliding_by();
       if (aims == 1) parameters.then_mean = PhaseBegin{.patience = 2};
-      if (aims == 2) parameters.combination = Combination{0.3, Metric::MinAngle};
+      if (aims == 2) parameters.combination = CompositeTerms{0.3, Metric::MinAngle};
       if (aims == 2 && !defined_for_all(Metric::MinAngle, specimen.mesh)) continue;
       dmoscope::Run expected = make_run(mesh, parameters);
       expected.iterate(5, progress);

@@ -274,7 +274,7 @@ TEST(SlidingInSpaceBits, AreTheSame) {
     for (const int aims : {0, 1, 2}) {
       RunParameters parameters = sliding_by();
       if (aims == 1) parameters.then_mean = PhaseBegin{.patience = 2};
-      if (aims == 2) parameters.combination = Combination{0.3, Metric::ScaledJacobian};
+      if (aims == 2) parameters.combination = CompositeTerms{0.3, Metric::ScaledJacobian};
       dmoscope::Run expected = make_run(mesh, parameters);
       expected.iterate(4, progress);
       const auto expect_same = [&](const dmoscope::Run& run, const char* what) {

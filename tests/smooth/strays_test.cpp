@@ -50,9 +50,9 @@ bool expect_it_alone_goes_home(const std::shared_ptr<const InputMesh>& mesh, con
 }
 
 TEST(Strays, GoHomeInTheFirstIterationAndNoOtherVertexMoves) {
-  for (const RunParameters& parameters :
-       {RunParameters{}, RunParameters{.search = {.precision = Precision::Double}},
-        RunParameters{.combination = Combination{.threshold = 0.3, .second = Metric::MinAngle}}, RunParameters{.method = "active-set"}}) {
+  for (const RunParameters& parameters : {RunParameters{}, RunParameters{.search = {.precision = Precision::Double}},
+                                          RunParameters{.combination = CompositeTerms{.threshold = 0.3, .second = Metric::MinAngle}},
+                                          RunParameters{.method = "active-set"}}) {
     std::size_t tried = 0, home = 0;
     for (const Mesh& mesh : sound_meshes()) {
       if (parameters.combination && !testing::defined_for_all(Metric::MinAngle, mesh)) continue;

@@ -23,7 +23,7 @@
 #include "core/smooth/kernels/targets/tetrahedron_targets.h"
 #include "core/smooth/methods/grid.h"
 #include "core/smooth/methods/star_kernels.h"
-#include "core/smooth/methods/target_aims_kernel.h"
+#include "core/smooth/methods/target_composite_kernel.h"
 #include "core/smooth/methods/volume_star_search.h"
 #include "core/smooth/visit/visit.h"
 #include "tests/smooth/promises.h"
@@ -401,7 +401,7 @@ struct MeanSearches {
 /// these tell.
 template <class Frame>
 void expect_plain_winner_of_mean(const std::shared_ptr<const InputMesh>& mesh, const CompositeObjective& mean, MeanSearches& count) {
-  std::vector<std::unique_ptr<TargetAimsKernel<Frame>>> searches;
+  std::vector<std::unique_ptr<TargetCompositeKernel<Frame>>> searches;
   SmoothingTask task;
   task.input = mesh;
   std::vector<Index> inside;
@@ -410,7 +410,7 @@ void expect_plain_winner_of_mean(const std::shared_ptr<const InputMesh>& mesh, c
   task.colouring = std::make_shared<const Colouring>(colour_vertices(mesh->mesh, mesh->topology, inside));
   for (const SimdLevel level : supported_simd_levels()) {
     task.search.simd = level;
-    searches.push_back(std::make_unique<TargetAimsKernel<Frame>>(task, mean));
+    searches.push_back(std::make_unique<TargetCompositeKernel<Frame>>(task, mean));
   }
   const std::vector<Vec3>& positions = mesh->mesh.positions;
   const RuleMesh<Frame> rule(*mesh);

@@ -1,13 +1,13 @@
 // What the search's formulas tell of a move is believed only where rounding cannot decide.
 
-#include "core/smooth/methods/aims_kernel.h"
-
 #include <gtest/gtest.h>
+
+#include "core/smooth/methods/composite_star_kernel.h"
 
 namespace dmoscope {
 namespace {
 
-TEST(TwoAimsComparison, IsUnsureWhereRoundingMayDecide) {
+TEST(CompositeComparison, IsUnsureWhereRoundingMayDecide) {
   for (const double value : {1e-3, 0.5, 1.0}) {
     EXPECT_EQ(compare(value, value), Certainty::Unsure);
     EXPECT_EQ(compare(value * (1.0 + 1e-12), value), Certainty::Unsure);
@@ -17,7 +17,7 @@ TEST(TwoAimsComparison, IsUnsureWhereRoundingMayDecide) {
   }
 }
 
-TEST(TwoAimsComparison, GoesOnToTheSecondAimBeyondTheThresholdAlone) {
+TEST(CompositeComparison, GoesOnToTheSecondAimBeyondTheThresholdAlone) {
   const BeforeAndAfter up{0.4, 0.6}, down{0.6, 0.4}, same{0.5, 0.5}, flat{1e-9, 0.5};
   const auto gains = [](BeforeAndAfter first, BeforeAndAfter second) { return gains_for_certain(0.3, first, [&] { return second; }); };
   const auto below = [](BeforeAndAfter first, BeforeAndAfter second) { return gains_for_certain(0.9, first, [&] { return second; }); };

@@ -42,7 +42,7 @@ TEST(TwoAims, NoVisitOfAnyMethodGivesUpTheFirst) {
       for (const BoundaryRule boundary : {BoundaryRule::Fixed, BoundaryRule::Slide}) {
         const auto mesh = sample(kind, 60);
         dmoscope::Run run =
-            make_run(mesh, {.method = method, .metric = kFirst, .combination = Combination{kThreshold, kSecond}, .boundary = boundary});
+            make_run(mesh, {.method = method, .metric = kFirst, .combination = CompositeTerms{kThreshold, kSecond}, .boundary = boundary});
         const std::string what = fmt::format("{} on {}, boundary {}", method, kind, name(boundary));
         std::size_t moved = 0;
         for (int iteration = 0; iteration < 2; ++iteration) {
@@ -77,7 +77,7 @@ TEST(TwoAims, TheMeanPhaseKeepsBothMinima) {
   for (const char* kind : {"random", "quads", "mixed", "can", "tetrahedra", "hexahedra"})
     for (const double threshold : {0.2, 0.5}) {
       const auto mesh = sample(kind, 80);
-      RunParameters parameters{.combination = Combination{threshold, kSecond}};
+      RunParameters parameters{.combination = CompositeTerms{threshold, kSecond}};
       dmoscope::Run first = make_run(mesh, parameters);
       (void)first.until_converged({}, progress);
       parameters.then_mean.emplace();
@@ -95,7 +95,7 @@ TEST(TwoAims, TheMeanPhaseKeepsBothMinima) {
 }
 
 TEST(TwoAims, TheMeanWouldUndoADensity) {
-  RunParameters parameters{.combination = Combination{0.5, SizeFunction{}}};
+  RunParameters parameters{.combination = CompositeTerms{0.5, SizeFunction{}}};
   parameters.then_mean.emplace();
   EXPECT_THROW((void)make_run(sample("random", 60), parameters), UsageError);
 }

@@ -17,10 +17,10 @@
 #include "core/mesh/random.h"
 #include "core/search/grid_search.h"
 #include "core/search/mesh_star.h"
+#include "core/smooth/composite_visit.h"
 #include "core/smooth/kernels/compiled/kernel_set.h"
 #include "core/smooth/kernels/indexed_stars.h"
 #include "core/smooth/kernels/volume_form.h"
-#include "core/smooth/two_aims.h"
 
 namespace dmoscope {
 namespace {

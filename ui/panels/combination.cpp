@@ -16,13 +16,13 @@ namespace {
 
 using SizeKind = SizeFunction::Kind;
 
-void say(PanelContext& context, Metric first, const Combination& combination) {
+void say(PanelContext& context, Metric first, const CompositeTerms& combination) {
   const SizeFunction* size = combination.size();
   const std::string text = to_text(first, combination);
   context.send(size == nullptr ? fmt::format("combine {}", text) : fmt::format("combine {} {}", text, quote_word(to_text(*size))));
 }
 
-Combination with(const Combination& combination, const SizeFunction& size) { return {combination.threshold, size}; }
+CompositeTerms with(const CompositeTerms& combination, const SizeFunction& size) { return {combination.threshold, size}; }
 
 /// In the middle of the mesh, where no point was chosen yet.
 Vec3 middle(const InputMesh& input) {
@@ -35,8 +35,8 @@ Vec3 middle(const InputMesh& input) {
 bool moves_jointly(const RunParameters& p) { return p.then_joint || method_info(p.method).joint; }
 
 /// To begin with: joint moves know metrics alone.
-Combination usual(const PanelContext& context, const RunParameters& p) {
-  Combination combination;
+CompositeTerms usual(const PanelContext& context, const RunParameters& p) {
+  CompositeTerms combination;
   const auto other = std::ranges::find_if(context.derived.metrics, [&p](Metric one) { return one != p.metric; });
   if (moves_jointly(p) && other != context.derived.metrics.end()) combination.second = *other;
   return combination;

@@ -99,7 +99,7 @@ const MethodInfo& method_info(std::string_view name) {
   throw UsageError(unknown_row("method", name, kMethods));
 }
 
-bool can_combine(const MethodInfo& method, const Combination& combination) {
+bool can_combine(const MethodInfo& method, const CompositeTerms& combination) {
   return method.optimises && !(method.joint && combination.size() != nullptr);
 }
 

@@ -29,7 +29,7 @@ struct MethodInfo {
 [[nodiscard]] const MethodInfo& method_info(std::string_view name);
 
 /// Can the method optimise such a combination? Joint moves know metrics alone.
-[[nodiscard]] bool can_combine(const MethodInfo& method, const Combination& combination);
+[[nodiscard]] bool can_combine(const MethodInfo& method, const CompositeTerms& combination);
 
 /// A mix that is refused, and the reason: all other mixes of method, objective, boundary and phases work, but for what joint moves cannot
 /// split into smooth pieces (see why_not_joint).

@@ -5,9 +5,9 @@
 
 #include "core/smooth/defined_state.h"
 #include "core/smooth/kernels/targets/tetrahedron_targets.h"
-#include "core/smooth/methods/aims_kernel.h"
+#include "core/smooth/methods/composite_star_kernel.h"
 #include "core/smooth/methods/defined_search.h"
-#include "core/smooth/methods/target_aims_kernel.h"
+#include "core/smooth/methods/target_composite_kernel.h"
 #include "core/smooth/methods/volume_star_search.h"
 
 namespace dmoscope {
@@ -130,9 +130,9 @@ template <class Frame>
 std::shared_ptr<const StarKernel<Frame>> star_kernel(const SmoothingTask& task, const CompositeObjective& objective) {
   const bool fast = task.search.precision != Precision::Double;
   if (!objective.is_single()) {
-    if (TargetAimsKernel<Frame>::is_for(task, objective)) return std::make_shared<const TargetAimsKernel<Frame>>(task, objective);
+    if (TargetCompositeKernel<Frame>::is_for(task, objective)) return std::make_shared<const TargetCompositeKernel<Frame>>(task, objective);
     if (!fast || !is_for_kernels(objective)) return nullptr;
-    return std::make_shared<const AimsKernel<Frame>>(task, objective);
+    return std::make_shared<const CompositeStarKernel<Frame>>(task, objective);
   }
   if (is_built_in(objective.first)) {
     if constexpr (std::is_same_v<Frame, Space>)

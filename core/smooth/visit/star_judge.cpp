@@ -103,7 +103,7 @@ template const MetricFunctions<Plane>& metric_functions<Plane>(Metric);
 template const MetricFunctions<Space>& metric_functions<Space>(Metric);
 template const MetricFunctions<Curved>& metric_functions<Curved>(Metric);
 
-CompositeObjective composite_objective(Metric first, const Combination& combination, std::shared_ptr<const SizeField> size) {
+CompositeObjective composite_objective(Metric first, const CompositeTerms& combination, std::shared_ptr<const SizeField> size) {
   if (size) return {first, combination.threshold, std::move(size), {}};
   return {first, combination.threshold, std::get<Metric>(combination.second), {}};
 }
@@ -121,7 +121,7 @@ CompositeObjective raise_mean_above(Metric metric, double floor, MeanKind kind) 
   return {metric, floor > 0.0 ? floor : 0.0, MeanOfStar{kind}, {}};
 }
 
-CompositeObjective raise_mean_in(const Sweep& sweep, Metric metric, const std::optional<Combination>& combination,
+CompositeObjective raise_mean_in(const Sweep& sweep, Metric metric, const std::optional<CompositeTerms>& combination,
                                  const std::optional<Guard>& guard) {
   CompositeObjective mean = raise_mean_above(metric, *sweep.floor, sweep.mean);
   mean.guard = guard;
@@ -129,7 +129,7 @@ CompositeObjective raise_mean_in(const Sweep& sweep, Metric metric, const std::o
   return mean;
 }
 
-std::optional<CompositeObjective> composite_objective_of_visit(Metric metric, const std::optional<Combination>& combination,
+std::optional<CompositeObjective> composite_objective_of_visit(Metric metric, const std::optional<CompositeTerms>& combination,
                                                                const std::shared_ptr<const SizeField>& size, const Sweep& sweep,
                                                                const std::optional<Guard>& guard) {
   if (sweep.floor) return raise_mean_in(sweep, metric, combination, guard);
@@ -139,15 +139,15 @@ std::optional<CompositeObjective> composite_objective_of_visit(Metric metric, co
   return objective;
 }
 
-std::optional<Aims> plain_aims(const CompositeObjective& composite) {
-  Aims aims{.threshold = composite.threshold};
+std::optional<PlainComposite> plain_composite(const CompositeObjective& composite) {
+  PlainComposite aims{.threshold = composite.threshold};
   if (const auto* metric = std::get_if<Metric>(&composite.second)) {
-    aims.second = Aims::Second::Metric;
+    aims.second = PlainComposite::Second::Metric;
     aims.metric = *metric;
   } else if (const auto* size = std::get_if<std::shared_ptr<const SizeField>>(&composite.second)) {
     const auto formula = (*size)->formula();
     if (!formula) return std::nullopt;
-    aims.second = Aims::Second::Density;
+    aims.second = PlainComposite::Second::Density;
     aims.size = *formula;
   } else {
     aims.mean = std::get<MeanOfStar>(composite.second).kind;
@@ -431,7 +431,7 @@ Confirmation StarJudge<Frame>::confirm(PositionView positions, Index vertex, Vec
   }
   const auto second_rises = [&] { return second(positions, vertex, target) > second(positions, vertex, here); };
   const auto sound = [&](bool tangled) { return soundness(positions, vertex, target, tangled); };
-  return confirm_by_two(composite_, before, after(), untangling_, sound, second_rises);
+  return confirm_composite(composite_, before, after(), untangling_, sound, second_rises);
 }
 
 template <class Frame>

@@ -9,11 +9,11 @@
 
 #include "core/reference/domain.h"
 #include "core/search/surface_star.h"
+#include "core/smooth/composite_visit.h"
 #include "core/smooth/defined_state.h"
 #include "core/smooth/kernels/composite_kernel.h"
 #include "core/smooth/size_field.h"
 #include "core/smooth/smoother.h"
-#include "core/smooth/two_aims.h"
 #include "core/smooth/visit/star_pieces.h"
 
 namespace dmoscope {
@@ -41,19 +41,21 @@ struct CompositeObjective {
 /// A metric as the only aim.
 [[nodiscard]] CompositeObjective single_objective(Metric metric);
 /// The objective of a combination; `size`: its size function, null where the second aim is a metric.
-[[nodiscard]] CompositeObjective composite_objective(Metric first, const Combination& combination, std::shared_ptr<const SizeField> size);
+[[nodiscard]] CompositeObjective composite_objective(Metric first, const CompositeTerms& combination,
+                                                     std::shared_ptr<const SizeField> size);
 /// The objective of a phase that raises a mean of `metric` and keeps its least from falling below `floor`.
 [[nodiscard]] CompositeObjective raise_mean_above(Metric metric, double floor, MeanKind kind = MeanKind::Harmonic);
 /// The objective of a sweep in that phase: with the sweep's floors, of which a combination has two.
-[[nodiscard]] CompositeObjective raise_mean_in(const Sweep& sweep, Metric metric, const std::optional<Combination>& combination,
+[[nodiscard]] CompositeObjective raise_mean_in(const Sweep& sweep, Metric metric, const std::optional<CompositeTerms>& combination,
                                                const std::optional<Guard>& guard);
 /// The objective of the task's own visits, which come before that phase.
 [[nodiscard]] CompositeObjective objective_of(const SmoothingTask& task);
 /// An objective as plain data; none where its sizes are those of a nodal field.
-[[nodiscard]] std::optional<Aims> plain_aims(const CompositeObjective& composite);
+[[nodiscard]] std::optional<PlainComposite> plain_composite(const CompositeObjective& composite);
 
 /// The two aims that a visit has; none: one metric alone, maybe with a guard.
-[[nodiscard]] std::optional<CompositeObjective> composite_objective_of_visit(Metric metric, const std::optional<Combination>& combination,
+[[nodiscard]] std::optional<CompositeObjective> composite_objective_of_visit(Metric metric,
+                                                                             const std::optional<CompositeTerms>& combination,
                                                                              const std::shared_ptr<const SizeField>& size,
                                                                              const Sweep& sweep, const std::optional<Guard>& guard = {});
 

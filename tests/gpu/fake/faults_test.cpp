@@ -210,7 +210,7 @@ TEST_F(FakeFaults, EveryCallOfAVolume) {
 }
 
 TEST_F(FakeFaults, EveryCallOfTwoAims) {
-  begin(lattice(5, 0.35, 72), {.search = kShort, .combination = Combination{0.3, Metric::MinAngle}});
+  begin(lattice(5, 0.35, 72), {.search = kShort, .combination = CompositeTerms{0.3, Metric::MinAngle}});
   fail_all();
 }
 

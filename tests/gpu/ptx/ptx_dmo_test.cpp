@@ -197,7 +197,7 @@ TEST_P(PtxText, NothingIsApproximate) {
       EXPECT_EQ(entry.text.find(unwanted), std::string::npos) << unwanted << " in " << entry.name;
 }
 
-constexpr std::array kVisits{"bodies5Visit",           "bodies11VisitVolume",   "bodies12VisitTwoAims",
+constexpr std::array kVisits{"bodies5Visit",           "bodies11VisitVolume",   "bodies14VisitComposite",
                              "bodies14PrepareDefined", "bodies13SearchDefined", "bodies15UntangleDefined",
                              "bodies13SettleDefined",  "bodies12VisitTargets",  "bodies13SearchTargets"};
 

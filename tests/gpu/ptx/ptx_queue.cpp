@@ -14,11 +14,11 @@
 #include "core/base/error.h"
 #include "core/quality/formulas.h"
 #include "gpu/bodies.h"
+#include "gpu/composite_bodies.h"
 #include "gpu/defined/bodies.h"
 #include "gpu/defined/formula_source.h"
 #include "gpu/defined/target_bodies.h"
 #include "gpu/nvrtc.h"
-#include "gpu/two_aims_bodies.h"
 #include "gpu/volume_bodies.h"
 
 namespace dmoscope::gpu::ptx {
@@ -104,8 +104,8 @@ Kernels::Name name_for(Work work) {
       return solo<bodies::Visit<M, Stars::Others>>();
     case Work::VisitInTeam:
       return in_team<bodies::Visit<M, Stars::All, true>>();
-    case Work::VisitTwoAims:
-      return in_team<bodies::VisitTwoAims<M, dmoscope::Plane>>();
+    case Work::VisitComposite:
+      return in_team<bodies::VisitComposite<M, dmoscope::Plane>>();
     case Work::Settle:
       return in_team<bodies::Settle<M>>();
     case Work::Judge:
@@ -147,7 +147,7 @@ Kernels::Name plain_name_for(Work work) {
 template <Metric M>
 Kernels::Name volume_name_for(Work work) {
   if (work == Work::JudgeVolume) return solo<bodies::JudgeVolume<M>>();
-  if (work == Work::VisitVolumeTwoAims) return in_team<bodies::VisitTwoAims<M, dmoscope::Space>>();
+  if (work == Work::VisitVolumeComposite) return in_team<bodies::VisitComposite<M, dmoscope::Space>>();
   return in_staging_team<bodies::VisitVolume<M>>(kStageBytes);
 }
 

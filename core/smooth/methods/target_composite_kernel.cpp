@@ -1,4 +1,4 @@
-#include "core/smooth/methods/target_aims_kernel.h"
+#include "core/smooth/methods/target_composite_kernel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -81,7 +81,7 @@ PlanarStarTargets::Star SolidStarTargets::of(Index vertex) const {
 }
 
 template <class Frame>
-bool TargetAimsKernel<Frame>::is_for(const SmoothingTask& task, const CompositeObjective& objective) {
+bool TargetCompositeKernel<Frame>::is_for(const SmoothingTask& task, const CompositeObjective& objective) {
   if (!objective.raise_mean() || is_built_in(objective.first) || task.search.precision != Precision::Float) return false;
   const DefinedMetric& metric = defined(objective.first);
   if (metric.base != Metric::MeanRatio || metric.target.is_ideal() || task.search.grid_points > kMaxCompositePoints) return false;
@@ -90,7 +90,7 @@ bool TargetAimsKernel<Frame>::is_for(const SmoothingTask& task, const CompositeO
 }
 
 template <class Frame>
-TargetAimsKernel<Frame>::TargetAimsKernel(const SmoothingTask& task, const CompositeObjective& objective)
+TargetCompositeKernel<Frame>::TargetCompositeKernel(const SmoothingTask& task, const CompositeObjective& objective)
     : mesh_(task.input->view<Frame>()),
       judge_(task.input->quality_context().judge(objective.first)),
       targets_([&] {
@@ -109,14 +109,14 @@ TargetAimsKernel<Frame>::TargetAimsKernel(const SmoothingTask& task, const Compo
 }
 
 template <class Frame>
-typename TargetAimsKernel<Frame>::Room& TargetAimsKernel<Frame>::room() {
+typename TargetCompositeKernel<Frame>::Room& TargetCompositeKernel<Frame>::room() {
   thread_local Room room;  // kept: a visit allocates nothing
   return room;
 }
 
 template <class Frame>
-typename TargetAimsKernel<Frame>::Found TargetAimsKernel<Frame>::find(PositionView positions, Index vertex,
-                                                                      const Untangling& /*untangling*/) const {
+typename TargetCompositeKernel<Frame>::Found TargetCompositeKernel<Frame>::find(PositionView positions, Index vertex,
+                                                                                const Untangling& /*untangling*/) const {
   const IndexedStars::Star star = stars_.of(vertex);
   if (!star.fits) return {};
   const PlanarStarTargets::Star targets = targets_.of(vertex);
@@ -138,7 +138,7 @@ typename TargetAimsKernel<Frame>::Found TargetAimsKernel<Frame>::find(PositionVi
 }
 
 template <class Frame>
-std::optional<bool> TargetAimsKernel<Frame>::gains(PositionView positions, Index vertex, Vec3 target) const {
+std::optional<bool> TargetCompositeKernel<Frame>::gains(PositionView positions, Index vertex, Vec3 target) const {
   const TargetMeanSearch<Frame>& task = room().task;
   const auto step = times(mesh_.frame.offset(target, positions[vertex]), 1.0 / task.scale);
   const TargetMeanWorth before = kernel_.worth(task, {}), after = kernel_.worth(task, step);
@@ -149,7 +149,7 @@ std::optional<bool> TargetAimsKernel<Frame>::gains(PositionView positions, Index
   return after.sum + after.doubt < before.sum - before.doubt ? std::optional(false) : std::nullopt;
 }
 
-template class TargetAimsKernel<Plane>;
-template class TargetAimsKernel<Space>;
+template class TargetCompositeKernel<Plane>;
+template class TargetCompositeKernel<Space>;
 
 }  // namespace dmoscope

@@ -47,12 +47,12 @@ class SolidStarTargets {
 
 /// Frame: Plane or Space. The mesh must outlive it.
 template <class Frame>
-class TargetAimsKernel final : public StarKernel<Frame> {
+class TargetCompositeKernel final : public StarKernel<Frame> {
  public:
   using typename StarKernel<Frame>::Found;
 
   /// `objective`: one for which is_for() holds.
-  TargetAimsKernel(const SmoothingTask& task, const CompositeObjective& objective);
+  TargetCompositeKernel(const SmoothingTask& task, const CompositeObjective& objective);
   [[nodiscard]] static bool is_for(const SmoothingTask& task, const CompositeObjective& objective);
 
   [[nodiscard]] Found find(PositionView positions, Index vertex, const Untangling& untangling) const override;

@@ -36,7 +36,7 @@ struct SizeFormula {
 }
 
 /// Two aims but for the first metric, as plain data. Not for sizes out of a nodal field.
-struct Aims {
+struct PlainComposite {
   enum class Second : std::uint8_t { Mean, Metric, Density };
   Second second = Second::Mean;
   MeanKind mean = MeanKind::Harmonic;                     // Second::Mean
@@ -45,7 +45,7 @@ struct Aims {
   SizeFormula size{};  // Second::Density
   [[nodiscard]] DMOSCOPE_ANYWHERE bool raise_mean() const { return second == Second::Mean; }
   [[nodiscard]] DMOSCOPE_ANYWHERE bool beyond(double least) const { return is_beyond(least, threshold, raise_mean()); }
-  friend bool operator==(const Aims&, const Aims&) = default;
+  friend bool operator==(const PlainComposite&, const PlainComposite&) = default;
 };
 
 /// Where a vertex would stand for the sake of density (paper eq. 7), and what other places are worth (eq. 6, but bounded and free of
@@ -107,13 +107,13 @@ template <Metric M, class Frame>
   return mean.value(static_cast<double>(mesh.star(vertex).size()));
 }
 
-/// What would become of a vertex that goes from where its star is `before` to where it is `after`? `aims`: Aims or what else has its
-/// beyond() and raise_mean(); confirm_soundness(tangled): see there; second_rises(): is the second aim greater there?
-template <class AimsT, class ConfirmSoundness, class SecondRises>
-[[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE Confirmation confirm_by_two(const AimsT& aims, const StarState& before,
-                                                                            const StarState& after, const Untangling& untangling,
-                                                                            const ConfirmSoundness& confirm_soundness,
-                                                                            const SecondRises& second_rises) {
+/// What would become of a vertex that goes from where its star is `before` to where it is `after`? `aims`: PlainComposite or what else has
+/// its beyond() and raise_mean(); confirm_soundness(tangled): see there; second_rises(): is the second aim greater there?
+template <class CompositeT, class ConfirmSoundness, class SecondRises>
+[[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE Confirmation confirm_composite(const CompositeT& aims, const StarState& before,
+                                                                               const StarState& after, const Untangling& untangling,
+                                                                               const ConfirmSoundness& confirm_soundness,
+                                                                               const SecondRises& second_rises) {
   const bool tangled = !(before.jacobian > 0.0);
   bool decided = false;  // without the second aim
   if (tangled) {

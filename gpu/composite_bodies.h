@@ -1,7 +1,7 @@
 #pragma once
 // The bodies of the kernels for two aims: combined metrics, and the phase that raises the mean. On the processor Visit does it.
 
-#include "core/smooth/two_aims.h"
+#include "core/smooth/composite_visit.h"
 #include "gpu/lane.h"
 #include "gpu/listed_star.h"
 #include "gpu/star_visit.h"
@@ -20,12 +20,12 @@ DMOSCOPE_LANE_INLINE DMOSCOPE_ANYWHERE decltype(auto) with_metric_in(Metric metr
 
 /// The number that the search maximises: see StarScore.
 template <Metric M, class Frame>
-class TwoAimsScore {
+class CompositeLaneScore {
  public:
   using Offset = OffsetIn<Frame, double>;
   using StarT = ListedStar<Frame>;
-  DMOSCOPE_LANE_INLINE DMOSCOPE_ANYWHERE TwoAimsScore(const Aims& aims, const StarT& star, const Untangling& rule,
-                                                      const DensityTarget<Frame>& target)
+  DMOSCOPE_LANE_INLINE DMOSCOPE_ANYWHERE CompositeLaneScore(const PlainComposite& aims, const StarT& star, const Untangling& rule,
+                                                            const DensityTarget<Frame>& target)
       : aims_(aims), star_(star), target_(target), untangling_(star, rule) {}
 
   [[nodiscard]] DMOSCOPE_ANYWHERE bool tangled() const { return untangling_.tangled(); }
@@ -40,8 +40,8 @@ class TwoAimsScore {
     return Objective<S, false, double, Value::Metric, const StarT&>(star_)(p);
   }
   [[nodiscard]] DMOSCOPE_LANE_INLINE DMOSCOPE_ANYWHERE double second(Offset p) const {
-    if (aims_.second == Aims::Second::Density) return target_.density(p);
-    if (aims_.second == Aims::Second::Mean) return mean_of<M>(star_, p, aims_.mean);
+    if (aims_.second == PlainComposite::Second::Density) return target_.density(p);
+    if (aims_.second == PlainComposite::Second::Mean) return mean_of<M>(star_, p, aims_.mean);
     double least = std::numeric_limits<float>::max();  // as Worth begins
     star_.template for_each<true>([&](const auto& element) { least = scalar::min(least, worth_of(element, p)); });
     return least;
@@ -57,7 +57,7 @@ class TwoAimsScore {
     });
   }
 
-  const Aims& aims_;
+  const PlainComposite& aims_;
   const StarT& star_;
   DensityTarget<Frame> target_;  // in units of the star's scale
   UntanglingObjective<M, const StarT&, Offset> untangling_;
@@ -65,7 +65,7 @@ class TwoAimsScore {
 
 /// A visit of rank first + i by the plain search in double, by all lanes of a team.
 template <Metric M, class Frame>
-struct VisitTwoAims {
+struct VisitComposite {
   template <class Team>
   static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE void run(const Task& task, std::size_t i, std::size_t /*count*/, const Team& team) {
     const auto rank = static_cast<Index>(task.first + i);
@@ -81,14 +81,15 @@ struct VisitTwoAims {
   /// The offset of the best candidate in units of the star's scale; 0 where none is better than the vertex's own place.
   template <class Team>
   static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE Offset search(const Task& task, Index rank, const ListedStar<Frame>& star, const Team& team) {
-    const TwoAimsScore<M, Frame> score(task.aims, star, task.untangling, density_of(task, task.vertex_of_rank[rank], star.star().scale()));
+    const CompositeLaneScore<M, Frame> score(task.aims, star, task.untangling,
+                                             density_of(task, task.vertex_of_rank[rank], star.star().scale()));
     if (task.untangling.repair && !score.tangled()) return {};
     const Offset middle = score.tangled() ? middle_of<Offset>(star) : Offset{};
     return grid_search<double>(score, star.star().box(), task.parameters, NoTrace{}, team, score.tangled() ? &middle : nullptr).offset;
   }
   static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE DensityTarget<Frame> density_of(const Task& task, Index vertex, double scale) {
     if constexpr (std::is_same_v<Frame, Plane>)
-      if (task.aims.second == Aims::Second::Density) return wanted(task, vertex).in_units(scale);
+      if (task.aims.second == PlainComposite::Second::Density) return wanted(task, vertex).in_units(scale);
     return {};  // sizes are of planar meshes
   }
   static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE DensityTarget<Plane> wanted(const Task& task, Index vertex) {
@@ -121,7 +122,7 @@ struct VisitTwoAims {
       before = after;
       after = star_state<M>(mesh, positions, vertex, i == 0 ? positions[vertex] : target);
     }
-    return confirm_by_two(
+    return confirm_composite(
         task.aims, before, after, task.untangling,
         [&](bool tangled) DMOSCOPE_INLINE_LAMBDA { return confirm_soundness(mesh, positions, vertex, target, tangled, task.untangling); },
         [&]() DMOSCOPE_INLINE_LAMBDA { return second_rises(task, mesh, vertex, target); });
@@ -139,7 +140,8 @@ struct VisitTwoAims {
   static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE double second(const Task& task, const MeshView<Frame>& mesh, Index vertex, Vec3 place) {
     const PositionView positions = positions_of(task);
     if constexpr (std::is_same_v<Frame, Plane>)
-      if (task.aims.second == Aims::Second::Density) return wanted(task, vertex).density(mesh.frame.offset(place, positions[vertex]));
+      if (task.aims.second == PlainComposite::Second::Density)
+        return wanted(task, vertex).density(mesh.frame.offset(place, positions[vertex]));
     if (task.aims.raise_mean()) return mean_at_place<M>(mesh, positions, vertex, place, task.aims.mean);
     return with_metric_in<Frame>(task.aims.metric,
                                  [&]<Metric S>() DMOSCOPE_INLINE_LAMBDA { return star_state<S>(mesh, positions, vertex, place).quality; });

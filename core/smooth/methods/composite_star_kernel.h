@@ -3,15 +3,15 @@
 
 #include <optional>
 
+#include "core/smooth/composite_visit.h"
 #include "core/smooth/kernels/volume_kernel.h"
 #include "core/smooth/methods/star_points.h"
-#include "core/smooth/two_aims.h"
 #include "core/smooth/visit/star_judge.h"
 #include "core/smooth/visit/star_kernel.h"
 
 namespace dmoscope {
 
-/// Does a vertex gain, as confirm_by_two() has it where no element is inverted? Nothing where that has to say. `first`: the least first
+/// Does a vertex gain, as confirm_composite() has it where no element is inverted? Nothing where that has to say. `first`: the least first
 /// metric. second(): the second aim. Both found by the search's formulas; where the star is not certain to be sound, 0.
 template <class Second>
 [[nodiscard]] std::optional<bool> gains_for_certain(double threshold, BeforeAndAfter first, const Second& second) {
@@ -29,10 +29,10 @@ template <class Second>
 }
 
 /// In a volume, by the kernels.
-class TwoAimsComparison {
+class CompositeComparison {
  public:
   /// `aims`: of two metrics, or of the mean.
-  TwoAimsComparison(SimdLevel level, Metric first, const Aims& aims);
+  CompositeComparison(SimdLevel level, Metric first, const PlainComposite& aims);
 
   /// Would the star's vertex gain by going to `target`? See gains_for_certain().
   [[nodiscard]] std::optional<bool> gains(const IndexedStar& star, const StarPoints<Space>& points, Vec3 from, Vec3 target) const;
@@ -43,20 +43,20 @@ class TwoAimsComparison {
 
  private:
   Metric first_;
-  Aims aims_;
+  PlainComposite aims_;
   VolumeKernel first_kernel_, second_kernel_;
 };
 
 /// Frame: Plane or Space. The mesh must outlive it.
 template <class Frame>
-class AimsKernel final : public StarKernel<Frame> {
+class CompositeStarKernel final : public StarKernel<Frame> {
  public:
   using typename StarKernel<Frame>::Offset;
   using typename StarKernel<Frame>::Found;
   using Star = StarIn<Frame, double>;
 
   /// All metrics of the objective must be built in: see is_for_kernels().
-  AimsKernel(const SmoothingTask& task, const CompositeObjective& objective);
+  CompositeStarKernel(const SmoothingTask& task, const CompositeObjective& objective);
 
   [[nodiscard]] Found find(PositionView positions, Index vertex, const Untangling& untangling) const override;
   [[nodiscard]] std::optional<bool> gains(PositionView positions, Index vertex, Vec3 target) const override;
@@ -77,7 +77,7 @@ class AimsKernel final : public StarKernel<Frame> {
   CompositeSearch<Frame> aims_;
   CompositeKernel<Frame> kernel_;
   IndexedStars stars_;
-  std::optional<TwoAimsComparison> comparison_;  // in space
+  std::optional<CompositeComparison> comparison_;  // in space
 };
 
 }  // namespace dmoscope

@@ -1,4 +1,4 @@
-#include "core/smooth/methods/aims_kernel.h"
+#include "core/smooth/methods/composite_star_kernel.h"
 
 #include "core/smooth/kernels/compiled/kernel_set.h"
 
@@ -20,10 +20,10 @@ BeforeAndAfter least(Metric metric, const VolumeKernel& kernel, const VolumeComp
 
 }  // namespace
 
-TwoAimsComparison::TwoAimsComparison(SimdLevel level, Metric first, const Aims& aims)
+CompositeComparison::CompositeComparison(SimdLevel level, Metric first, const PlainComposite& aims)
     : first_(first), aims_(aims), first_kernel_(kernels(level).volume(first)), second_kernel_(kernels(level).volume(aims.metric)) {}
 
-std::optional<bool> TwoAimsComparison::gains(const IndexedStar& star, const StarPoints<Space>& points, Vec3 from, Vec3 target) const {
+std::optional<bool> CompositeComparison::gains(const IndexedStar& star, const StarPoints<Space>& points, Vec3 from, Vec3 target) const {
   if (!has_metric(star, first_)) return std::nullopt;
   const VolumeComparison task{star, points.at.data(), from, target};
   return gains_for_certain(aims_.threshold, least(first_, first_kernel_, task), [&]() -> BeforeAndAfter {
@@ -33,23 +33,23 @@ std::optional<bool> TwoAimsComparison::gains(const IndexedStar& star, const Star
 }
 
 template <class Frame>
-AimsKernel<Frame>::AimsKernel(const SmoothingTask& task, const CompositeObjective& objective)
+CompositeStarKernel<Frame>::CompositeStarKernel(const SmoothingTask& task, const CompositeObjective& objective)
     : judge_(*task.input, objective),
       aims_(search_for<Frame>(objective, task.search)),
       kernel_(kernels(task.search).in<Frame>().composite(objective.first)),
       stars_(*task.input, *task.colouring, task.pool) {
   if constexpr (std::is_same_v<Frame, Space>)
-    comparison_.emplace(task.search.simd.value_or(best_simd_level()), objective.first, *plain_aims(objective));
+    comparison_.emplace(task.search.simd.value_or(best_simd_level()), objective.first, *plain_composite(objective));
 }
 
 template <class Frame>
-typename AimsKernel<Frame>::Room& AimsKernel<Frame>::room() {
+typename CompositeStarKernel<Frame>::Room& CompositeStarKernel<Frame>::room() {
   thread_local Room room;  // kept: a visit allocates nothing
   return room;
 }
 
 template <class Frame>
-CompositeFound<Frame> AimsKernel<Frame>::search(const Star& star, PositionView positions, Index vertex) const {
+CompositeFound<Frame> CompositeStarKernel<Frame>::search(const Star& star, PositionView positions, Index vertex) const {
   CompositeSearch<Frame> task = aims_;
   task.box = star.box;
   take_star(task, judge_.composite(), star, judge_.density_of(star, positions, vertex));
@@ -57,7 +57,8 @@ CompositeFound<Frame> AimsKernel<Frame>::search(const Star& star, PositionView p
 }
 
 template <class Frame>
-typename AimsKernel<Frame>::Found AimsKernel<Frame>::find(PositionView positions, Index vertex, const Untangling& /*untangling*/) const {
+typename CompositeStarKernel<Frame>::Found CompositeStarKernel<Frame>::find(PositionView positions, Index vertex,
+                                                                            const Untangling& /*untangling*/) const {
   const IndexedStars::Star star = stars_.of(vertex);
   if (!star.fits) return {};
   Room& room = this->room();
@@ -69,7 +70,7 @@ typename AimsKernel<Frame>::Found AimsKernel<Frame>::find(PositionView positions
 
 /// By the star as it was searched.
 template <class Frame>
-std::optional<bool> AimsKernel<Frame>::gains(PositionView positions, Index vertex, Vec3 target) const {
+std::optional<bool> CompositeStarKernel<Frame>::gains(PositionView positions, Index vertex, Vec3 target) const {
   const Vec3 from = positions[vertex];
   if constexpr (std::is_same_v<Frame, Space>) {
     return comparison_->gains(stars_.of(vertex).elements, room().points, from, target);
@@ -93,14 +94,14 @@ std::optional<bool> AimsKernel<Frame>::gains(PositionView positions, Index verte
 }
 
 template <class Frame>
-bool AimsKernel<Frame>::valid_at(Index vertex, Vec3 target) const {
+bool CompositeStarKernel<Frame>::valid_at(Index vertex, Vec3 target) const {
   if constexpr (std::is_same_v<Frame, Space>)
     return comparison_->valid_at(stars_.of(vertex).elements, room().points, target);
   else
     return false;
 }
 
-template class AimsKernel<Plane>;
-template class AimsKernel<Space>;
+template class CompositeStarKernel<Plane>;
+template class CompositeStarKernel<Space>;
 
 }  // namespace dmoscope

@@ -189,11 +189,7 @@ std::vector<dmoscope::FieldValues> Mesh::Data::fields_since(const dmoscope::Mesh
 }
 
 Mesh moved_mesh(const Mesh& mesh, std::vector<Vec3> positions, std::vector<dmoscope::FieldValues> fields) {
-  auto data = std::make_shared<Mesh::Data>();
-  data->input = mesh.data()->input;
-  data->as_read = mesh.data()->as_read;
-  data->in_degrees = mesh.data()->in_degrees;
-  data->thin = mesh.data()->thin;
+  auto data = std::make_shared<Mesh::Data>(*mesh.data());
   data->moved = std::make_shared<const std::vector<Vec3>>(std::move(positions));
   data->fields = std::move(fields);
   return Mesh(std::shared_ptr<const Mesh::Data>(std::move(data)));
@@ -233,13 +229,8 @@ Mesh Mesh::with_degrees(bool degrees) const {
   return translated([&] {
     if (const std::string why = degrees ? why_not_geographic(data_->input->mesh) : std::string(); !why.empty())
       refuse(fmt::format("it cannot be taken for longitude and latitude: {}", why));
-    auto data = std::make_shared<Data>();
-    data->input = data_->input;
-    data->moved = data_->moved;
-    data->fields = data_->fields;
-    data->as_read = data_->as_read;
+    auto data = std::make_shared<Data>(*data_);
     data->in_degrees = degrees;
-    data->thin = data_->thin;
     return Mesh(std::shared_ptr<const Data>(std::move(data)));
   });
 }
@@ -250,12 +241,7 @@ Mesh Mesh::with_thin(bool thin) const {
   return translated([&] {
     dmoscope::Progress unwatched;
     if (const std::string why = thin ? why_not_thin(data_->input->mesh, unwatched) : std::string(); !why.empty()) refuse_thin(why);
-    auto data = std::make_shared<Data>();
-    data->input = data_->input;
-    data->moved = data_->moved;
-    data->fields = data_->fields;
-    data->as_read = data_->as_read;
-    data->in_degrees = data_->in_degrees;
+    auto data = std::make_shared<Data>(*data_);
     data->thin = thin;
     return Mesh(std::shared_ptr<const Data>(std::move(data)));
   });

@@ -18,6 +18,11 @@ struct Progress::State {
 
 /// A prepared mesh, and where its vertices are: as it was prepared, or elsewhere.
 struct Mesh::Data {
+  Data() = default;
+  /// All but the arrays, which are made anew for who asks.
+  Data(const Data& of)
+      : input(of.input), moved(of.moved), fields(of.fields), in_degrees(of.in_degrees), thin(of.thin), as_read(of.as_read) {}
+
   std::shared_ptr<const dmoscope::InputMesh> input;
   std::shared_ptr<const std::vector<dmoscope::Vec3>> moved;  // null: where `input` has them
   std::vector<dmoscope::FieldValues> fields;                 // nodal fields that have other numbers there than `input` has

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "app/paper/lab.h"
+#include "core/base/box.h"
 #include "core/smooth/size_field.h"
 
 namespace dmoscope::app {
@@ -15,12 +16,8 @@ namespace {
 constexpr double kThreshold = 0.7;
 
 Vec3 middle(const InputMesh& input) {
-  Vec3 low = input.mesh.positions.front(), high = low;
-  for (const Vec3& p : input.mesh.positions) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  return 0.5 * (low + high);
+  const PointBox box = box_of(input.mesh.positions);
+  return 0.5 * (box.low + box.high);
 }
 
 /// How the lengths of the edges at the free vertices go with the sizes wanted there: of the logarithms, since sizes count up to a factor.

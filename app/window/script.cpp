@@ -42,6 +42,18 @@ int fail(const ScriptOptions& options, std::size_t line, const Message& message)
   return std::max(1, message.exit_code);
 }
 
+/// Tells what was said of a line, but for what ends the script: the first such message, or the failure that there was before.
+std::optional<Message> hear(const std::vector<Message>& messages, const std::string& line, std::optional<Message> failure = {}) {
+  for (const Message& message : messages) {
+    if (!failure && ends_script(message, line)) {
+      failure = message;
+    } else {
+      tell(message);
+    }
+  }
+  return failure;
+}
+
 int run_in_engine(const ScriptOptions& options) {
   Engine engine(options.threads, acceleration_for(options.backend), options.backend);
   if (options.most_memory != 0) engine.post(fmt::format("max-memory {}", options.most_memory));
@@ -49,15 +61,7 @@ int run_in_engine(const ScriptOptions& options) {
     if (split_words(options.lines[k]).empty()) continue;
     engine.post(options.lines[k]);
     engine.wait_idle();
-    std::optional<Message> failure;
-    for (const Message& message : engine.take_messages()) {
-      if (!failure && ends_script(message, options.lines[k])) {
-        failure = message;
-      } else {
-        tell(message);
-      }
-    }
-    if (failure) return fail(options, k, *failure);
+    if (const auto failure = hear(engine.take_messages(), options.lines[k])) return fail(options, k, *failure);
   }
   return 0;
 }
@@ -68,13 +72,7 @@ int run_in_window(Window& window, const ScriptOptions& options) {
   for (std::size_t k = 0; k < options.lines.size() && !window.quit(); ++k) {
     if (split_words(options.lines[k]).empty()) continue;
     std::optional<Message> failure = window.run(options.lines[k]);
-    for (const Message& message : window.said()) {
-      if (!failure && ends_script(message, options.lines[k])) {
-        failure = message;
-      } else {
-        tell(message);
-      }
-    }
+    failure = hear(window.said(), options.lines[k], std::move(failure));
     if (failure) return fail(options, k, *failure);
   }
   return 0;

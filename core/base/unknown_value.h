@@ -1,12 +1,15 @@
 #pragma once
 // The one sentence about a word from a person that the program does not know.
 
+#include <algorithm>
 #include <optional>
 #include <ranges>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "core/base/error.h"
 
 namespace dmoscope {
 
@@ -17,7 +20,15 @@ namespace dmoscope {
 /// "unknown metric 'skewness'; known are mean-ratio, min-angle", and where one of them is close "; did you mean mean-ratio?".
 [[nodiscard]] std::string unknown_value(std::string_view kind, std::string_view word, std::span<const std::string_view> known);
 
-/// The same with the names of a table's rows.
+/// The value of an enumeration whose words are `words`, in its order. Throws Problem for another word.
+template <class Enum, class Problem = UsageError>
+[[nodiscard]] Enum parse_choice(std::string_view kind, std::string_view word, std::span<const std::string_view> words) {
+  const auto found = std::ranges::find(words, word);
+  if (found == words.end()) throw Problem(unknown_value(kind, word, words));
+  return static_cast<Enum>(found - words.begin());
+}
+
+/// The sentence with the names of a table's rows.
 template <std::ranges::input_range Table>
 [[nodiscard]] std::string unknown_row(std::string_view kind, std::string_view word, const Table& table) {
   std::vector<std::string_view> names;

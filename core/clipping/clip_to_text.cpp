@@ -73,9 +73,7 @@ ClipPlane parse_clip(std::string_view words, Vec3 low, Vec3 high) {
 }
 
 ClipPlane::Mode parse_clip_mode(std::string_view word) {
-  if (word == "crinkle") return ClipPlane::Mode::Crinkle;
-  if (word == "cut") return ClipPlane::Mode::Cut;
-  throw UsageError(unknown_value("clip mode", word, std::array<std::string_view, 2>{"crinkle", "cut"}));
+  return parse_choice<ClipPlane::Mode>("clip mode", word, std::array<std::string_view, 2>{"crinkle", "cut"});
 }
 
 }  // namespace dmoscope

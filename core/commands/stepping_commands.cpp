@@ -17,10 +17,7 @@ namespace dmoscope {
 namespace {
 
 StepUnit to_unit(const std::string& word) {
-  if (word == "vertex") return StepUnit::Vertex;
-  if (word == "class") return StepUnit::Class;
-  if (word == "iteration") return StepUnit::Iteration;
-  throw WrongArguments(unknown_value("unit", word, std::array<std::string_view, 3>{"vertex", "class", "iteration"}));
+  return parse_choice<StepUnit, WrongArguments>("unit", word, std::array<std::string_view, 3>{"vertex", "class", "iteration"});
 }
 
 void step(CommandContext& context, Arguments arguments) {

@@ -90,22 +90,22 @@ void ElementNumbers::require_whole() const {
 
 // Vectors.
 
+/// of(i): component i.
+template <class Of>
+ElementNumbers::Vector ElementNumbers::each(int count, const Of& of) {
+  Vector c{{}, count};
+  for (std::size_t i = 0; static_cast<int>(i) < count; ++i) c.at[i] = of(i);
+  return c;
+}
+
 ElementNumbers::Vector ElementNumbers::subtract(const Vector& a, const Vector& b) {
-  Vector c{{}, a.count};
-  for (std::size_t i = 0; static_cast<int>(i) < a.count; ++i) c.at[i] = builder_.subtract(a.at[i], b.at[i]);
-  return c;
+  return each(a.count, [&](std::size_t i) { return builder_.subtract(a.at[i], b.at[i]); });
 }
-
 ElementNumbers::Vector ElementNumbers::add(const Vector& a, const Vector& b) {
-  Vector c{{}, a.count};
-  for (std::size_t i = 0; static_cast<int>(i) < a.count; ++i) c.at[i] = builder_.add(a.at[i], b.at[i]);
-  return c;
+  return each(a.count, [&](std::size_t i) { return builder_.add(a.at[i], b.at[i]); });
 }
-
 ElementNumbers::Vector ElementNumbers::scaled(Number factor, const Vector& a) {
-  Vector c{{}, a.count};
-  for (std::size_t i = 0; static_cast<int>(i) < a.count; ++i) c.at[i] = builder_.multiply(factor, a.at[i]);
-  return c;
+  return each(a.count, [&](std::size_t i) { return builder_.multiply(factor, a.at[i]); });
 }
 
 Number ElementNumbers::dot(const Vector& a, const Vector& b) {

@@ -48,6 +48,8 @@ class ElementNumbers {
   [[nodiscard]] Vector place(Index corner);
   [[nodiscard]] Vector origin();  // of the places: in the mesh's coordinates, of a planar one those of its plane
   [[nodiscard]] Vector edge(Index from, Index to);
+  template <class Of>
+  [[nodiscard]] Vector each(int count, const Of& of);
   [[nodiscard]] Vector subtract(const Vector& a, const Vector& b);
   [[nodiscard]] Vector add(const Vector& a, const Vector& b);
   [[nodiscard]] Vector scaled(Number factor, const Vector& a);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/box.h"
 #include "core/mesh/volume.h"
 #include "core/quality/quality.h"
 
@@ -76,16 +77,11 @@ bool is_degenerate(const Mesh& mesh, const Geometry& geometry, Index e) {
 
 /// Does a vertex lie outside the box of the others of its star? In a sound star it never does.
 bool is_stray(const Mesh& mesh, const Geometry& geometry, const Topology& topology, Index vertex) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Vec3 low{kInfinity, kInfinity, kInfinity}, high = -1.0 * low;
-  for (const Incidence& at : topology.star(vertex)) {
-    for (const Index other : mesh.elements.corners(at.element)) {
-      if (other == vertex) continue;
-      const Vec3 way = geometry.plane.difference(mesh.positions[other], mesh.positions[vertex]);
-      low = {std::min(low.x, way.x), std::min(low.y, way.y), std::min(low.z, way.z)};
-      high = {std::max(high.x, way.x), std::max(high.y, way.y), std::max(high.z, way.z)};
-    }
-  }
+  PointBox box;
+  for (const Incidence& at : topology.star(vertex))
+    for (const Index other : mesh.elements.corners(at.element))
+      if (other != vertex) box.add(geometry.plane.difference(mesh.positions[other], mesh.positions[vertex]));
+  const auto& [low, high] = box;
   return low.x > 0.0 || low.y > 0.0 || low.z > 0.0 || high.x < 0.0 || high.y < 0.0 || high.z < 0.0;
 }
 

@@ -42,7 +42,8 @@ struct FormatHandler {
   Mesh (*read)(SourceFile& source, const IoContext& context);
   /// Makes a file anew from `mesh` at `positions`. Does not name what SourceFile::only_in_file() holds (write_mesh does).
   /// Throws OutputError if the format cannot hold the mesh at all (its kinds of element, its z), Cancelled.
-  Notes (*write)(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context);
+  /// Null: see not_written.
+  Notes (*write)(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) = nullptr;
   /// Writes mesh.source again with the numbers that changed. Null: write_patched() of patch_writer.h.
   Notes (*patch)(AtomicFile& file, const Mesh& mesh, const MovedMesh& moved, const IoContext& context) = nullptr;
   /// Null: the format is one file. Otherwise read() finds it as SourceFile::companion(), and patching writes its bytes as they were.
@@ -51,6 +52,8 @@ struct FormatHandler {
   std::vector<std::filesystem::path> (*further)(const SourceFile& source, const IoContext& context) = nullptr;
   /// Whether `file`, which lies in the folder of `main`, has a name that is given to what is written beside it. Null: never.
   bool (*writes_beside)(const std::filesystem::path& main, const std::filesystem::path& file) = nullptr;
+  /// Why a file is not made anew, and what to write instead.
+  std::string_view not_written{};
 };
 
 [[nodiscard]] const FormatHandler& off_format();

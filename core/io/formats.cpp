@@ -72,6 +72,7 @@ std::size_t turned_volumes(const Mesh& mesh) {
 
 Notes write_anew(AtomicFile& file, const FormatHandler& handler, const Mesh& mesh, std::span<const Vec3> positions,
                  const IoContext& context) {
+  if (handler.write == nullptr) throw OutputError(file.path().string(), std::string(handler.not_written));
   Notes notes = handler.write(file, mesh, positions, context);
   if (const std::size_t turned = turned_volumes(mesh); turned > 0) {
     notes.push_back(turned == 1 ? "1 element that was wound inside out was written the right way round."

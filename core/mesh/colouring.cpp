@@ -7,21 +7,15 @@
 #include <numeric>
 #include <utility>
 
+#include "core/base/box.h"
 #include "core/base/memory.h"
 #include "core/base/thread_pool.h"
+#include "core/mesh/hilbert_curve.h"
 #include "core/mesh/random.h"
 
 namespace dmoscope {
 
 namespace {
-
-/// Every second bit of the result is one of the 16 of `x`.
-std::uint32_t spread_bits(std::uint32_t x) {
-  x = (x | x << 8U) & 0x00ff00ffU;
-  x = (x | x << 4U) & 0x0f0f0f0fU;
-  x = (x | x << 2U) & 0x33333333U;
-  return (x | x << 1U) & 0x55555555U;
-}
 
 /// A vertex with what it is sorted by.
 struct KeyedVertex {
@@ -46,46 +40,28 @@ void sort_by_star(std::span<Index> vertices, const Topology& topology) {
   for (std::size_t i = 0; i < vertices.size(); ++i) vertices[start[star[i]]++] = unsorted[i];
 }
 
-/// Every third bit of the result is one of the 10 of `x`.
-std::uint32_t spread_bits_by_three(std::uint32_t x) {
-  x = (x | x << 16U) & 0x030000ffU;
-  x = (x | x << 8U) & 0x0300f00fU;
-  x = (x | x << 4U) & 0x030c30c3U;
-  return (x | x << 2U) & 0x09249249U;
-}
-
 /// Where vertices lie along the Z-order curve over the box of all of them, 0 to 2^32 - 1.
 class Curve {
  public:
   /// `plane`: null for a curve of space.
   Curve(const Mesh& mesh, const Plane* plane, std::span<const Index> vertices, ThreadPool* pool) : mesh_(mesh), plane_(plane) {
-    struct Box {
-      Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-      void add(Vec3 p, Vec3 q) {
-        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-        high = {std::max(high.x, q.x), std::max(high.y, q.y), std::max(high.z, q.z)};
-      }
-    };
     constexpr std::size_t kGrain = 65536;
-    std::vector<Box> parts((vertices.size() + kGrain - 1) / kGrain);
+    std::vector<PointBox> parts((vertices.size() + kGrain - 1) / kGrain);
     for_chunks(pool, vertices.size(), kGrain, [&](std::size_t first, std::size_t last) {
-      Box box;
-      for (const Index v : vertices.subspan(first, last - first)) {
-        const Vec3 p = place(v);
-        box.add(p, p);
-      }
+      PointBox box;
+      for (const Index v : vertices.subspan(first, last - first)) box.add(place(v));
       parts[first / kGrain] = box;
     });
-    Box box;
-    for (const Box& part : parts) box.add(part.low, part.high);
+    PointBox box;
+    for (const PointBox& part : parts) box.add(part.low), box.add(part.high);
     low_ = box.low;
     const double size = std::max({box.high.x - low_.x, box.high.y - low_.y, box.high.z - low_.z});
     scale_ = size > 0.0 ? (plane != nullptr ? 65535.0 : 1023.0) / size : 0.0;
   }
   [[nodiscard]] std::uint32_t key(Index vertex) const {
     const Vec3 p = place(vertex) - low_;
-    if (plane_ != nullptr) return spread_bits(cell(p.x)) | spread_bits(cell(p.y)) << 1U;
-    return spread_bits_by_three(cell(p.x)) | spread_bits_by_three(cell(p.y)) << 1U | spread_bits_by_three(cell(p.z)) << 2U;
+    if (plane_ != nullptr) return static_cast<std::uint32_t>(spread_by_two(cell(p.x)) | spread_by_two(cell(p.y)) << 1U);
+    return static_cast<std::uint32_t>(spread_by_three(cell(p.x)) | spread_by_three(cell(p.y)) << 1U | spread_by_three(cell(p.z)) << 2U);
   }
 
  private:

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/box.h"
 #include "core/base/error.h"
 #include "core/base/same_bits.h"
 #include "core/base/unknown_value.h"
@@ -24,17 +25,6 @@ constexpr double kWidest = 720.0;   // degrees of longitude, however they are co
 constexpr std::array<std::string_view, 3> kChoices{"off", "on", "auto"};
 constexpr std::array<std::string_view, 10> kWords{"degree", "degrees",  "deg",    "lon",    "longitude",
                                                   "lat",    "latitude", "lonlat", "latlon", "ll"};
-
-struct Extent {
-  Vec3 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  Vec3 high{-low.x, -low.y, -low.z};
-  explicit Extent(const Mesh& mesh) {
-    for (const Vec3 p : mesh.positions) {
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-  }
-};
 
 bool says_so(std::string_view text) {
   std::string word;
@@ -54,11 +44,7 @@ bool says_so(std::string_view text) {
 
 std::string_view name(Geographic choice) { return kChoices[static_cast<std::size_t>(choice)]; }
 
-Geographic parse_geographic(std::string_view word) {
-  const auto found = std::ranges::find(kChoices, word);
-  if (found == kChoices.end()) throw UsageError(unknown_value("choice of coordinates", word, kChoices));
-  return static_cast<Geographic>(found - kChoices.begin());
-}
+Geographic parse_geographic(std::string_view word) { return parse_choice<Geographic>("choice of coordinates", word, kChoices); }
 
 double mercator(double latitude) { return std::asinh(std::tan(kRadian * latitude)) / kRadian; }
 double latitude(double y) { return std::atan(std::sinh(kRadian * y)) / kRadian; }
@@ -67,7 +53,7 @@ double stretch_of_map(double y) { return std::cosh(kRadian * y); }
 std::string why_not_geographic(const Mesh& mesh) {
   if (std::ranges::any_of(mesh.elements.kinds(), [](ElementKind kind) { return info(kind).dimension == 3; }))
     return "it has volume elements";
-  const Extent box(mesh);
+  const PointBox box = box_of(mesh.positions);
   if (box.low.z != box.high.z) return "it has heights: z is not the same everywhere";
   if (box.low.x < -kWidest || box.high.x > kWidest) return fmt::format("x goes from {:g} to {:g}", box.low.x, box.high.x);
   if (box.low.y < -kFarthest || box.high.y > kFarthest)
@@ -82,7 +68,7 @@ Likeness looks_geographic(const Mesh& mesh) {
   std::string_view file = mesh.name;
   if (file.ends_with(".gz")) file.remove_suffix(3);
   if (std::ranges::none_of(kOceans, [&](std::string_view extension) { return file.ends_with(extension); })) return Likeness::None;
-  const Extent box(mesh);
+  const PointBox box = box_of(mesh.positions);
   const bool fits = box.high.x - box.low.x <= 360.0 && box.low.x >= -360.0 && box.high.x <= 360.0;
   if (!fits || !why_not_geographic(mesh).empty()) return Likeness::None;
   if (says_so(mesh.title) || says_so(mesh.name)) return Likeness::Said;

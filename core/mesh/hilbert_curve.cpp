@@ -35,8 +35,9 @@ void to_curve(std::array<std::uint32_t, 3>& x, int bits, int n) {
   for (int i = 0; i < n; ++i) at(i) ^= turned;
 }
 
-/// Every second bit of the result is one of `x`.
-std::uint64_t spread_by_two(std::uint64_t x) {
+}  // namespace
+
+std::uint64_t spread_by_two(std::uint64_t x) noexcept {
   x = (x | x << 16U) & 0x0000ffff0000ffffU;
   x = (x | x << 8U) & 0x00ff00ff00ff00ffU;
   x = (x | x << 4U) & 0x0f0f0f0f0f0f0f0fU;
@@ -44,16 +45,13 @@ std::uint64_t spread_by_two(std::uint64_t x) {
   return (x | x << 1U) & 0x5555555555555555U;
 }
 
-/// Every third bit of the result is one of the 21 of `x`.
-std::uint64_t spread_by_three(std::uint64_t x) {
+std::uint64_t spread_by_three(std::uint64_t x) noexcept {
   x = (x | x << 32U) & 0x001f00000000ffffU;
   x = (x | x << 16U) & 0x001f0000ff0000ffU;
   x = (x | x << 8U) & 0x100f00f00f00f00fU;
   x = (x | x << 4U) & 0x10c30c30c30c30c3U;
   return (x | x << 2U) & 0x1249249249249249U;
 }
-
-}  // namespace
 
 HilbertCurve::HilbertCurve(Vec3 low, Vec3 high) : low_(low) {
   const Vec3 size = high - low;

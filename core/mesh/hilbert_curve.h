@@ -21,4 +21,9 @@ class HilbertCurve {
   int dimension_ = 3;  // axes with an extent
 };
 
+/// Every second bit of the result is one of the 32 of `x`.
+[[nodiscard]] std::uint64_t spread_by_two(std::uint64_t x) noexcept;
+/// Every third bit of the result is one of the 21 of `x`.
+[[nodiscard]] std::uint64_t spread_by_three(std::uint64_t x) noexcept;
+
 }  // namespace dmoscope

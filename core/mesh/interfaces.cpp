@@ -344,10 +344,6 @@ constexpr std::array<std::string_view, 3> kRules{"fixed", "free", "slide"};  // 
 
 std::string_view name(InterfaceRule rule) noexcept { return kRules[static_cast<std::size_t>(rule)]; }
 
-InterfaceRule parse_interface_rule(std::string_view word) {
-  const auto found = std::ranges::find(kRules, word);
-  if (found == kRules.end()) throw UsageError(unknown_value("rule for interfaces", word, kRules));
-  return static_cast<InterfaceRule>(found - kRules.begin());
-}
+InterfaceRule parse_interface_rule(std::string_view word) { return parse_choice<InterfaceRule>("rule for interfaces", word, kRules); }
 
 }  // namespace dmoscope

@@ -6,6 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "core/base/box.h"
+
 namespace dmoscope {
 namespace {
 
@@ -31,16 +33,6 @@ int largest_component(Vec3 a) {
 }
 
 const Plane& coordinate_plane(int axis) { return axis == 0 ? kX : axis == 1 ? kY : kZ; }
-
-/// The used vertices' box.
-struct Box {
-  Vec3 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  Vec3 high{-low.x, -low.y, -low.z};
-  void add(Vec3 p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-};
 
 /// Normal of the least-squares plane: the eigenvector of the smallest eigenvalue of a symmetric matrix, by cyclic Jacobi rotations.
 Vec3 smallest_eigenvector(Matrix3 a) {
@@ -104,7 +96,7 @@ bool mostly_parallel(const Mesh& mesh, const Plane& plane) {
 }
 
 /// Best plane of the used vertices; sets deviation and plane.
-void fit(const Mesh& mesh, const std::vector<std::uint8_t>& used, const Box& box, Geometry& geometry) {
+void fit(const Mesh& mesh, const std::vector<std::uint8_t>& used, const PointBox& box, Geometry& geometry) {
   // Offsets from the middle of the box and scaled by its size: no digits are lost far from the origin, nothing over- or underflows.
   const Vec3 middle = box.low + 0.5 * (box.high - box.low);
   const double scale = 1.0 / geometry.size;
@@ -166,7 +158,7 @@ Geometry classify(const Mesh& mesh) {
   Geometry geometry;
   std::vector<std::uint8_t> used(mesh.positions.size(), 0);
   for (const Index v : mesh.elements.all_corners()) used[v] = 1;
-  Box box;
+  PointBox box;
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     if (used[v] != 0) box.add(mesh.positions[v]);
   }

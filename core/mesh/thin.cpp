@@ -140,11 +140,7 @@ std::vector<std::array<Index, 2>> periodic_on_front(const Mesh& mesh, const Fron
 
 std::string_view name(Thin choice) { return kThinWords[static_cast<std::size_t>(choice)]; }
 
-Thin parse_thin(std::string_view word) {
-  const auto found = std::ranges::find(kThinWords, word);
-  if (found == kThinWords.end()) throw UsageError(unknown_value("choice for meshes one cell thick", word, kThinWords));
-  return static_cast<Thin>(found - kThinWords.begin());
-}
+Thin parse_thin(std::string_view word) { return parse_choice<Thin>("choice for meshes one cell thick", word, kThinWords); }
 
 std::string take_front(Mesh& mesh, Progress& progress) {
   if (std::string why = why_not_prismatic(mesh); !why.empty()) return why;

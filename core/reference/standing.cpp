@@ -8,21 +8,17 @@
 
 namespace dmoscope {
 
-std::string_view name(BoundaryRule rule) noexcept { return rule == BoundaryRule::Fixed ? "fixed" : "slide"; }
+namespace {
+constexpr std::array<std::string_view, 2> kBoundaryRules{"fixed", "slide"}, kLayerRules{"keep", "free"};  // in the enumerations' order
+}
 
+std::string_view name(BoundaryRule rule) noexcept { return kBoundaryRules[static_cast<std::size_t>(rule)]; }
 BoundaryRule parse_boundary_rule(std::string_view word) {
-  for (const BoundaryRule rule : {BoundaryRule::Fixed, BoundaryRule::Slide})
-    if (word == name(rule)) return rule;
-  throw UsageError(unknown_value("rule for the boundary", word, std::array{name(BoundaryRule::Fixed), name(BoundaryRule::Slide)}));
+  return parse_choice<BoundaryRule>("rule for the boundary", word, kBoundaryRules);
 }
 
-std::string_view name(LayerRule rule) noexcept { return rule == LayerRule::Keep ? "keep" : "free"; }
-
-LayerRule parse_layer_rule(std::string_view word) {
-  for (const LayerRule rule : {LayerRule::Keep, LayerRule::Free})
-    if (word == name(rule)) return rule;
-  throw UsageError(unknown_value("rule for boundary layers", word, std::array{name(LayerRule::Keep), name(LayerRule::Free)}));
-}
+std::string_view name(LayerRule rule) noexcept { return kLayerRules[static_cast<std::size_t>(rule)]; }
+LayerRule parse_layer_rule(std::string_view word) { return parse_choice<LayerRule>("rule for boundary layers", word, kLayerRules); }
 
 bool lets_slide(const InputMesh& input, const StandingRule& rule) {
   return rule.slides() || (input.geometry.shape == Shape::Planar && !rule.kinds.features.empty());

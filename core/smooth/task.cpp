@@ -9,13 +9,12 @@
 
 namespace dmoscope {
 
-std::string_view name(Directions directions) { return directions == Directions::Random ? "random" : "axes"; }
-
-Directions parse_directions(std::string_view word) {
-  for (const Directions directions : {Directions::Random, Directions::Axes})
-    if (word == name(directions)) return directions;
-  throw UsageError(unknown_value("directions", word, std::array{name(Directions::Random), name(Directions::Axes)}));
+namespace {
+constexpr std::array<std::string_view, 2> kDirections{"random", "axes"};  // in the order of Directions
 }
+
+std::string_view name(Directions directions) { return kDirections[static_cast<std::size_t>(directions)]; }
+Directions parse_directions(std::string_view word) { return parse_choice<Directions>("directions", word, kDirections); }
 
 void validate(const MethodOptions& options) {
   if (!(options.relaxation > 0.0 && options.relaxation <= 1.0))

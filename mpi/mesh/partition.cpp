@@ -26,14 +26,8 @@ namespace {
 
 /// The vertices' places along the curve, cut into stretches of about as many vertices.
 std::vector<int> along_curve(const World& world, const MeshBlock& block) {
-  Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-  for (const Vec3& p : block.positions) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  std::array<double, 6> ends{low.x, low.y, low.z, -high.x, -high.y, -high.z};
-  world.least(ends);
-  const HilbertCurve curve({ends[0], ends[1], ends[2]}, {-ends[3], -ends[4], -ends[5]});
+  const PointBox box = world.around_all(box_of(block.positions));
+  const HilbertCurve curve(box.low, box.high);
   std::vector<std::uint64_t> keys(block.positions.size());
   for (std::size_t v = 0; v < keys.size(); ++v) keys[v] = curve.key(block.positions[v]);
   std::vector<std::uint64_t> sorted = keys;

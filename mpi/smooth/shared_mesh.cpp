@@ -15,16 +15,9 @@ namespace {
 
 /// The whole mesh's geometry, which classify() finds for one process.
 Geometry classify_shares(const World& world, const Mesh& mesh, const std::string& file) {
-  Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high = -1.0 * low;
-  for (const Index v : mesh.elements.all_corners()) {
-    const Vec3& p = mesh.positions[v];
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  std::array<double, 6> ends{low.x, low.y, low.z, -high.x, -high.y, -high.z};
-  world.least(ends);
-  low = {ends[0], ends[1], ends[2]};
-  high = {-ends[3], -ends[4], -ends[5]};
+  PointBox own;
+  for (const Index v : mesh.elements.all_corners()) own.add(mesh.positions[v]);
+  const auto [low, high] = world.around_all(own);
   const auto kinds = mesh.elements.kinds();
   const auto is_volume = [](ElementKind kind) { return info(kind).dimension == 3; };
   const bool volume = world.any(std::ranges::any_of(kinds, is_volume));

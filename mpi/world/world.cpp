@@ -59,6 +59,12 @@ void World::least(std::span<double> here) const {
   MPI_Allreduce(MPI_IN_PLACE, here.data(), static_cast<int>(here.size()), MPI_DOUBLE, MPI_MIN, comm_);
 }
 
+PointBox World::around_all(const PointBox& here) const {
+  std::array<double, 6> ends{here.low.x, here.low.y, here.low.z, -here.high.x, -here.high.y, -here.high.z};
+  least(ends);
+  return {{ends[0], ends[1], ends[2]}, {-ends[3], -ends[4], -ends[5]}};
+}
+
 void World::broadcast(std::string& text, int from) const {
   std::uint64_t count = text.size();
   broadcast(count, from);

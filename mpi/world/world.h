@@ -11,6 +11,7 @@
 
 #include <mpi.h>
 
+#include "core/base/box.h"
 #include "core/base/error.h"
 
 namespace dmoscope {
@@ -99,6 +100,8 @@ class World {
   }
   /// Counts of each rank as ranges.
   [[nodiscard]] Ranges ranges(std::uint64_t here) const { return Ranges(all_of(here)); }
+  /// The box of all ranks' points.
+  [[nodiscard]] PointBox around_all(const PointBox& here) const;
   /// What one rank has, on all.
   template <Plain T>
   void broadcast(T& value, int from) const {

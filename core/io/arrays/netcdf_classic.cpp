@@ -214,30 +214,28 @@ std::vector<NetcdfClassic::Run> NetcdfClassic::runs(const Variable& variable, co
   return found;
 }
 
-std::vector<double> NetcdfClassic::numbers(const std::string& name, std::span<const std::uint64_t> first) {
-  const Variable& from = variable(name);
-  if (from.info.text) fail(fmt::format("variable {} holds text, where numbers should be", quote_token(name)));
-  std::vector<double> values;
+/// The numbers of a variable from the first of its rows on; value(bytes, type, big_endian): one of them.
+template <class Number, class Value>
+std::vector<Number> NetcdfClassic::load(const Variable& from, const std::string& name, std::span<const std::uint64_t> first, Value value) {
+  std::vector<Number> values;
   const std::size_t each = size_of(from.info.type);
   for (const Run& run : runs(from, name, first)) {
     values.reserve(values.size() + run.count);
-    for (std::uint64_t i = 0; i < run.count; ++i)
-      values.push_back(load_scalar(bytes().data() + run.offset + i * each, from.info.type, true));
+    for (std::uint64_t i = 0; i < run.count; ++i) values.push_back(value(bytes().data() + run.offset + i * each, from.info.type, true));
   }
   return values;
+}
+
+std::vector<double> NetcdfClassic::numbers(const std::string& name, std::span<const std::uint64_t> first) {
+  const Variable& from = variable(name);
+  if (from.info.text) fail(fmt::format("variable {} holds text, where numbers should be", quote_token(name)));
+  return load<double>(from, name, first, load_scalar);
 }
 
 std::vector<std::int64_t> NetcdfClassic::wholes(const std::string& name) {
   const Variable& from = variable(name);
   if (from.info.text || !is_whole(from.info.type)) fail(fmt::format("variable {} does not hold whole numbers", quote_token(name)));
-  std::vector<std::int64_t> values;
-  const std::size_t each = size_of(from.info.type);
-  for (const Run& run : runs(from, name, {})) {
-    values.reserve(values.size() + run.count);
-    for (std::uint64_t i = 0; i < run.count; ++i)
-      values.push_back(load_whole(bytes().data() + run.offset + i * each, from.info.type, true));
-  }
-  return values;
+  return load<std::int64_t>(from, name, {}, load_whole);
 }
 
 std::string NetcdfClassic::text(const std::string& name) {

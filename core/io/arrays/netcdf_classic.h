@@ -46,6 +46,8 @@ class NetcdfClassic final : public ArrayFile {
   class Header;
   const Variable& variable(const std::string& name) const;
   [[nodiscard]] std::vector<Run> runs(const Variable& variable, const std::string& name, std::span<const std::uint64_t> first) const;
+  template <class Number, class Value>
+  [[nodiscard]] std::vector<Number> load(const Variable& from, const std::string& name, std::span<const std::uint64_t> first, Value value);
 
   std::map<std::string, std::uint64_t> dimensions_;
   std::map<std::string, Variable> variables_;

@@ -147,10 +147,6 @@ class CgnsReader {
 /// An older kind of CGNS file, without HDF5.
 bool is_adf(std::string_view bytes) { return bytes.substr(0, 32).find("ADF Database") != std::string_view::npos; }
 
-Notes write_cgns(AtomicFile& file, const Mesh&, std::span<const Vec3>, const IoContext&) {
-  throw OutputError(file.path().string(), "CGNS files are written only where one was read: write it as .vtu or .msh");
-}
-
 /// The arrays of solutions at vertices whose fields changed.
 std::vector<ArrayValues> changed_solutions(Hdf5File& file, const CgnsPoints& points, const Mesh& mesh,
                                            std::span<const FieldValues> fields) {
@@ -202,12 +198,12 @@ Mesh read_cgns(SourceFile& source, const IoContext& context) {
 
 const FormatHandler& cgns_format() {
   static const FormatHandler handler{
-      {"cgns", "CGNS", ".cgns",
-       "unstructured and structured zones in HDF5, boundary conditions, families, solutions; only written where it was read"},
-      recognises_cgns,
-      read_cgns,
-      write_cgns,
-      patch_cgns};
+      .info = {"cgns", "CGNS", ".cgns",
+               "unstructured and structured zones in HDF5, boundary conditions, families, solutions; only written where it was read"},
+      .recognises = recognises_cgns,
+      .read = read_cgns,
+      .patch = patch_cgns,
+      .not_written = "CGNS files are written only where one was read: write it as .vtu or .msh"};
   return handler;
 }
 

@@ -337,10 +337,6 @@ Mesh read_exodus(SourceFile& source, const IoContext& context) { return ExodusRe
 
 namespace {
 
-Notes write_exodus(AtomicFile& file, const Mesh&, std::span<const Vec3>, const IoContext&) {
-  throw OutputError(file.path().string(), "Exodus files are written only where one was read: write it as .vtu or .msh");
-}
-
 Notes patch_exodus(AtomicFile& file, const Mesh& mesh, const MovedMesh& moved, const IoContext& context) {
   Notes notes;
   if (same_positions(mesh.positions, moved.positions) && moved.fields.empty()) {
@@ -368,18 +364,18 @@ bool recognises_exodus(std::string_view bytes) {
 }  // namespace
 
 const FormatHandler& exodus_format(){static const FormatHandler handler{
-    {"exodus", "Exodus II", ".e .exo .g .ex2",
+    .info = {"exodus", "Exodus II", ".e .exo .g .ex2",
 #ifdef DMOSCOPE_HDF5
-     "2D and 3D elements, element blocks, node and side sets, results of the last time step; only written "
-     "where it was read"},
+             "2D and 3D elements, element blocks, node and side sets, results of the last time step; only written "
+             "where it was read"},
 #else
-     "2D and 3D elements, element blocks, node and side sets, results of the last time step; only written "
-     "where it was read; without netCDF-4, for this build was made without HDF5"},
+             "2D and 3D elements, element blocks, node and side sets, results of the last time step; only written "
+             "where it was read; without netCDF-4, for this build was made without HDF5"},
 #endif
-    recognises_exodus,
-    read_exodus,
-    write_exodus,
-    patch_exodus};
+    .recognises = recognises_exodus,
+    .read = read_exodus,
+    .patch = patch_exodus,
+    .not_written = "Exodus files are written only where one was read: write it as .vtu or .msh"};
 return handler;
 }  // namespace dmoscope
 

@@ -194,21 +194,15 @@ Mesh read_meshb(SourceFile& source, const IoContext& context) {
   return mesh;
 }
 
-Notes write_meshb(AtomicFile& file, const Mesh&, std::span<const Vec3>, const IoContext&) {
-  throw OutputError(file.path().string(), "binary MEDIT files are written only where one was read: write it as .mesh");
-}
-
 }  // namespace
 
 const FormatHandler& meshb_format() {
   static const FormatHandler handler{
-      {"meshb", "MEDIT binary", ".meshb", "as MEDIT, versions 1 to 4, either byte order; only written where it was read"},
-      recognises_meshb,
-      read_meshb,
-      write_meshb,
-      nullptr,
-      nullptr,
-      solutions_beside};
+      .info = {"meshb", "MEDIT binary", ".meshb", "as MEDIT, versions 1 to 4, either byte order; only written where it was read"},
+      .recognises = recognises_meshb,
+      .read = read_meshb,
+      .further = solutions_beside,
+      .not_written = "binary MEDIT files are written only where one was read: write it as .mesh"};
   return handler;
 }
 

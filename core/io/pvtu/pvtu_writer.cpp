@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/box.h"
 #include "core/base/error.h"
 #include "core/base/xml_text.h"
 #include "core/io/format.h"
@@ -19,12 +20,8 @@ constexpr std::size_t kElementsOfPiece = 1'000'000;
 
 /// The piece of each element: stretches of a Hilbert curve along which its lowest vertices lie.
 std::vector<std::size_t> pieces_of_elements(const Mesh& mesh, std::span<const Vec3> positions, std::size_t pieces) {
-  Vec3 low = positions[0], high = positions[0];
-  for (const Vec3& p : positions) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  const HilbertCurve curve(low, high);
+  const PointBox box = box_of(positions);
+  const HilbertCurve curve(box.low, box.high);
   std::vector<std::pair<std::uint64_t, Index>> order;
   for (Index e = 0; e < mesh.elements.size(); ++e) order.emplace_back(curve.key(positions[std::ranges::min(mesh.elements.corners(e))]), e);
   std::ranges::sort(order);

@@ -142,18 +142,15 @@ class MikeReader {
 
 Mesh read_mike(SourceFile& source, const IoContext& context) { return MikeReader(source, context.progress).read(); }
 
-Notes write_mike(AtomicFile& file, const Mesh&, std::span<const Vec3>, const IoContext&) {
-  throw OutputError(file.path().string(), "a mesh of MIKE is written only where one was read: write it as .2dm");
-}
-
 }  // namespace
 
 const FormatHandler& mike_format() {
   static const FormatHandler handler{
-      {"mike", "MIKE mesh", ".mesh", "x, y and level, triangles and quadrilaterals, codes of the boundary; only written where it was read"},
-      recognises_mike,
-      read_mike,
-      write_mike};
+      .info = {"mike", "MIKE mesh", ".mesh",
+               "x, y and level, triangles and quadrilaterals, codes of the boundary; only written where it was read"},
+      .recognises = recognises_mike,
+      .read = read_mike,
+      .not_written = "a mesh of MIKE is written only where one was read: write it as .2dm"};
   return handler;
 }
 

@@ -210,10 +210,6 @@ Notes patch_selafin(AtomicFile& file, const Mesh& mesh, const MovedMesh& moved, 
   return {fmt::format("{} moved numbers were rounded to 32-bit floats, which is what the file holds.", rounded)};
 }
 
-Notes write_selafin(AtomicFile& file, const Mesh&, std::span<const Vec3>, const IoContext&) {
-  throw OutputError(file.path().string(), "SELAFIN files are written only where one was read: write it as .2dm");
-}
-
 }  // namespace
 
 const FormatHandler& selafin_format() {
@@ -221,8 +217,8 @@ const FormatHandler& selafin_format() {
                                               "triangles or quadrilaterals in a plane, variables; only written where it was read"},
                                      .recognises = recognises_selafin,
                                      .read = read_selafin,
-                                     .write = write_selafin,
-                                     .patch = patch_selafin};
+                                     .patch = patch_selafin,
+                                     .not_written = "SELAFIN files are written only where one was read: write it as .2dm"};
   return handler;
 }
 

@@ -61,11 +61,7 @@ Executor on_device(const Accelerator& accelerator, const SmoothingTask& task) {
 
 std::string_view name(Backend backend) { return kBackendNames[static_cast<std::size_t>(backend)]; }
 
-Backend parse_backend(std::string_view word) {
-  const auto found = std::ranges::find(kBackendNames, word);
-  if (found == kBackendNames.end()) throw UsageError(unknown_value("backend", word, kBackendNames));
-  return static_cast<Backend>(found - kBackendNames.begin());
-}
+Backend parse_backend(std::string_view word) { return parse_choice<Backend>("backend", word, kBackendNames); }
 
 void require_backend(Backend wanted, const Acceleration& acceleration) {
   if (wanted == Backend::Cuda && !acceleration.accelerator) refuse(acceleration.reason);

@@ -13,6 +13,7 @@
 #include "core/io/source_again.h"
 #include "core/io/vtk/vtk_order.h"
 #include "core/mesh/geographic.h"
+#include "core/mesh/outline.h"
 #include "core/mesh/thin.h"
 #include "library/mesh_data.h"
 #include "library/translate.h"
@@ -284,6 +285,31 @@ std::vector<CellGroup> Mesh::cell_groups() const {
   for (const dmoscope::Group& group : data_->input->mesh.groups)
     if (group.of_elements()) all.push_back({group.name, group.members});
   return all;
+}
+
+std::vector<BoundaryLoop> Mesh::boundary_loops() const {
+  return translated([&] {
+    dmoscope::Outline outline = outline_of(data_->judge()->mesh, data_->positions());
+    std::vector<BoundaryLoop> all;
+    for (dmoscope::BoundaryLoop& loop : outline.loops)
+      all.push_back({std::move(loop.vertices), loop.length, loop.area, loop.part, loop.outer});
+    return all;
+  });
+}
+std::vector<std::vector<Index>> Mesh::parts() const {
+  return translated([&] {
+    dmoscope::Outline outline = outline_of(data_->judge()->mesh, data_->positions());
+    std::vector<std::vector<Index>> all;
+    for (dmoscope::MeshPart& part : outline.parts) all.push_back(std::move(part.elements));
+    return all;
+  });
+}
+std::vector<Index> Mesh::ring(std::size_t vertex) const {
+  return translated([&] {
+    if (vertex >= vertex_count()) throw dmoscope::UsageError(fmt::format("there is no vertex {}, the mesh has {}", vertex, vertex_count()));
+    const auto input = data_->judge();
+    return ordered_ring(input->mesh, input->topology, static_cast<Index>(vertex));
+  });
 }
 bool Mesh::is_volume() const { return data_->input->is_volume(); }
 bool Mesh::is_surface() const { return data_->input->is_surface(); }

@@ -12,6 +12,7 @@
 #include "core/base/words.h"
 #include "core/mesh/vertex_words.h"
 #include "core/run/recipe.h"
+#include "core/run/sliding.h"
 #include "core/smooth/composite_objective.h"
 #include "core/target/target.h"
 
@@ -37,8 +38,8 @@ auto naming(const std::string& option, const Work& work) {
 }
 
 [[noreturn]] void refuse_unknown(const std::string& name) {
-  std::vector<std::string_view> known{"combine",  "fix",    "max-iterations", "method", "metric",
-                                      "patience", "recipe", "size-function",  "target", "then"};
+  std::vector<std::string_view> known{"combine", "fix",           "max-iterations", "method", "metric", "patience",
+                                      "recipe",  "size-function", "slide",          "target", "then"};
   for (const dmoscope::ParameterInfo& row : dmoscope::parameter_table()) known.push_back(row.name);
   std::sort(known.begin(), known.end());
   throw dmoscope::UsageError(dmoscope::unknown_value("option", name, known));
@@ -83,8 +84,10 @@ RunRequest request_of(const dmoscope::InputMesh& input, const SmoothOptions& opt
     if (const auto node = words.extract(std::string(row.name)); !node.empty())
       naming(node.key(), [&] { row.from_text(parameters, node.mapped()); });
   if (const std::string then = take(words, "then"); !then.empty()) naming("then", [&] { set_then(parameters, then, {}); });
+  if (const std::string slide = take(words, "slide"); !slide.empty())
+    naming("slide", [&] { slide_only(parameters, input, dmoscope::vertices_named(input.mesh, slide)); });
   if (const std::string fix = take(words, "fix"); !fix.empty())
-    parameters.fixed = naming("fix", [&] { return dmoscope::vertices_named(input.mesh, fix); });
+    for (const Index v : naming("fix", [&] { return dmoscope::vertices_named(input.mesh, fix); })) parameters.fixed.push_back(v);
   if (const std::string recipe = take(words, "recipe"); !recipe.empty()) {
     std::string without = follow_recipe(dmoscope::recipe(recipe), input, parameters);
     if (!without.empty()) request.warnings.push_back(std::move(without));

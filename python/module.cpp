@@ -296,6 +296,31 @@ void define_mesh(py::module_& module) {
                                }
                                return groups;
                              })
+      .def_property_readonly(
+          "boundary_loops",
+          [](const dmo::Mesh& mesh) {
+            py::list loops;
+            for (dmo::BoundaryLoop& loop : mesh.boundary_loops()) {
+              const py::ssize_t count = length(loop.vertices.size());
+              loops.append(py::make_tuple(array_of(std::move(loop.vertices), {count}), loop.length, loop.area, loop.part, loop.outer));
+            }
+            return loops;
+          })
+      .def_property_readonly("parts",
+                             [](const dmo::Mesh& mesh) {
+                               py::list parts;
+                               for (std::vector<dmo::Index>& part : mesh.parts()) {
+                                 const py::ssize_t count = length(part.size());
+                                 parts.append(array_of(std::move(part), {count}));
+                               }
+                               return parts;
+                             })
+      .def("ring",
+           [](const dmo::Mesh& mesh, std::size_t vertex) {
+             std::vector<dmo::Index> ring = mesh.ring(vertex);
+             const py::ssize_t count = length(ring.size());
+             return array_of(std::move(ring), {count});
+           })
       .def("to_bytes", [](const dmo::Mesh& mesh) { return py::bytes(mesh.to_bytes()); })
       .def_static("from_bytes", [](const py::bytes& bytes) { return dmo::Mesh::from_bytes(std::string_view(bytes)); })
       .def_property_readonly("is_volume", &dmo::Mesh::is_volume)

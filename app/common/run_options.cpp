@@ -117,6 +117,12 @@ void add_run_options(CLI::App& subcommand, RunOptions& options) {
       ->type_name("VERTICES")
       ->take_all()
       ->expected(1);
+  subcommand
+      .add_option("--slide", options.slide,
+                  "Vertices of the boundary, named as those to fix are, that slide while the rest of the boundary stays: loop:1")
+      ->type_name("VERTICES")
+      ->take_all()
+      ->expected(1);
   add_kind_options(subcommand, options.kinds);
 }
 

@@ -34,6 +34,7 @@ struct RunOptions {
   unsigned threads = 0;
   std::string hints = "on";                                                         // for parse_hints()
   std::vector<std::string> fix;                                                     // for vertices_to_fix()
+  std::vector<std::string> slide;                                                   // for vertices_to_slide()
   KindWords kinds;                                                                  // for kinds_of()
   std::map<std::string, std::string, std::less<>> parameters = usual_parameters();  // of parameter_table(): name, value
 };
@@ -41,8 +42,8 @@ struct RunOptions {
 /// Declares --backend.
 void add_backend_option(CLI::App& subcommand, std::string& backend);
 
-/// Declares --method, --metric, --combine, --size-function, --then, --threads, --hints, --fix, --corner and the like, and an option for
-/// every row of parameter_table().
+/// Declares --method, --metric, --combine, --size-function, --then, --threads, --hints, --fix, --slide, --corner and the like, and an
+/// option for every row of parameter_table().
 void add_run_options(CLI::App& subcommand, RunOptions& options);
 
 /// The parameters without the fixed set and the kinds, which need the mesh. Throws UsageError for names that do not exist and values out of

@@ -12,6 +12,7 @@
 #include "core/numeric/simd.h"
 #include "core/reference/domain.h"
 #include "core/run/ending.h"
+#include "core/run/sliding.h"
 #include "core/session/csv.h"
 #include "core/session/parameter_json.h"
 #include "core/smooth/execution/method_table.h"
@@ -132,7 +133,7 @@ Json json_of(const SmoothReport& r) {
   object["parameters"] = std::move(parameters);
   object["held_on_interfaces"] = p.interfaces == InterfaceRule::Free ? 0 : r.on_interfaces;
   if (p.interfaces == InterfaceRule::Slide) object["held_on_interfaces"] = r.on_interfaces - r.run.domain()->count_inside();
-  object["sliding"] = r.run.domain() ? r.run.domain()->count() : 0;
+  object["sliding"] = count_sliding(r.run);
   object["geographic"] = r.run.input().mesh.degrees != nullptr;
   object["thin"] = r.run.input().mesh.thin != nullptr;
   object["iterations"] = r.outcome.iterations;
@@ -170,7 +171,7 @@ void print_summary(const SmoothReport& r) {
         counted(r.elements, "element", "elements"), grouped(r.free), r.run.title(), name(r.run.backend()));
   if (r.card) print("  {}\n", r.card->sentence(true));
   if (r.run.input().mesh.degrees) print("  in degrees of longitude and latitude: judged on the Earth\n");
-  if (const auto& domain = r.run.domain()) print("  {}\n", domain->sentence());
+  if (const std::string text = sliding_sentence(r.run); !text.empty()) print("  {}\n", text);
   print("  {:<16} {:>10} -> {}\n", "minimum", brief(before.minimum), brief(after.minimum));
   print("  {:<16} {:>10} -> {}\n", "movable minimum", brief(before.movable_minimum), brief(after.movable_minimum));
   print("  {:<16} {:>10}    (elements whose corners are all fixed)\n", "ceiling", brief(after.ceiling));

@@ -134,11 +134,10 @@ ComparisonPlan plan_of(const CompareOptions& options) {
   return plan;
 }
 
-void fit_to_mesh(ComparisonPlan& plan, const std::shared_ptr<const InputMesh>& input, const std::vector<Index>& fixed, const Kinds& kinds) {
+void fit_to_mesh(ComparisonPlan& plan, const std::shared_ptr<const InputMesh>& input, const Kinds& kinds) {
   require_defined(plan.judge, *input);
   std::vector<Contender> possible;
   for (Contender& contender : plan.contenders) {
-    contender.parameters.fixed = fixed;
     contender.parameters.kinds = kinds;
     std::string reason = why_no_run(input, contender.parameters, plan.acceleration);
     if (reason.empty()) {

@@ -47,8 +47,8 @@ struct ComparisonPlan {
 /// The runs, as far as that can be said without the mesh. Throws UsageError for what does not exist, and when there is none.
 [[nodiscard]] ComparisonPlan plan_of(const CompareOptions& options);
 
-/// Gives every run these fixed vertices and kinds, and leaves out what --every asked for and cannot be on this mesh. Throws UsageError for
+/// Gives every run these kinds, and leaves out what --every asked for and cannot be on this mesh. Throws UsageError for
 /// a run that was asked for by name and cannot be, for a judge that is not defined for the mesh, and when nothing is left.
-void fit_to_mesh(ComparisonPlan& plan, const std::shared_ptr<const InputMesh>& input, const std::vector<Index>& fixed, const Kinds& kinds);
+void fit_to_mesh(ComparisonPlan& plan, const std::shared_ptr<const InputMesh>& input, const Kinds& kinds);
 
 }  // namespace dmoscope::app

@@ -46,9 +46,9 @@ void refuse(bool is_asked, std::string_view what) {
 /// What needs more of the mesh than a rank has.
 void refuse_what_needs_one_process(const RunOptions& options, const RunParameters& parameters) {
   refuse(method_info(parameters.method).joint || parameters.then_joint, "joint moves (--method joint, --then joint)");
-  refuse(parameters.standing().slides() || !options.kinds.corner.empty() || !options.kinds.no_corner.empty() ||
+  refuse(parameters.standing().slides() || !options.slide.empty() || !options.kinds.corner.empty() || !options.kinds.no_corner.empty() ||
              !options.kinds.feature.empty() || !options.kinds.no_feature.empty(),
-         "vertices that slide (--boundary slide, --interfaces slide, --corner, --feature)");
+         "vertices that slide (--boundary slide, --slide, --interfaces slide, --corner, --feature)");
   refuse(parameters.combination && parameters.combination->size() != nullptr, "sizes (--combine with density)");
   refuse(parameters.order.seed.has_value(), "an order of visits but the natural one (--order)");
   refuse(parameters.backend == Backend::Cuda, "a device (--backend cuda)");

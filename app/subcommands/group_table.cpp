@@ -58,6 +58,44 @@ Json json_of_groups(const Mesh& mesh) {
   return list;
 }
 
+void print_outline(const Outline& outline) {
+  const bool several = outline.parts.size() > 1;
+  std::vector<std::vector<std::string>> loops, parts;
+  for (Index l = 0; l < outline.loops.size(); ++l) {
+    const BoundaryLoop& loop = outline.loops[l];
+    loops.push_back({outline.name(l), grouped(loop.vertices.size()), brief(loop.length), brief(loop.area)});
+    if (several) loops.back().push_back(std::to_string(loop.part + 1));
+  }
+  std::vector<std::string> heads{"boundary", "vertices", "length", "encloses"};
+  if (several) heads.emplace_back("part");
+  if (!loops.empty()) print_lines("\n" + text_table(heads, loops, several ? "lrrrr" : "lrrr"));
+  for (Index p = 0; several && p < outline.parts.size(); ++p) {
+    const MeshPart& part = outline.parts[p];
+    parts.push_back(
+        {fmt::format("part {}", p + 1), grouped(part.elements.size()), grouped(part.vertices), grouped(part.loops), brief(part.area)});
+  }
+  if (several) print_lines("\n" + text_table({"connected", "elements", "vertices", "loops", "area"}, parts, "lrrrr"));
+  if (outline.left_out > 0)
+    print("\nloops and parts leave out {}: a third one at an edge, or wound against its neighbours\n",
+          counted(outline.left_out, "element", "elements"));
+}
+
+Json json_of_outline(const Outline& outline) {
+  Json loops = Json::array(), parts = Json::array();
+  for (Index l = 0; l < outline.loops.size(); ++l) {
+    const BoundaryLoop& loop = outline.loops[l];
+    loops.push_back({{"name", outline.name(l)},
+                     {"part", loop.part + 1},
+                     {"outer", loop.outer},
+                     {"vertices", loop.vertices.size()},
+                     {"length", loop.length},
+                     {"area", loop.area}});
+  }
+  for (const MeshPart& part : outline.parts)
+    parts.push_back({{"elements", part.elements.size()}, {"vertices", part.vertices}, {"loops", part.loops}, {"area", part.area}});
+  return {{"boundary_loops", std::move(loops)}, {"parts", std::move(parts)}, {"left_out", outline.left_out}};
+}
+
 Json json_of_fields(const Mesh& mesh) {
   Json list = Json::array();
   for (const Field& field : mesh.fields) {

@@ -5,6 +5,7 @@
 
 #include "app/common/text.h"
 #include "core/mesh/mesh.h"
+#include "core/mesh/outline.h"
 
 namespace dmoscope::app {
 
@@ -18,5 +19,11 @@ void print_fields(const Mesh& mesh);
 [[nodiscard]] Json json_of_groups(const Mesh& mesh);
 /// [{"name", "of", "components", "names_materials"}]
 [[nodiscard]] Json json_of_fields(const Mesh& mesh);
+
+/// A line for each boundary loop and, where there are several, for each connected part; nothing where there are no loops and one part.
+void print_outline(const Outline& outline);
+/// {"boundary_loops": [{"name", "part", "outer", "vertices", "length", "area"}], "parts": [{"elements", "vertices", "loops", "area"}],
+/// "left_out"}; parts count from 1 as the words of --fix have them.
+[[nodiscard]] Json json_of_outline(const Outline& outline);
 
 }  // namespace dmoscope::app

@@ -8,6 +8,7 @@
 #include "core/mesh/vertex_words.h"
 #include "core/reference/edge_words.h"
 #include "core/reference/kind_facts.h"
+#include "core/run/sliding.h"
 
 namespace dmoscope::app {
 std::vector<std::string> tell_findings(const InputMesh& input) {
@@ -31,24 +32,37 @@ void tell_interfaces(const InputMesh& input, const RunParameters& parameters, st
   }
 }
 
-std::vector<Index> vertices_to_fix(const Mesh& mesh, const std::vector<std::string>& words) {
+namespace {
+
+/// The option's name before what is wrong with its words.
+template <class Work>
+auto by_option(std::string_view option, const Work& work) {
   try {
-    return vertices_named(mesh, words);
+    return work();
   } catch (const UsageError& error) {
-    throw UsageError(fmt::format("--fix {}", error.what()));
+    throw UsageError(fmt::format("{} {}", option, error.what()));
   }
+}
+
+}  // namespace
+
+std::vector<Index> vertices_to_fix(const Mesh& mesh, const std::vector<std::string>& words) {
+  return by_option("--fix", [&] { return vertices_named(mesh, words); });
+}
+
+std::vector<Index> vertices_to_slide(const Mesh& mesh, const std::vector<std::string>& words) {
+  return by_option("--slide", [&] { return vertices_named(mesh, words); });
+}
+
+void fix_and_slide(RunParameters& parameters, const InputMesh& input, const std::vector<Index>& fixed, const std::vector<Index>& sliding) {
+  parameters.fixed.clear();
+  if (!sliding.empty()) by_option("--slide", [&] { slide_only(parameters, input, sliding); });
+  parameters.fixed.insert(parameters.fixed.end(), fixed.begin(), fixed.end());
 }
 
 Kinds kinds_of(const InputMesh& input, const RunParameters& parameters, const KindWords& words, std::vector<std::string>& warnings) {
   StandingRule rule = parameters.standing();
   std::vector<std::pair<const char*, Kinds>> said;
-  const auto by_option = [](const char* option, const auto& work) {
-    try {
-      return work();
-    } catch (const UsageError& error) {
-      throw UsageError(fmt::format("{} {}", option, error.what()));
-    }
-  };
   const auto corners = [&](const char* option, const std::vector<std::string>& names, Saying saying) {
     if (names.empty()) return;
     const auto vertices = by_option(option, [&] { return vertices_named(input.mesh, names); });

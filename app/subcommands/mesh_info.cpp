@@ -33,6 +33,7 @@ Json json_of(const InputMesh& input, const Mesh& mesh, const std::filesystem::pa
           {"kinds", std::move(kinds)},
           {"groups", json_of_groups(mesh)},
           {"data", json_of_fields(mesh)},
+          {"outline", json_of_outline(outline_of(input.mesh))},
           {"boundary_layers", {{"elements", layers.elements.size()}, {"stacks", layers.stacks}, {"most", layers.most}}},
           {"thin", input.mesh.thin != nullptr},
           {"held_on_interfaces", input.interfaces.count()},
@@ -61,6 +62,7 @@ void tell_mesh(const std::filesystem::path& file, bool json) {
   if (!mesh.title.empty()) print("{}\n", mesh.title);
   print_groups(mesh, std::numeric_limits<std::size_t>::max());
   print_fields(mesh);
+  print_outline(outline_of(input->mesh));
   if (const BoundaryLayers layers = find_boundary_layers(input->mesh, input->geometry); !layers.empty())
     print("\nboundary layers: {} in {}, up to {} high ({})\n", counted(layers.elements.size(), "element", "elements"),
           counted(layers.stacks, "stack", "stacks"), layers.most,

@@ -140,7 +140,7 @@ int smooth(const SmoothOptions& options) {
   options.reading.tell(reading);
   const auto input = load_input_on(options.input, options.surface, Need::Smoothing, reading, options.materials);
   std::vector<std::string> warnings = tell_findings(*input);
-  parameters.fixed = vertices_to_fix(input->mesh, options.run.fix);
+  fix_and_slide(parameters, *input, vertices_to_fix(input->mesh, options.run.fix), vertices_to_slide(input->mesh, options.run.slide));
   require_fields(parameters.fields, input->mesh);
   parameters.kinds = kinds_of(*input, parameters, options.run.kinds, warnings);
   tell_interfaces(*input, parameters, warnings);

@@ -22,7 +22,7 @@ void change_kinds(CommandContext& context, const Kinds& said, const std::functio
   const StandingRule rule = parameters.standing();
   const std::string not_met = require_met(*session.input(), rule, domain_for(*session.input(), rule).get(), said);
   change_run(context, [&](RunParameters& p) { edit(p.kinds); });
-  if (const auto& domain = session.active().domain()) tell(context, domain->sentence());
+  tell_sliding(context);
   if (!not_met.empty()) tell(context, not_met, Message::Kind::Warning);
 }
 
@@ -51,8 +51,8 @@ std::span<const CommandRow> kind_commands() {
                       {saying == Saying::Automatic ? 0U : 1U, kAnyWords,
                        [=](CommandContext& context, Arguments arguments) { handler(context, arguments, saying); }}});
     };
-    constexpr const char *kVertices = "VERTEX|A-B|group:NAME|FIELD=VALUE|box:X0,Y0,X1,Y1...",
-                         *kAnyVertices = "[VERTEX|A-B|group:NAME|FIELD=VALUE|box:X0,Y0,X1,Y1...]";
+    constexpr const char *kVertices = "VERTEX|A-B|group:NAME|FIELD=VALUE|box:X0,Y0,X1,Y1|loop:N...",
+                         *kAnyVertices = "[VERTEX|A-B|group:NAME|FIELD=VALUE|box:X0,Y0,X1,Y1|loop:N...]";
     constexpr const char *kEdges = "A-B|A-B-C|chain:A-B|group:NAME...", *kAnyEdges = "[A-B|A-B-C|chain:A-B|group:NAME...]";
     add("corner", Saying::Is, kVertices, "Makes vertices corners: where others slide, they stay.", say_corner);
     add("no-corner", Saying::IsNot, kVertices, "Lets vertices slide that are corners only because their curve turns there.", say_corner);

@@ -7,13 +7,13 @@
 
 #include "core/commands/command_rows.h"
 #include "core/mesh/vertex_words.h"
-#include "core/reference/domain.h"
+#include "core/run/sliding.h"
 #include "core/smooth/execution/method_table.h"
 
 namespace dmoscope {
 
 void tell_sliding(CommandContext& context) {
-  if (const auto& domain = context.session.active().domain()) tell(context, domain->sentence());
+  if (std::string text = sliding_sentence(context.session.active()); !text.empty()) tell(context, std::move(text));
 }
 
 namespace {
@@ -77,6 +77,12 @@ void fix(CommandContext& context, Arguments arguments) {
   const std::vector<Index> vertices = vertices_named(context.session.input()->mesh, arguments);
   change_run(context, [&](RunParameters& p) { p.fixed.insert(p.fixed.end(), vertices.begin(), vertices.end()); });
 }
+void slide(CommandContext& context, Arguments arguments) {
+  const std::shared_ptr<const InputMesh> input = context.session.input();
+  const std::vector<Index> vertices = vertices_named(input->mesh, arguments);
+  change_run(context, [&](RunParameters& p) { slide_only(p, *input, vertices); });
+  tell_sliding(context);
+}
 void unfix(CommandContext& context, Arguments arguments) {
   if (arguments.empty()) return change_run(context, [](RunParameters& p) { p.fixed.clear(); });
   std::vector<Index> vertices = vertices_named(context.session.input()->mesh, arguments);
@@ -95,12 +101,15 @@ std::span<const CommandRow> parameter_commands() {
         {{"method", "method NAME", "Chooses the smoothing method."}, {1, 1, set_method}},
     };
     add_parameters(rows);
-    rows.push_back({{"fix", "fix VERTEX|A-B|group:NAME|FIELD=VALUE|box:X0,Y0,X1,Y1...",
+    rows.push_back({{"fix", "fix VERTEX|A-B|group:NAME|FIELD=VALUE|box:X0,Y0,X1,Y1|loop:N...",
                      "Fixes vertices besides the boundary: by number, by a group's name, by data of the file, or in a box."},
                     {1, kAnyWords, fix}});
-    rows.push_back(
-        {{"unfix", "unfix [VERTEX|A-B|group:NAME|FIELD=VALUE|box:X0,Y0,X1,Y1...]", "Frees what was fixed by hand: all, or these vertices."},
-         {0, kAnyWords, unfix}});
+    rows.push_back({{"slide", "slide VERTEX|A-B|group:NAME|FIELD=VALUE|box:X0,Y0,X1,Y1|loop:N...",
+                     "Lets the boundary slide at these vertices; the rest of it stays."},
+                    {1, kAnyWords, slide}});
+    rows.push_back({{"unfix", "unfix [VERTEX|A-B|group:NAME|FIELD=VALUE|box:X0,Y0,X1,Y1|loop:N...]",
+                     "Frees what was fixed by hand: all, or these vertices."},
+                    {0, kAnyWords, unfix}});
     return rows;
   }();
   return table;

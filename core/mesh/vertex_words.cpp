@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/base/number_in.h"
 #include "core/mesh/group_facts.h"
+#include "core/mesh/outline.h"
 #include "core/mesh/thin.h"
 
 namespace dmoscope {
@@ -45,6 +46,8 @@ class VertexWord {
       list(rest);
     } else if (head == "box") {
       box(rest);
+    } else if (head == "loop" || head == "part") {
+      found_ = vertices_of_outline(mesh_, head, rest);
     } else if (head == "group") {
       groups(rest, "");
     } else if (head == "points" || head == "lines" || head == "faces" || head == "elements") {

@@ -21,7 +21,7 @@ import numpy as np
 from . import _dmoscope
 from ._dmoscope import Error, InputError, Iteration, OutputError, UsageError, __version__
 
-__all__ = ["Error", "InputError", "Iteration", "Mesh", "Metric", "OutputError", "Smoothed", "Trace", "TraceLevel", "UsageError",
+__all__ = ["BoundaryLoop", "Error", "InputError", "Iteration", "Mesh", "Metric", "OutputError", "Smoothed", "Trace", "TraceLevel", "UsageError",
            "metrics", "read", "render", "smooth", "trace", "__version__"]
 
 # In the order of the library's CellKind: meshio's name, VTK's number, corners.
@@ -29,6 +29,16 @@ _KINDS = (("triangle", 5, 3), ("quad", 9, 4), ("tetra", 10, 4), ("hexahedron", 1
 _MOST = 0xFFFFFFFF  # of the library's numbers
 _KIND_BY_NAME = {name: kind for kind, (name, _, _) in enumerate(_KINDS)}
 _KIND_BY_VTK = {number: kind for kind, (_, number, _) in enumerate(_KINDS)}
+
+
+@dataclass(frozen=True)
+class BoundaryLoop:
+    """A closed curve of the boundary. vertices: in order, with the mesh to the left. area: that it encloses; of a loop that is not planar, of its shadow where that is largest. part: parts[part] is what it bounds. outer: in a planar mesh, whether it goes around its part."""
+    vertices: np.ndarray
+    length: float
+    area: float
+    part: int
+    outer: bool
 
 
 def _points(points):
@@ -148,6 +158,20 @@ class Mesh:
     def cell_groups(self) -> Dict[str, np.ndarray]:
         """Cells that the file names: by name, their numbers."""
         return self._mesh.cell_groups
+
+    @property
+    def boundary_loops(self) -> List[BoundaryLoop]:
+        """The closed curves of the boundary of a planar or surface mesh, as fix="loop:1" knows them; of a volume mesh none."""
+        return [BoundaryLoop(*loop) for loop in self._mesh.boundary_loops]
+
+    @property
+    def parts(self) -> List[np.ndarray]:
+        """Cells connected across edges, as fix="part:1" knows them; of a volume mesh none."""
+        return self._mesh.parts
+
+    def ring(self, vertex: int) -> np.ndarray:
+        """The neighbours of a vertex across edges in order, counter-clockwise; on the boundary from edge to edge."""
+        return self._mesh.ring(_whole("vertex", vertex, _MOST))
 
     @property
     def boundary(self) -> np.ndarray:

@@ -23,6 +23,8 @@ class Mesh:
     cell_data: Dict[str, np.ndarray]
     point_data: Dict[str, np.ndarray]
     cell_groups: Dict[str, np.ndarray]
+    boundary_loops: List[Tuple[np.ndarray, float, float, int, bool]]
+    parts: List[np.ndarray]
     is_volume: bool
     in_degrees: bool
     thin: bool
@@ -39,6 +41,7 @@ class Mesh:
     def with_materials(self, names: list[str]) -> "Mesh": ...
     def with_degrees(self, degrees: bool) -> "Mesh": ...
     def with_thin(self, thin: bool) -> "Mesh": ...
+    def ring(self, vertex: int) -> np.ndarray: ...
 
 class Iteration:
     number: int

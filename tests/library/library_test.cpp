@@ -34,6 +34,35 @@ TEST(Library, ArraysComeBackAsTheyWentIn) {
   EXPECT_TRUE(solids().mesh().is_volume());
 }
 
+TEST(Library, BoundaryLoopsPartsAndRings) {
+  const Arrays arrays = sheet(6);
+  const dmo::Mesh mesh = arrays.mesh();
+  const std::vector<dmo::BoundaryLoop> loops = mesh.boundary_loops();
+  ASSERT_EQ(loops.size(), 1U);
+  EXPECT_TRUE(loops[0].outer);
+  EXPECT_EQ(loops[0].vertices.size(), 24U);
+  EXPECT_DOUBLE_EQ(loops[0].length, 24);
+  EXPECT_DOUBLE_EQ(loops[0].area, 36);
+  ASSERT_EQ(mesh.parts().size(), 1U);
+  EXPECT_EQ(mesh.parts()[0].size(), arrays.kinds.size());
+  EXPECT_EQ(mesh.ring(0), (std::vector<dmo::Index>{1, 7})) << "a corner whose cell is a quadrilateral, from edge to edge";
+  EXPECT_THROW((void)mesh.ring(49), dmo::UsageError);
+  std::vector<double> twice = arrays.positions;
+  for (double& x : twice) x *= 2;
+  EXPECT_DOUBLE_EQ(mesh.with_positions(twice.data()).boundary_loops()[0].length, 48) << "of the mesh as it stands";
+  EXPECT_TRUE(solids().mesh().boundary_loops().empty());
+  EXPECT_TRUE(solids().mesh().parts().empty());
+  EXPECT_TRUE(solids().mesh().ring(0).empty());
+  dmo::SmoothOptions options;
+  options.options["slide"] = "loop:1";
+  const dmo::Smoothed slid = dmo::smooth(mesh, options);
+  options.options = {{"boundary", "slide"}};
+  const dmo::Smoothed all = dmo::smooth(mesh, options);
+  EXPECT_EQ(std::memcmp(slid.mesh.positions(), all.mesh.positions(), arrays.positions.size() * sizeof(double)), 0);
+  options.options = {{"slide", "loop:2"}};
+  EXPECT_THROW((void)dmo::smooth(mesh, options), dmo::UsageError);
+}
+
 TEST(Library, ClockwiseTrianglesStayClockwise) {
   Arrays arrays = sheet(4);
   std::swap(arrays.connectivity[1], arrays.connectivity[3]);  // a quadrilateral of another winding than all the rest

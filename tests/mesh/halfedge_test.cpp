@@ -50,9 +50,9 @@ TEST(HalfEdges, RingsAreOrderedCounterClockwise) {
 TEST(HalfEdges, BoundaryLoopsKeepTheMeshToTheLeft) {
   const Mesh mesh = with_holes(5, [](Index i, Index j) { return !(i == 2 && j == 2); });
   double total = 0;
-  for (const auto& loop : HalfEdges(mesh).boundary_loops()) {
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-      total += cross(mesh.positions[loop[i]], mesh.positions[loop[(i + 1) % loop.size()]]).z / 2;
+  for (const auto& [around, element] : HalfEdges(mesh).boundary_loops()) {
+    for (std::size_t i = 0; i < around.size(); ++i) {
+      total += cross(mesh.positions[around[i]], mesh.positions[around[(i + 1) % around.size()]]).z / 2;
     }
   }
   EXPECT_DOUBLE_EQ(total, 24.0);

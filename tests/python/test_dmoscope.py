@@ -95,6 +95,28 @@ def test_what_cannot_be_is_refused():
         dmoscope.smooth(dmoscope.Mesh(points, {"triangle": triangles}), methode="dmo")
 
 
+def test_boundary_loops_parts_and_rings():
+    points, triangles, _ = sheet(6)
+    mesh = dmoscope.Mesh(points, {"triangle": triangles})
+    (loop,) = mesh.boundary_loops
+    assert loop.outer and loop.part == 0 and len(loop.vertices) == 24
+    assert loop.length == pytest.approx(24) and loop.area == pytest.approx(36)
+    assert set(loop.vertices) == set(np.flatnonzero(mesh.boundary))
+    (part,) = mesh.parts
+    assert list(part) == list(range(len(triangles)))
+    ring = mesh.ring(8)
+    around = points[ring] - points[8]
+    turns = np.diff(np.unwrap(np.arctan2(around[:, 1], around[:, 0])))
+    assert set(ring) == set(triangles[(triangles == 8).any(axis=1)].ravel()) - {8} and (turns > 0).all()
+    with pytest.raises(dmoscope.UsageError, match="no vertex 49"):
+        mesh.ring(49)
+    # Two sheets are two parts, of which one is kept.
+    both = dmoscope.Mesh(np.vstack([points, points + [10, 0]]), {"triangle": np.vstack([triangles, triangles + len(points)])})
+    assert [len(part) for part in both.parts] == [len(triangles)] * 2 and [loop.part for loop in both.boundary_loops] == [0, 1]
+    moved = dmoscope.smooth(both, 3, fix="part:1").mesh.points != both.points
+    assert not moved[:len(points)].any() and moved[len(points):].any()
+
+
 def test_bad_file_names_file_and_line(tmp_path):
     path = tmp_path / "wrong.off"
     path.write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 one 0\n3 0 1 2\n")

@@ -46,6 +46,15 @@ struct CellGroup {
   std::vector<Index> cells;
 };
 
+/// A closed curve of the boundary of a planar or surface mesh.
+struct BoundaryLoop {
+  std::vector<Index> vertices;  // in order, with the mesh to the left
+  double length = 0.0;
+  double area = 0.0;     // that it encloses; of a loop that is not planar: of its shadow where that is largest
+  std::size_t part = 0;  // that it bounds: parts()[part]
+  bool outer = false;    // of a planar mesh: its part lies inside of it
+};
+
 /// A mesh that does not change: smooth() gives a new one, which shares all but the positions with the old. Cheap to copy. All members may
 /// be called from several threads.
 class DMO_API Mesh {
@@ -80,6 +89,14 @@ class DMO_API Mesh {
   [[nodiscard]] std::vector<CellData> cell_data() const;
   [[nodiscard]] std::vector<PointData> point_data() const;
   [[nodiscard]] std::vector<CellGroup> cell_groups() const;
+  /// The boundary loops of the mesh as it stands, in the order in which the option "fix" knows them as loop:1, loop:2 ...; none of a volume
+  /// mesh. Worked out at each call, in about two seconds for a million vertices.
+  [[nodiscard]] std::vector<BoundaryLoop> boundary_loops() const;
+  /// Cells connected across edges, as part:1, part:2 ...; likewise.
+  [[nodiscard]] std::vector<std::vector<Index>> parts() const;
+  /// The neighbours of a vertex across edges in order, counter-clockwise where its cells are; on the boundary from edge to edge. Empty in a
+  /// volume mesh. Throws UsageError for a vertex that does not exist.
+  [[nodiscard]] std::vector<Index> ring(std::size_t vertex) const;
   /// Has it volume cells?
   [[nodiscard]] bool is_volume() const;
   /// Is it curved: planar cells that do not lie in a plane?

@@ -214,7 +214,7 @@ void add_settings(Page& page, const Comparison& comparison, const ComparisonFact
       {"command", facts.command_line},
       {"mesh", fmt::format("{}: {}, {}, {} free to move", options.file.string(), counted(mesh.vertex_count(), "vertex", "vertices"),
                            counted(mesh.elements.size(), "element", "elements"), grouped(comparison.free))},
-      {"goal", goal_sentence(options.goal)},
+      {"goal", facts.goal},
       {"judged by", fmt::format("{}: {}", info(comparison.judge).name, info(comparison.judge).doc)},
       {"search of dmo", fmt::format("{0} x {0}{1} candidates, {2}, first grid {3:g} of the star's box, in {4}", search.grid_points,
                                     comparison.input->is_volume() ? fmt::format(" x {}", search.grid_points) : "",
@@ -225,6 +225,7 @@ void add_settings(Page& page, const Comparison& comparison, const ComparisonFact
   list.emplace_back("interfaces", options.run.parameters.at("interfaces"));
   if (!options.run.fix.empty()) list.emplace_back("kept where they are", fmt::format("{}", fmt::join(options.run.fix, "; ")));
   for (auto& fact : machine_facts(facts.threads)) list.push_back(std::move(fact));
+  if (facts.command_line.empty()) list.erase(list.begin());
   page.heading("Settings");
   page.facts(list);
   for (const std::string& warning : facts.warnings) page.paragraph("Note: " + warning);
@@ -302,7 +303,7 @@ Json json_of(const Comparison& comparison, const ComparisonFacts& facts) {
           {"elements", mesh.elements.size()},
           {"free", comparison.free},
           {"judged_by", info(comparison.judge).name},
-          {"goal", goal_sentence(facts.options.goal)},
+          {"goal", facts.goal},
           {"threads", facts.threads},
           {"before",
            {{"min_quality", json_number(before.minimum)},
@@ -335,7 +336,7 @@ std::string html_of(const Comparison& comparison, const ComparisonFacts& facts, 
   Page page(fmt::format("{}: {} compared", comparison.input->mesh.name, counted(comparison.runs.size(), "run", "runs")));
   page.paragraph(
       fmt::format("{}. All qualities are by {}: 1 is the ideal element, 0 or less an inverted one. Click a column heading to sort.",
-                  goal_sentence(facts.options.goal), info(comparison.judge).name));
+                  facts.goal, info(comparison.judge).name));
   std::vector<std::string> head, hints;
   for (const RunColumn* column : shown_columns(shown_rows(comparison))) {
     head.emplace_back(column->title);

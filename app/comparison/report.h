@@ -12,8 +12,9 @@ namespace dmoscope::app {
 /// What is reported besides the results.
 struct ComparisonFacts {
   const CompareOptions& options;
+  std::string goal;  // how far the runs went, in words
   unsigned threads;
-  std::string command_line;
+  std::string command_line;  // empty: there was none
   std::vector<std::string> warnings;
 };
 

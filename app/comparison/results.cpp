@@ -14,10 +14,6 @@ namespace {
 constexpr std::size_t kReportPoints = 1500;
 constexpr std::uint64_t kFewIterations = 100;  // up to this many the axis is linear and shows the input
 
-std::vector<float> thinned(std::span<const double> qualities) {
-  return sorted_choice(std::vector<float>(qualities.begin(), qualities.end()), kReportPoints);
-}
-
 std::vector<double> input_qualities(const InputMesh& input, Metric judge, ThreadPool* pool) {
   std::vector<double> qualities(input.mesh.elements.size());
   element_qualities(input.quality_context(), input.mesh.positions, judge, pool, qualities);
@@ -32,6 +28,10 @@ void free_all(std::vector<T>& values) {
 
 }  // namespace
 
+std::vector<float> curve_of(std::span<const double> qualities) {
+  return sorted_choice(std::vector<float>(qualities.begin(), qualities.end()), kReportPoints);
+}
+
 Comparison run_all(const ComparisonPlan& plan, std::shared_ptr<const InputMesh> input, const Goal& goal, std::uint64_t shuffles,
                    const Workshop& workshop) {
   Comparison all;
@@ -39,7 +39,7 @@ Comparison run_all(const ComparisonPlan& plan, std::shared_ptr<const InputMesh> 
   all.judge = plan.judge;
   all.left_out = plan.left_out;
   std::vector<double> before = input_qualities(*all.input, plan.judge, workshop.pool.get());
-  all.input_curve = thinned(before);
+  all.input_curve = curve_of(before);
   all.input_percentiles = percentiles_of(before);
   const std::uint64_t count = plan.contenders.size() * (shuffles + 1);
   std::uint64_t done = 0;
@@ -53,7 +53,7 @@ Comparison run_all(const ComparisonPlan& plan, std::shared_ptr<const InputMesh> 
     OrderCurves orders;
     const auto take_curve = [&](JudgedRun& judged, bool shuffled) {
       orders.add(judged.qualities);
-      all.curves.push_back({k, shuffled, thinned(judged.qualities)});
+      all.curves.push_back({k, shuffled, curve_of(judged.qualities)});
       free_all(judged.qualities);
     };
     all.runs.push_back(run(contender.name, contender.parameters));

@@ -2,6 +2,7 @@
 // The results of a comparison.
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,9 @@ struct Comparison {
 [[nodiscard]] LinePlot mean_plot(const Comparison& comparison);
 /// The qualities of all elements, worst first, a line per run and order; the input's in grey.
 [[nodiscard]] LinePlot sorted_plot(const Comparison& comparison);
+
+/// The qualities of all elements as a curve that a page has room for.
+[[nodiscard]] std::vector<float> curve_of(std::span<const double> qualities);
 
 /// "quality by mean-ratio": what the axis of a plot of qualities says.
 [[nodiscard]] std::string quality_title(Metric judge);

@@ -91,7 +91,7 @@ int compare(const CompareOptions& options, const std::string& command_line) {
     warnings.push_back(std::move(sentence));
   };
   const Comparison comparison = run_all(plan, input, options.goal, options.shuffles, {pool, plan.acceleration, progress, warn, hints});
-  const ComparisonFacts facts{options, pool->size(), command_line, std::move(warnings)};
+  const ComparisonFacts facts{options, goal_sentence(options.goal), pool->size(), command_line, std::move(warnings)};
   write_files(comparison, facts, progress);
   if (options.json) {
     Json object = json_of(comparison, facts);

@@ -20,6 +20,7 @@
 #include "app/common/console.h"
 #include "app/common/memory_limit.h"
 #include "app/common/run_options.h"
+#include "app/comparison/of_session.h"
 #include "app/subcommands/subcommands.h"
 #include "core/base/error.h"
 #include "core/commands/session_commands.h"
@@ -112,6 +113,7 @@ int run_on_session(const std::string& name, const std::vector<std::string>& line
   const Backend backend = parse_backend(options.backend);
   block_interrupts();  // before the engine's threads start
   Engine engine(0, acceleration_for(backend), backend);
+  engine.set_report_writer(write_report_of_session);
   engine.rest_without_long_work();  // each line would wait for what none has asked for
   // Ctrl+C may also come between two lines, when the engine has nothing to cancel.
   std::atomic<bool> interrupted{false};
@@ -152,6 +154,7 @@ int script(const ScriptSubcommandOptions& options) {
   window.headless = options.headless;
   window.backend = parse_backend(options.backend);
   window.most_memory = options.memory.bytes();
+  window.report = write_report_of_session;
   return run_script(window);
 #else
   throw UsageError(fmt::format("{}:{}: unknown command '{}' (this program was built without the window and its commands)", name,

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "app/comparison/of_session.h"
 #include "app/subcommands/subcommands.h"
 #include "core/base/error.h"
 
@@ -50,6 +51,7 @@ int open_window(const std::vector<std::filesystem::path>& files, const std::vect
   }
   WindowOptions options;
   options.files = files;
+  options.report = write_report_of_session;
   return run_window(options);
 #else
   throw UsageError(fmt::format("this program was built without the window; {}", hint(subcommands)));

@@ -38,6 +38,7 @@ ui::App::Options options_of(const WindowOptions& options, const render::Context&
 Desktop::Desktop(const WindowOptions& options)
     : options_(options), window_(render::Window::create({})), input_(window_->handle(), keys_), app_(options_of(options, *window_)) {
   ui::ViewState& state = app_.state();
+  app_.engine().set_report_writer(options_.report);
   if (!options_.scripted) begin_as_remembered();
   begin_autosave();
   if (options_.scale > 0.0) state.scale = options_.scale;

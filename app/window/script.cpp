@@ -56,6 +56,7 @@ std::optional<Message> hear(const std::vector<Message>& messages, const std::str
 
 int run_in_engine(const ScriptOptions& options) {
   Engine engine(options.threads, acceleration_for(options.backend), options.backend);
+  engine.set_report_writer(options.report);
   if (options.most_memory != 0) engine.post(fmt::format("max-memory {}", options.most_memory));
   for (std::size_t k = 0; k < options.lines.size(); ++k) {
     if (split_words(options.lines[k]).empty()) continue;
@@ -80,6 +81,7 @@ int run_in_window(Window& window, const ScriptOptions& options) {
 
 int run_in_headless_window(const ScriptOptions& options) {
   HeadlessWindow window({options.width, options.height, options.scale, options.threads, options.backend});
+  window.app().engine().set_report_writer(options.report);
   return run_in_window(window, options);
 }
 
@@ -90,6 +92,7 @@ int run_on_screen(const ScriptOptions& options) {
   look.backend = options.backend;
   look.scale = options.scale;
   look.scripted = true;
+  look.report = options.report;
   Desktop window(look);
   return run_in_window(window, options);
 }

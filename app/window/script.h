@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/engine/engine.h"
 #include "core/smooth/execution/accelerator.h"
 
 namespace dmoscope::app {
@@ -17,6 +18,7 @@ struct ScriptOptions {
   double scale = 1.0;              // of the interface
   unsigned threads = 0;
   Backend backend = Backend::Auto;
+  Engine::ReportWriter report{};  // of the command save-report; empty: there is none
   std::uint64_t most_memory = 0;  // bytes that a file may unpack to; 0: see UnpackBudget
 };
 

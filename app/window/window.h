@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "core/engine/engine.h"
 #include "core/smooth/execution/accelerator.h"
 
 namespace dmoscope::app {
@@ -13,6 +14,7 @@ struct WindowOptions {
   unsigned threads = 0;                      // of the smoothing; 0: one a hardware thread
   Backend backend = Backend::Auto;           // of the first run
   double scale = 0.0;                        // of the interface; 0: as saved, else as the monitor says
+  Engine::ReportWriter report{};             // of the command save-report; empty: there is none
   bool scripted = false;                     // settings are neither read nor written, and the mouse is the script's
 };
 

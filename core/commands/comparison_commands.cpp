@@ -188,6 +188,14 @@ void compare_with(CommandContext& context, Arguments arguments) {
   });
 }
 
+void save_report(CommandContext& context, Arguments arguments) {
+  (void)context.session.active();
+  if (!context.report) throw UsageError("no reports are written here");
+  context.session.require_not_read(arguments[0], "save-report");
+  context.report(arguments[0]);
+  tell(context, fmt::format("wrote {}", arguments[0]));
+}
+
 void compare(CommandContext& context, Arguments arguments) {
   if (arguments[0] == "with") return compare_with(context, arguments);
   const Run& active = context.session.active();
@@ -225,6 +233,9 @@ std::span<const CommandRow> comparison_commands() {
         "Adds runs like the active one by every method, for every metric, in N shuffled orders or as they are named, and takes all to the "
         "same iteration, or until they converge."},
        {1, kAnyWords, compare, true, CommandReach::Paths}},
+      {{"save-report", "save-report FILE.html",
+        "Writes how the runs on the active run's mesh compare, by the shown metric: a page with plots."},
+       {1, 1, save_report, false}},
   };
   return table;
 }

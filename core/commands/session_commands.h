@@ -22,7 +22,8 @@ struct CommandContext {
   std::function<void(Message)> say;
   std::vector<std::string> done{};                 // commands for what the one at work has done besides moving runs; see CommandEnd::again
   std::vector<std::filesystem::path> recovered{};  // files whose session was opened by `recover`
-  bool continues = false;                          // the next change of parameters goes on from the best state: `continue-with`
+  std::function<void(const std::filesystem::path&)> report{};  // writes how the runs compare; null: nobody here does
+  bool continues = false;                                      // the next change of parameters goes on from the best state: `continue-with`
 };
 
 /// How much of a session a command may change, and so which others it may be carried out in the midst of.

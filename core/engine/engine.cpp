@@ -36,6 +36,11 @@ Engine::~Engine() {
   thread_.request_stop();
 }
 
+void Engine::set_report_writer(ReportWriter writer) {
+  if (!writer) return;
+  context_.report = [this, write = std::move(writer)](const std::filesystem::path& file) { write(session_, file, progress_); };
+}
+
 std::uint64_t Engine::post(std::string command_line) {
   std::uint64_t id = 0;
   {

@@ -61,6 +61,10 @@ class Engine {
   /// asked for.
   void rest_without_long_work() { long_work_ = false; }
 
+  /// What `save-report` does, on the engine's thread: core writes no pages. Before the first post.
+  using ReportWriter = std::function<void(Session&, const std::filesystem::path&, Progress&)>;
+  void set_report_writer(ReportWriter writer);
+
   /// From now on the session is saved by itself; see Autosave. Before the first post. Throws OutputError.
   void autosave(AutosaveOptions options);
   /// What goes along with it: see save_state. Without autosave() it is of no use.

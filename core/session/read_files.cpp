@@ -17,7 +17,8 @@ namespace {
 /// mesh may not.
 constexpr std::array<std::string_view, 3> kReading{"open", "open-beside", "surface"};
 constexpr std::array<std::string_view, 2> kReadingSessions{"open-state", "open-session"}, kSavingSessions{"save-state", "save-session"};
-constexpr std::array<std::string_view, 7> kWriting{"export", "stats", "elements", "screenshot", "plot-save", "save-script", "export-trace"};
+constexpr std::array<std::string_view, 8> kWriting{"export",    "stats",       "elements",     "screenshot",
+                                                   "plot-save", "save-script", "export-trace", "save-report"};
 
 template <class Names>
 bool among(const Names& names, std::string_view command) {

@@ -27,7 +27,7 @@ void expect_kept(const Folder& folder, const std::string& mesh, const std::strin
                                               {"quality", mesh, "--elements", file},
                                               {"compare", mesh, "--run", "dmo", "--iterations", "1", "--stats", file},
                                               {"compare", mesh, "--run", "dmo", "--iterations", "1", "--table", file}};
-  for (const std::string command : {"stats", "elements", "save-state", "export"})
+  for (const std::string command : {"stats", "elements", "save-state", "export", "save-report"})
     calls.push_back({"script", folder.file(command + ".txt", "open \"" + mesh + "\"\n" + command + " \"" + file + "\"\n")});
   // Not seen before the script runs: the mesh is there only then.
   const std::string copy = folder / "late.off";

@@ -156,7 +156,7 @@ void draw_buttons(PanelContext& context, const Comparison& comparison) {
   note_item(context, "compare-difference",
             fmt::format("colours each element of the active run by its quality less that of run {}, by the shown metric", other + 1));
   ImGui::SameLine();
-  action_button(context, "plot-save", "Save table…");
+  action_button(context, "plot-save", "Save report…");
   ImGui::SameLine();
   action_button(context, "compare-runs", "Compare…");
   if (comparison.remark.empty()) return;

@@ -166,8 +166,9 @@ void draw_plot_area(PanelContext& context) {
   ImGui::EndPopup();
 }
 
-/// The table of runs is one of numbers alone.
+/// The table of runs is one of numbers alone, a comparison a page, too.
 static SaveEndings plot_endings(const PanelContext& context) {
+  if (context.state.plot == PlotTab::Compare) return {"a comparison", {".html", ".svg", ".png", ".csv"}};
   if (context.state.plot == PlotTab::Runs) return {"the table of runs", {".csv"}};
   return {"a plot", {".svg", ".png", ".csv"}};
 }
@@ -182,14 +183,17 @@ void draw_plot_dialog(PanelContext& context) {
   std::string& name = dialog.save.target.name;
   label("as");
   const std::string extension = std::filesystem::path(name).extension().string();
-  static constexpr std::array<std::pair<const char*, const char*>, 3> kKinds{
-      {{".svg", "drawing (SVG)"}, {".png", "picture (PNG)"}, {".csv", "numbers (CSV)"}}};
+  static constexpr std::array<std::pair<const char*, const char*>, 4> kKinds{
+      {{".html", "report (HTML)"}, {".svg", "drawing (SVG)"}, {".png", "picture (PNG)"}, {".csv", "numbers (CSV)"}}};
+  const bool compares = context.state.plot == PlotTab::Compare;
   for (const auto& [kind, title] : kKinds) {
-    if (kind != kKinds[0].first) ImGui::SameLine(0, context.px(16));
+    if (!compares && kind == kKinds[0].first) continue;
+    if (kind != kKinds[compares ? 0 : 1].first) beside_or_below(title, context.px(16));
     if (ImGui::RadioButton(title, extension == kind)) name = std::filesystem::path(name).replace_extension(kind).string();
     context.items.record_last(fmt::format("plot:{}", kind + 1));
   }
-  if (extension != ".csv") {
+  const bool is_drawn = extension != ".csv" && extension != ".html";
+  if (is_drawn) {
     int size[2] = {dialog.width, dialog.height};
     label("size");
     if (ImGui::InputInt2("##size", size)) {
@@ -204,11 +208,15 @@ void draw_plot_dialog(PanelContext& context) {
                      fmt::format("{} x {}", dialog.width * dialog.scale, dialog.height * dialog.scale).c_str(),
                      ImGuiSliderFlags_AlwaysClamp);
   }
-  dim_text(context, "As it is seen: the tab, its ranges, its axes, and what the legend leaves on. Pictures are on white.");
+  dim_text(context, extension == ".html"
+                        ? "A page that stands alone: table, courses, sorted qualities, what each run made of the mesh, and pictures, as "
+                          "dmoscope compare --report writes it."
+                        : "As it is seen: the tab, its ranges, its axes, and what the legend leaves on. Pictures are on white.");
   if (draw_save_buttons(context, form, "Save", entered)) {
-    std::string line = fmt::format("plot-save {}", quote_word(dialog.save.target.path().string()));
+    std::string line =
+        fmt::format("{} {}", extension == ".html" ? "save-report" : "plot-save", quote_word(dialog.save.target.path().string()));
     const int scale = extension == ".png" ? dialog.scale : 1;
-    if (extension != ".csv") line += fmt::format(" --size {}x{}", dialog.width * scale, dialog.height * scale);
+    if (is_drawn) line += fmt::format(" --size {}x{}", dialog.width * scale, dialog.height * scale);
     if (extension == ".png") line += fmt::format(" --scale {}", scale);
     context.send(line);
   }

@@ -253,6 +253,7 @@ void App::draw_panels(PanelContext& context) {
   constexpr double kLeastComparison = 17.0;  // with four runs
   if (state_.plot == PlotTab::Compare) panels.bottom_height = std::max(panels.bottom_height, kLeastComparison);
   const Layout layout = compute_layout(panels, screen.x, screen.y, header_size(context), session_->input != nullptr);
+  widgets_.narrow = layout.folded;
   draw_menu(context, layout.menu);
   update_viewports(context, layout.viewport);
   draw_toolbar(context, layout.toolbar);
@@ -329,7 +330,7 @@ void App::draw(double now) {
   serve_chooser();
   draw_panels(context);
   if (activity_.busy) redraw_in_ = std::min(redraw_in_, 0.1);
-  if (!viewports_.colours_settled()) redraw_in_ = std::min(redraw_in_, 0.02);
+  if (!viewports_.colours_settled() || !widgets_.outline.settled()) redraw_in_ = std::min(redraw_in_, 0.02);
   if (state_.requests.fit) redraw_in_ = 0.0;
   advance_playback(now);
   advance_sequence();

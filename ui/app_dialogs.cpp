@@ -36,10 +36,9 @@ void App::take_chosen_file() {
       return;
     case ChooserOutcome::Kind::Chosen:
       if (rows == nullptr) {
-        const std::string path = outcome->path.string();
-        submit_by_person(command_to_open(state_.open_for, path));
+        for (const std::string& command : commands_to_open(state_.open_for, outcome->paths)) submit_by_person(command);
       } else {
-        rows->target.set_path(outcome->path);
+        rows->target.set_path(outcome->paths.front());
         ++rows->taken;
         rows->target.replaced = rows->target.path().string();  // it has asked
       }
@@ -65,6 +64,7 @@ void App::serve_chooser() {
         rest.remove_prefix(std::min(end + 1, rest.size()));
       }
     }
+    wish.several = state_.open_for != OpenFor::Surface;
     turn.wish = std::move(wish);
     turn.asked_by = Dialog::Open;
   }

@@ -96,22 +96,6 @@ TEST_F(ComparisonWindow, CurvesAreJudgedByTheShownMetricOrEachByItsOwn) {
   EXPECT_NE(last(0), run(0).records.back().statistics.minimum);
 }
 
-TEST_F(ComparisonWindow, APathThatIsTakenAnewIsJudgedAnew) {
-  good("generate random 400 3");
-  good("compare with dmo:min-angle 6");
-  good("select-run 2");
-  // Without a rest in between, in which what is no more would be forgotten.
-  for (const char* line : {"seek 2", "visit 100-220", "run 4"}) window_->app().submit(line);
-  window_->settle();
-  const auto& course = ui::judged_by(run(1), Metric::MeanRatio)->course;
-  ASSERT_EQ(course.size(), judged_iterations(7).size());
-  for (const JudgedPoint& point : course) {
-    const Statistics& own = run(1).records[point.iteration].statistics;
-    EXPECT_EQ(point.own_mean, own.mean) << point.iteration;
-    EXPECT_EQ(point.own_minimum, own.minimum) << point.iteration;
-  }
-}
-
 TEST(JudgedIterations, AreAllOfTheFirstAndFewOfMany) {
   EXPECT_TRUE(judged_iterations(0).empty());
   EXPECT_THAT(judged_iterations(3), ElementsAre(0, 1, 2));

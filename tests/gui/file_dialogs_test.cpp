@@ -235,6 +235,21 @@ TEST_F(DesktopsDialog, ItsDialogOpensTheFileThatIsChosen) {
   EXPECT_NE(words.find("*.off"), std::string::npos) << words;
 }
 
+TEST_F(DesktopsDialog, AllFilesThatAreChosenAreOpenedBesideEachOther) {
+  open_mesh("a.off");
+  open_mesh("b and c.off");
+  good("generate grid");
+  stand_in("zenity", fmt::format("echo '{}'; echo '{}'", at("a.off").string(), at("b and c.off").string()));
+  good("key Ctrl+O");
+  EXPECT_TRUE(comes([&] { return session()->meshes.size() == 2; }));
+  ASSERT_EQ(session()->meshes.size(), 2U);
+  EXPECT_EQ(session()->meshes[0].input->path, at("a.off"));
+  EXPECT_EQ(session()->meshes[1].input->path, at("b and c.off"));
+  EXPECT_NE(text_of(at("zenity.args")).find("--multiple\n"), std::string::npos);
+  good("dialog open-surface");
+  EXPECT_TRUE(comes([&] { return text_of(at("zenity.args")).find("--multiple") == std::string::npos; })) << "a surface is one";
+}
+
 TEST_F(DesktopsDialog, TheWindowGoesOnWhileItIsOpenAndEndsIt) {
   open_mesh("a.off");
   stand_in("zenity", fmt::format("echo $$ > '{}'; exec sleep 1000", at("pid").string()));

@@ -97,7 +97,7 @@ TEST_F(SurfaceWindow, SlidesOnTheSurfaceOfAnotherMesh) {
   write_mesh(file, fine, fine.positions, progress);
   good("dialog open-surface");
   EXPECT_EQ(state().dialog, ui::Dialog::Open);
-  EXPECT_EQ(ui::command_to_open(state().open_for, file), "surface " + file);
+  EXPECT_EQ(ui::commands_to_open(state().open_for, {file}), std::vector<std::string>{"surface " + file});
   good("dialog none");
   good("run 2");
   good("surface " + file);

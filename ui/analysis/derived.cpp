@@ -223,7 +223,11 @@ void refresh(Derived& derived, const ViewState& state, const SessionView& sessio
     derived.facts = facts_of(*frame, state.picked);
     derived.facts_key = facts_key;
   }
-  if (new_frame) derived.sorted_now.clear();
+  if (new_frame) {
+    const Statistics& shown = frame->shown_statistics;
+    derived.worst_angles = shown.minimum > 0.0 ? angles_of(*frame, shown.worst_element) : std::nullopt;
+    derived.sorted_now.clear();
+  }
   if (state.plot == PlotTab::Sorted && derived.sorted_now.empty()) refresh_sorted(derived, *frame);
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -31,9 +32,10 @@ struct Derived {
                                                   // frame, now: as far as the histogram tells
   std::pair<std::uint64_t, Metric> sorted_before_key{0, Metric::MeanRatio};  // input_serial and metric of sorted_before
   std::size_t outside_low = 0,
-              outside_high = 0;  // elements outside the colours' range, inverted ones not counted; 0 for a device-resident frame
-  bool undefined = false;        // some element's shown quality is NaN
-  PickedFacts facts;             // of what is picked
+              outside_high = 0;           // elements outside the colours' range, inverted ones not counted; 0 for a device-resident frame
+  bool undefined = false;                 // some element's shown quality is NaN
+  std::optional<AngleSpan> worst_angles;  // of the worst element by the shown metric, unless it is inverted
+  PickedFacts facts;                      // of what is picked
   std::pair<std::uint64_t, Picked> facts_key;  // frame serial and what was picked when they were read
   std::pair<double, double> range{0.0, 1.0};   // of the colours of quality
   ColourFacts colouring;

@@ -1,7 +1,9 @@
 #include "ui/analysis/facts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "core/base/error.h"
 #include "core/inspect/target_shape.h"
@@ -29,11 +31,25 @@ void read_vertex(PickedFacts& facts, const Frame& frame, Index vertex) {
   }
 }
 
+/// Of corners in order.
+AngleSpan angles_between(std::span<const Vec3> places, const Plane& plane) {
+  AngleSpan span{180.0, 0.0};
+  const std::size_t n = places.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec3 out = plane.difference(places[(i + 1) % n], places[i]), in = plane.difference(places[(i + n - 1) % n], places[i]);
+    const double angle = std::atan2(length(cross(out, in)), dot(out, in)) * 180.0 / std::numbers::pi;
+    span.smallest = std::min(span.smallest, angle);
+    span.largest = std::max(span.largest, angle);
+  }
+  return span;
+}
+
 void read_element(PickedFacts& facts, const Frame& frame, Index element) {
   const Patch patch = patch_of(frame, {&element, 1});
   const InputMesh& input = *frame.input;
   facts.inverted = patch.inverted(0);
   facts.inverted_inside = patch.inverted_inside(0);
+  if (!facts.inverted) facts.angles = angles_of(frame, element);
   const auto add = [&](const MetricInfo& metric) {
     facts.metrics.push_back(
         {&metric, patch.quality(metric.metric, 0), element_quality(input.quality_context(), input.mesh.positions, metric.metric, element)});
@@ -49,6 +65,17 @@ void read_element(PickedFacts& facts, const Frame& frame, Index element) {
 }
 
 }  // namespace
+
+std::optional<AngleSpan> angles_of(const Frame& frame, Index element) {
+  const ElementTable& elements = frame.input->mesh.elements;
+  if (frame.positions.empty() || element >= elements.size() || info(elements.kind(element)).dimension != 2) return std::nullopt;
+  std::vector<Vec3> places;
+  const auto corners = elements.corners(element);
+  for (std::size_t i = 0; i < corners.size(); ++i)  // one with a corner twice has a corner less
+    if (corners[i] != corners[(i + 1) % corners.size()]) places.push_back(frame.positions[corners[i]]);
+  if (places.size() < 3) return std::nullopt;
+  return angles_between(places, frame.input->geometry.plane);
+}
 
 PickedFacts facts_of(const Frame& frame, const Picked& picked) {
   PickedFacts facts;

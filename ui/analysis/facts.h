@@ -10,6 +10,13 @@
 
 namespace dmoscope::ui {
 
+/// Smallest and largest angle at the corners of an element, degrees.
+struct AngleSpan {
+  double smallest, largest;
+};
+/// Of a triangle or quadrilateral; none of a volume element, or while a device has the positions.
+[[nodiscard]] std::optional<AngleSpan> angles_of(const Frame& frame, Index element);
+
 struct PickedFacts {
   Picked picked;        // what these are about; nothing: there is nothing to read
   std::string trouble;  // why there is nothing to read although something is picked
@@ -27,6 +34,7 @@ struct PickedFacts {
   std::vector<Row> metrics;
   bool inverted = false;
   std::optional<Vec3> inverted_inside;          // where, if its corners do not tell
+  std::optional<AngleSpan> angles;              // of one that is not inverted, and no volume
   std::optional<double> aspect, target_aspect;  // longest over shortest axis, where the shown metric has a target
 };
 

@@ -61,9 +61,9 @@ std::string stuck_sentence(const Inspection& inspection) {
   if (trace.end == VisitEnd::Leans)
     return "It may not go to the best candidate, nor part of the way: faces would lean over the input by more than 60 degrees.";
   std::string text = trace.end == VisitEnd::NotConfirmed ? "The search found a candidate, but the exact check shows no gain."
-                     : trace.combined
-                         ? fmt::format("No candidate is better than where it stands by what the search compares: {}.", trace.value_phrase)
-                         : "No candidate is better than where it stands.";
+                     : trace.combined ? fmt::format("No candidate is better than where it stands. They are compared by this number: {}.",
+                                                    trace.value_phrase)
+                                      : "No candidate is better than where it stands.";
   if (trace.combined) return text;
   if (const Index limit = limiting_element(trace, false); limit != kNoIndex) text += fmt::format(" Element {} limits it.", count(limit));
   if (inspection.optimum) {
@@ -108,7 +108,7 @@ std::string candidate_text(const Inspection& inspection, int number, int index) 
 
 std::string search_phrase(const VisitSummary& trace) {
   if (trace.end == VisitEnd::Fixed || trace.end == VisitEnd::Waits) return "not searched";
-  std::string text = trace.fast ? "fast search in float" : "plain search in double";
+  std::string text = trace.fast ? "searched in single precision, checked in double" : "searched in double precision";
   if (trace.untangling) text += ", untangling";
   return text;
 }

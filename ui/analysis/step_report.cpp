@@ -115,6 +115,25 @@ double fade(SteppingState& stepping, double now) {
 
 }  // namespace
 
+bool has_converged(const RunView& run) { return run.last_outcome.starts_with("converged"); }
+
+std::string end_sentence(const RunView& run) {
+  std::string why = run.last_outcome.substr(0, run.last_outcome.find_first_of(":;"));
+  if (!why.empty() && why.front() >= 'a' && why.front() <= 'z') why.front() = static_cast<char>(why.front() - 'a' + 'A');
+  const IterationRecord *first = nullptr, *now = nullptr;
+  double seconds = 0.0;
+  std::uint64_t done = 0;
+  for (const IterationRecord& record : run.records) {
+    if (first == nullptr) first = &record;
+    if (record.iteration == run.moment.iteration) now = &record;
+    seconds += record.seconds;
+    done = record.iteration;
+  }
+  if (now == nullptr) return why;
+  return fmt::format("{}: {}, {}, {}", why, course("minimum", first->statistics.minimum, now->statistics.minimum),
+                     counted(done, "iteration", "iterations"), duration(seconds));
+}
+
 std::optional<StepNews> report_step(const Frame& before, const Frame& after, const RunView& run) {
   const bool comparable = !before.device && !after.device && before.input == after.input && before.shown == after.shown &&
                           before.positions.size() == after.positions.size() && before.quality.size() == after.quality.size();
@@ -143,14 +162,17 @@ double StepWatch::follow(ViewState& state, const SessionView& session, bool busy
   if (!frame || session.active >= session.runs.size()) {
     rest_.reset();
     stepping.news = {};
-  } else if (!busy && !frame->device && rest_ != frame) {
+  } else if (!busy && !frame->device && (rest_ != frame || outcome_ != session.runs[session.active].last_outcome)) {
     const RunView& run = session.runs[session.active];
     const bool same_run = rest_ && rest_->input == frame->input && run_ == run.id;
-    if (!same_run || rest_->moment != frame->moment) {
+    const bool ended = same_run && outcome_ != run.last_outcome && has_converged(run);
+    if (!same_run || ended || rest_->moment != frame->moment) {
       auto news = same_run ? report_step(*rest_, *frame, run) : std::nullopt;
-      // What the step itself has said goes before what is found out here.
-      const bool spoken = messages_ != state.messages;
+      // What the step itself has said goes before what is found out here, but for why it ended, which is told shorter.
+      const auto& said = state.result.newest();
+      const bool spoken = messages_ != state.messages && !(ended && said && said->kind == Message::Kind::Info);
       stepping.news = news ? std::move(*news) : StepNews{};
+      if (ended) stepping.news.sentence = end_sentence(run);
       if (spoken) stepping.news.sentence.clear();
       stepping.news.before = rest_;
       stepping.news.messages = state.messages;
@@ -159,6 +181,7 @@ double StepWatch::follow(ViewState& state, const SessionView& session, bool busy
     }
     rest_ = frame;
     run_ = run.id;
+    outcome_ = run.last_outcome;
     messages_ = state.messages;
   }
   if (!busy && rest_ && rest_ == frame) messages_ = state.messages;

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "core/view/view.h"
 #include "ui/state/view_state.h"
@@ -13,6 +14,11 @@ namespace dmoscope::ui {
 /// at the later one.
 [[nodiscard]] std::optional<StepNews> report_step(const Frame& before, const Frame& after, const RunView& run);
 
+/// Rather than having come to a number of iterations.
+[[nodiscard]] bool has_converged(const RunView& run);
+/// How the active run came to its end: "Converged: minimum 0.312 → 0.498, 21 iterations, 0.4 s". The minimum is by the run's own metric.
+[[nodiscard]] std::string end_sentence(const RunView& run);
+
 /// Notices when a step of the active run has ended.
 class StepWatch {
  public:
@@ -22,6 +28,7 @@ class StepWatch {
  private:
   std::shared_ptr<const Frame> rest_;  // where the last command ended
   std::uint64_t run_ = 0;              // of which run
+  std::string outcome_;                // how that had ended
   std::uint64_t messages_ = 0;         // that there were then
 };
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "core/mesh/vertex_words.h"
 #include "ui/commands/command_words.h"
 #include "ui/commands/inspection_commands.h"
 
@@ -45,7 +46,8 @@ void select(ViewState& state, const CommandHost& host, Arguments words) {
     return;
   }
   require(words, 2, words.size());
-  std::vector<Index> vertices = parse_id_ranges(rest, frame.vertex_count());
+  const bool named = std::ranges::any_of(rest, [](const std::string& word) { return word.find_first_of(":=") != std::string::npos; });
+  std::vector<Index> vertices = named ? vertices_named(frame.input->mesh, rest) : parse_id_ranges(rest, frame.vertex_count());
   if (how == "vertex") {
     state.selection.assign(std::move(vertices));
   } else if (how == "add") {
@@ -96,7 +98,7 @@ void leave(ViewState& state) {
 }  // namespace
 
 void add_selection_commands(CommandTable& table, ViewState& state, const CommandHost& host) {
-  table.add({"select", "select vertex|add|remove ID|A-B...  or  select none  or  select all-in X0 Y0 X1 Y1",
+  table.add({"select", "select vertex|add|remove ID|A-B|loop:N|part:N|group:NAME...  or  select none  or  select all-in X0 Y0 X1 Y1",
              "the vertices to smooth or to fix; all-in: those in a box of the plane"},
             [&state, &host](Arguments words) { select(state, host, words); });
   table.add({"leave", "leave", "ends what the mouse is doing besides picking, such as brushing; else clears the selection"}, {0, 0},

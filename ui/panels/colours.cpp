@@ -6,6 +6,7 @@
 #include "ui/analysis/element_colours.h"
 #include "ui/panels/panels.h"
 #include "ui/state/format.h"
+#include "ui/state/run_names.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -26,6 +27,57 @@ void draw_colour_by(PanelContext& context) {
                     possible))
       context.send(fmt::format("color-by {}", one.name));
   }
+}
+
+/// What differences are taken from: the input, a run as it stands, or a mark.
+void draw_reference(PanelContext& context) {
+  using Kind = PaneContent::Kind;
+  const PaneContent& now = context.state.colouring.reference;
+  const auto title_of_run = [&](std::size_t k) { return run_title(context.session, k); };
+  const auto& runs = context.session.runs;
+  const auto at = std::ranges::find(runs, now.run, &RunView::id);
+  const std::string shown = now.kind == Kind::MarkA                     ? "mark A"
+                            : now.kind == Kind::MarkB                   ? "mark B"
+                            : now.kind == Kind::Run && at != runs.end() ? title_of_run(static_cast<std::size_t>(at - runs.begin()))
+                                                                        : "the input";
+  labelled(context, "less that of", "what the quality is compared with, element by element", 12 * context.em());
+  Combo combo(context, "reference", context.shown(shown));
+  if (!combo.open()) return;
+  const auto entry = [&](const std::string& words, const std::string& title, bool chosen, bool possible, const char* why) {
+    if (combo.entry(words, context.shown(title), chosen, possible ? "" : why, possible)) context.send("color-by difference " + words);
+  };
+  entry("input", "the input", now.kind == Kind::Input, true, "");
+  for (std::size_t k = 0; k < runs.size(); ++k)
+    entry(fmt::format("run {}", k + 1), title_of_run(k), now.kind == Kind::Run && now.run == runs[k].id, k != context.session.active,
+          "this run itself");
+  const Timeline& timeline = context.state.timeline;
+  entry("mark a", "mark A", now.kind == Kind::MarkA, timeline.a.frame != nullptr, "nothing is marked as A yet");
+  entry("mark b", "mark B", now.kind == Kind::MarkB, timeline.b.frame != nullptr, "nothing is marked as B yet");
+}
+
+/// Rows that do nothing to what is coloured now are grey and say why.
+class GreyRows {
+ public:
+  GreyRows(bool grey, const char* why) : grey_(grey), why_(why) {
+    ImGui::BeginGroup();
+    ImGui::BeginDisabled(grey);
+  }
+  ~GreyRows() {
+    ImGui::EndDisabled();
+    ImGui::EndGroup();
+    if (grey_) next_item_tooltip(why_);
+  }
+  GreyRows(const GreyRows&) = delete;
+  GreyRows& operator=(const GreyRows&) = delete;
+
+ private:
+  bool grey_;
+  const char* why_;
+};
+
+/// Categories have colours of their own but where they come in an order; a difference has two, about its middle.
+bool goes_by_map(ColourBy by) {
+  return by == ColourBy::Valence || by == ColourBy::Freedom || (!has_categories(by) && by != ColourBy::Difference);
 }
 
 void draw_range(PanelContext& context) {
@@ -62,7 +114,10 @@ void draw_filter(PanelContext& context) {
   next_item_tooltip("all qualities count");
 
   option_row(context, "worst-view");
-  option_row(context, "filter-mode");
+  {
+    const GreyRows rows(!state.filter && !state.isolated && state.worst == 0, "all elements count: there are no others");
+    option_row(context, "filter-mode");
+  }
 
   if (state.isolated) {
     dim_text(context, fmt::format("only {}: {}", info(state.isolated->by).name, state.isolated->name));
@@ -85,8 +140,23 @@ void draw_colours(PanelContext& context) {
   draw_colour_by(context);
   labelled(context, "metric", "of colours, histogram and worst list", metric_combo_width(context));
   metric_combo(context, "shown", context.session.shown, "show");
-  option_rows(context, "map");
-  draw_range(context);
+  const ColourBy by = context.state.colouring.by;
+  if (by == ColourBy::Difference) draw_reference(context);
+  const char* own =
+      by == ColourBy::Difference ? "differences are orange and blue: worse and better" : "these categories have colours of their own";
+  {
+    const GreyRows rows(!goes_by_map(by), own);
+    option_row(context, "colormap");
+    option_row(context, "reverse-colors");
+  }
+  {
+    const GreyRows rows(!goes_by_map(by) && by != ColourBy::Difference, own);
+    option_row(context, "color-steps");
+  }
+  {
+    const GreyRows rows(by != ColourBy::Quality, "the range is that of qualities, which are not what the colours tell now");
+    draw_range(context);
+  }
   if (context.state.in_space) option_rows(context, "depth");
   option_row(context, "labels");
   ImGui::Dummy({0, context.px(4)});

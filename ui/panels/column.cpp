@@ -10,7 +10,7 @@
 namespace dmoscope::ui {
 namespace {
 
-constexpr float kLeastFacts = 14.0F, kLeastSetup = 12.0F;  // heights of the font
+constexpr float kLeastFacts = 14.0F, kFactsBesideSettings = 7.0F, kLeastSetup = 12.0F;  // heights of the font
 
 struct TabInfo {
   FactsTab tab;
@@ -60,6 +60,7 @@ void draw_tab(PanelContext& context, FactsTab tab) {
     case FactsTab::Mesh:
       draw_mesh_facts(context);
       draw_groups(context);
+      draw_loops(context);
       return;
     case FactsTab::Selection:
       if (context.state.inspection.open) draw_inspection(context);
@@ -77,14 +78,28 @@ void draw_tab(PanelContext& context, FactsTab tab) {
   }
 }
 
+/// A part of the column that scrolls by itself. What is in it is as wide with a scroll bar as without one, so that no button moves when
+/// the bar comes.
+void begin_scrolled(const char* name, float height) {
+  ImGuiStorage& storage = *ImGui::GetStateStorage();
+  const ImGuiID id = ImGui::GetID(name);
+  const float bar = storage.GetBool(id) ? 0.0F : ImGui::GetStyle().ScrollbarSize;
+  ImGui::BeginChild(name, {-std::max(bar, FLT_MIN), height});
+}
+void end_scrolled(const char* name) {
+  const bool has_bar = ImGui::GetScrollMaxY() > 0.0F;
+  ImGui::EndChild();
+  ImGui::GetStateStorage()->SetBool(ImGui::GetID(name), has_bar);
+}
+
 void draw_facts(PanelContext& context) {
   FactsTab tab = context.state.panels.tab;
   if (tab == FactsTab::Inside && !context.state.in_space) tab = FactsTab::Mesh;
   draw_tabs(context, tab);
   // Each tab with a place of its own to scroll.
-  ImGui::BeginChild(kTabs[static_cast<std::size_t>(tab)].item, {0, 0});
+  begin_scrolled(kTabs[static_cast<std::size_t>(tab)].item, 0);
   draw_tab(context, tab);
-  ImGui::EndChild();
+  end_scrolled(kTabs[static_cast<std::size_t>(tab)].item);
 }
 
 void draw_setup(PanelContext& context) {
@@ -96,12 +111,13 @@ void draw_setup(PanelContext& context) {
 void draw_setup_above(PanelContext& context) {
   float& wanted = context.widgets.setup_height;
   const float room = ImGui::GetContentRegionAvail().y, em = context.em();
-  const float most = std::max(kLeastSetup * em, room - kLeastFacts * em);
-  ImGui::BeginChild("setup", {0, std::min(wanted > 0 ? wanted : most, most)});
+  const float facts = context.state.panels.settings ? kFactsBesideSettings : kLeastFacts;
+  const float most = std::max(kLeastSetup * em, room - facts * em);
+  begin_scrolled("setup", std::min(wanted > 0 ? wanted : most, most));
   const float top = ImGui::GetCursorPosY();
   draw_setup(context);
   wanted = ImGui::GetCursorPosY() - top;
-  ImGui::EndChild();
+  end_scrolled("setup");
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImGui::GetWindowDrawList()->AddLine({at.x, at.y}, {at.x + ImGui::GetContentRegionAvail().x, at.y}, colour(context.palette.line));
 }
@@ -117,7 +133,8 @@ void draw_column(PanelContext& context, Side side, const Rect& rect, bool overla
   begin_panel(fmt::format("{}{}", side == Side::Left ? "left" : "right", overlay ? " over" : "").c_str(), rect, overlay, true);
   ImGui::PopStyleVar(overlay ? 2 : 1);
   const Panels& panels = context.state.panels;
-  const bool setup = overlay ? panels.setup_side == side : panels.has_setup(side);
+  const bool unfolded = side == Side::Left ? panels.left_over : panels.right_over;  // else what was picked is shown, and no more
+  const bool setup = overlay ? panels.setup_side == side && unfolded : panels.has_setup(side);
   const bool facts = overlay ? panels.facts_side == side : panels.has_facts(side);
   if (setup && facts)
     draw_setup_above(context);

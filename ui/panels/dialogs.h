@@ -24,6 +24,7 @@ struct OpenDialog {
   std::string mesh;  // beside which it began
   std::vector<FolderEntry> entries;
   int selected = -1;
+  std::set<std::string> marked;  // names in the folder, where several are chosen (Ctrl+click, Shift+click)
   bool all_files = false;
 };
 void draw_open_dialog(PanelContext& context);

@@ -73,25 +73,24 @@ void draw_clip(PanelContext& context, const render::Bounds3& box) {
   labelled(context, "side", "which one is taken away");
   const bool flipped = clip.on && across && across->flip;
   if (toggle_button(context, "inside:flip", "flip", flipped, "takes the other side away   Shift+J")) context.send("clip flip");
-  if (clip.on) {
-    labelled(context, "place", "from the lower to the upper end of the mesh; Ctrl+click to type");
-    const auto ends = span_of(clip, box);
-    const double low = ends.first, high = ends.second, span = high - low;
-    double fraction = across ? across->fraction : span > 0.0 ? (clip.offset - low) / span : 0.5;
-    const double side = across && clip.normal.x + clip.normal.y + clip.normal.z < 0.0 ? -1.0 : 1.0;
-    const bool moved = slider("place", fraction, 0.0, 1.0, "%.3f");
-    context.items.record_last("inside:place");
-    hold(
-        context, moved, [&](ClippingView& view) { view.clip.offset = side > 0.0 ? low + fraction * span : high - fraction * span; },
-        [&] { return clip_command(clip, box); });
-    labelled(context, "cells", "at the plane");
-    const bool cut = clip.mode == ClipPlane::Mode::Cut;
-    if (toggle_button(context, "inside:whole", "whole", !cut, "those that the plane passes through stay whole   Alt+J"))
-      context.send("clip-mode crinkle");
-    ImGui::SameLine(0, context.px(5));
-    if (toggle_button(context, "inside:cut", "cut", cut, "those that the plane passes through are cut   Alt+J"))
-      context.send("clip-mode cut");
-  }
+  // Rows that are grey without a plane keep their place: nothing below moves.
+  labelled(context, "place", "from the lower to the upper end of the mesh; Ctrl+click to type");
+  const auto ends = span_of(clip, box);
+  const double low = ends.first, high = ends.second, span = high - low;
+  double fraction = across ? across->fraction : span > 0.0 ? (clip.offset - low) / span : 0.5;
+  const double side = across && clip.normal.x + clip.normal.y + clip.normal.z < 0.0 ? -1.0 : 1.0;
+  const bool moved = slider("place", fraction, 0.0, 1.0, "%.3f");
+  context.items.record_last("inside:place");
+  hold(
+      context, moved, [&](ClippingView& view) { view.clip.offset = side > 0.0 ? low + fraction * span : high - fraction * span; },
+      [&] { return clip_command(clip, box); });
+  labelled(context, "cells", "at the plane");
+  const bool cut = clip.mode == ClipPlane::Mode::Cut;
+  if (toggle_button(context, "inside:whole", "whole", !cut, "those that the plane passes through stay whole   Alt+J"))
+    context.send("clip-mode crinkle");
+  ImGui::SameLine(0, context.px(5));
+  if (toggle_button(context, "inside:cut", "cut", cut, "those that the plane passes through are cut   Alt+J"))
+    context.send("clip-mode cut");
   ImGui::EndDisabled();
 }
 
@@ -189,11 +188,11 @@ void draw_from(PanelContext& context) {
   labelled(context, "look from", "all of the mesh from there");
   const ImVec2 padding = ImGui::GetStyle().FramePadding;
   const float column = ImGui::GetCursorPosX();
-  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {context.px(4), padding.y});  // seven in a row
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {context.px(3), padding.y});  // seven in a row
   for (const render::ViewPresetInfo& preset : render::view_preset_table()) {
     const std::string name(preset.name);
-    const float width = ImGui::CalcTextSize(name.c_str()).x + context.px(8);
-    if (&preset != &render::view_preset_table().front()) ImGui::SameLine(0, context.px(4));
+    const float width = ImGui::CalcTextSize(name.c_str()).x + context.px(6);
+    if (&preset != &render::view_preset_table().front()) ImGui::SameLine(0, context.px(3));
     if (ImGui::GetContentRegionAvail().x < width) {
       ImGui::NewLine();
       ImGui::SetCursorPosX(column);

@@ -50,7 +50,7 @@ void draw_story(PanelContext& context, const Inspection& inspection) {
   if ((inspection.solid || inspection.grid) && inspection.level_count() > 0) dim_text(context, grid_phrase(inspection));
   if (inspection.level_count() == 0) return;
   next_item_tooltip(
-      fmt::format("The candidates were compared by their {}. Shown of them is the quality as the statistics have it.", trace.value_phrase));
+      fmt::format("The candidates were compared by their {}. Shown is their quality, as statistics have it.", trace.value_phrase));
 }
 
 void draw_buttons(PanelContext& context) {
@@ -64,7 +64,7 @@ void draw_buttons(PanelContext& context) {
                 state.applied      ? (state.in_order ? "Next vertex" : "Again")
                 : last && !foreign ? "Apply"
                                    : "Next level",
-                true);
+                true, widest_button({"Next vertex", "Next level", "Apply", "Again"}));
   ImGui::EndDisabled();
   const char* play = state.playing ? "❚❚" : "▶ Play";
   beside_or_below(play);
@@ -386,9 +386,10 @@ void draw_inspection(PanelContext& context) {
   } else if (inspection.visit() == nullptr) {
     wrapped_text(inspection.trouble);
   } else {
+    // What is told may take more lines with the next level: the buttons stand above it.
+    if (inspection.level_count() > 0) draw_buttons(context);
     draw_story(context, inspection);
     if (inspection.level_count() > 0) {
-      draw_buttons(context);
       draw_levels(context);
       if (inspection.solid) draw_slice(context);
     }

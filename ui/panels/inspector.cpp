@@ -3,12 +3,14 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "core/mesh/geographic.h"
+#include "core/mesh/outline.h"
 #include "core/mesh/volume.h"
 #include "core/quality/quality.h"
 #include "core/reference/domain.h"
@@ -72,6 +74,21 @@ void empty_lines(const PanelContext& context, int count) {
   for (int i = 0; i < count; ++i) dim_text(context, " ", false);
 }
 
+/// What a command does, for those who do not know it: "Let the boundary slide".
+std::string words_of(const std::string& command) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kWords{{{"boundary slide", "Let the boundary slide"},
+                                                                                 {"interfaces slide", "Let interfaces slide"},
+                                                                                 {"then joint", "Move several vertices at once"},
+                                                                                 {"then mean", "Raise the mean"},
+                                                                                 {"layers free", "Let boundary layers go"},
+                                                                                 {"max-deviation ", "Let the boundary deviate more: "},
+                                                                                 {"corner-angle ", "Corners only from a turn of "},
+                                                                                 {"unfix ", "Free vertices fixed by hand: "}}};
+  for (const auto& [begins, words] : kWords)
+    if (command.starts_with(begins)) return std::string(words) + command.substr(begins.size());
+  return command;
+}
+
 /// A click does what would free the worst element. A number stands beside it only once it was tried, and below it what it gives up.
 void draw_switch(PanelContext& context, const RunView& run, const HeldMinimum& held) {
   std::string tried = held.trial ? "tried: " + held.trial->figures() : " ";
@@ -79,13 +96,16 @@ void draw_switch(PanelContext& context, const RunView& run, const HeldMinimum& h
   const float room = ImGui::GetContentRegionAvail().x;
   ImGui::BeginDisabled(context.activity.busy || !run.held.now);
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ImGui::GetStyle().FramePadding.x, 0});
-  const std::string label = fit_text(fmt::format("{}", fmt::join(held.commands(), ", ")), room - 2 * ImGui::GetStyle().FramePadding.x);
+  std::string words;
+  for (const std::string& command : held.commands()) words += (words.empty() ? "" : ", ") + words_of(command);
+  const std::string label = fit_text(words, room - 2 * ImGui::GetStyle().FramePadding.x);
   if (ImGui::Button(label.c_str(), {room, 0}))
     for (const std::string& line : held.advice()) context.send(line);
   ImGui::PopStyleVar();
   ImGui::EndDisabled();
   note_item(context, "held-by:switch",
-            held.sentence() + "\nClick: goes on with it from the best state that this run reached, until converged; this run is kept.");
+            fmt::format("{}\nClick ({}): goes on with it from the best state that this run reached, until converged; this run is kept.",
+                        held.sentence(), fmt::join(held.commands(), ", ")));
   const std::string given_up = held.gives_up();
   dim_text(context, tried, false);
   next_item_tooltip(held.sentence());
@@ -96,11 +116,12 @@ void draw_switch(PanelContext& context, const RunView& run, const HeldMinimum& h
 /// What keeps the minimum from rising, and what would let it: four lines, whatever they say, so that nothing below moves.
 void draw_hold(PanelContext& context, const RunView& run) {
   constexpr const char* kAbout = "what keeps the worst element as it is";
+  constexpr const char* kLabel = "what holds it";
   const HeldMinimum* held = run.held.found.get();
   const ImVec2 row = ImGui::GetCursorScreenPos();
   context.items.record("held-by", {row.x, row.y, row.x + ImGui::GetContentRegionAvail().x, row.y + ImGui::GetTextLineHeight()});
   if (held == nullptr) {
-    dim_text(context, "held by", false);
+    dim_text(context, kLabel, false);
     next_item_tooltip(kAbout);
     constexpr const char* kAsk = "find out";
     ImGui::SameLine();
@@ -113,7 +134,7 @@ void draw_hold(PanelContext& context, const RunView& run) {
     return;
   }
   const auto ink = run.held.now ? std::nullopt : std::optional(context.palette.dim);
-  value_row(context, "held by", std::string(held->brief()), held->sentence(), ink, kAbout);
+  value_row(context, kLabel, std::string(held->brief()), held->sentence(), ink, kAbout);
   if (held->has_advice()) {
     draw_switch(context, run, *held);
     return;
@@ -149,6 +170,14 @@ void draw_minimum(PanelContext& context, Metric metric, double minimum, Index wo
     ImGui::GetWindowDrawList()->AddRectFilled(
         {left, middle - half}, {left + 2 * half, middle + half},
         colour(minimum > 0.0 ? shown_scale(context.state, context.derived).colour(minimum) : render::kInvertedColour), context.px(3));
+  if (const auto& angles = context.derived.worst_angles; angles && metric == context.session.shown) {
+    const std::string text = fmt::format("{:.1f}°", angles->smallest);
+    const ImVec2 back = ImGui::GetCursorPos();
+    ImGui::SetCursorScreenPos({coloured_by_it ? left + 2 * half + context.px(10) : left, middle - ImGui::GetTextLineHeight() / 2});
+    dim_text(context, text, false);
+    next_item_tooltip("the smallest angle of the worst element");
+    ImGui::SetCursorPos(back);
+  }
   if (worst == kNoIndex) return;
   constexpr const char* kShow = "Show it";
   const float below = ImGui::GetCursorPosY();
@@ -159,9 +188,18 @@ void draw_minimum(PanelContext& context, Metric metric, double minimum, Index wo
   ImGui::SetCursorPosY(below);
 }
 
+/// The quality below which one element in a hundred lies, by the shown metric; NaN while it is not known.
+double worst_percent(const PanelContext& context, Metric metric) {
+  const RunView* run = context.run();
+  if (run == nullptr || !run->summary || run->summary->metric != metric || run->summary->moment != context.frame()->moment) return kUnknown;
+  return percentiles_of_sorted(run->summary->sorted).p1;
+}
+
 /// `run`: whose minimum it is; null: nobody's.
 void draw_statistics(PanelContext& context, Metric metric, const Statistics& statistics, const RunView* run) {
   draw_minimum(context, metric, statistics.minimum, statistics.worst_element);
+  if (metric == context.session.shown)
+    number_row(context, "worst 1 %", worst_percent(context, metric), "one element in a hundred is worse");
   number_row(context, "mean", statistics.mean, "over all elements");
   const Frame& frame = *context.frame();
   if (run != nullptr || metric == frame.shown) {
@@ -178,10 +216,11 @@ void draw_statistics(PanelContext& context, Metric metric, const Statistics& sta
     context.send(open ? "unfold-holds off" : "unfold-holds on");
   if (!open) return;
   draw_hold(context, *run);
-  number_row(context, "movable minimum", statistics.movable_minimum,
-             "over elements with at least one free corner: what smoothing can raise");
-  number_row(context, "ceiling", statistics.ceiling,
-             "over elements whose corners are all fixed: the minimum can never rise above it (– when there is no such element)");
+  number_row(context, "movable minimum", statistics.movable_minimum);
+  dim_text(context, "the worst element that has a free corner");
+  number_row(context, "ceiling", statistics.ceiling);
+  dim_text(context, std::isfinite(statistics.ceiling) ? "the worst element whose corners are all fixed: the minimum stays below"
+                                                      : "the worst element whose corners are all fixed: there is none");
 }
 
 const char* held_word(HeldOn held) {
@@ -191,6 +230,26 @@ const char* held_word(HeldOn held) {
       "fixed: corner", "fixed: features meet", "fixed: feature ends", "fixed: parts touch", "fixed: by the file", kBoundary,
       kBoundary,       "fixed: corner by hand"};
   return kWords[static_cast<std::size_t>(held)];
+}
+
+/// Buttons that select vertices.
+void draw_vertices(PanelContext& context, const char* label, std::span<const Index> vertices) {
+  dim_text(context, label, false);
+  for (const Index vertex : vertices) {
+    ImGui::SameLine();
+    const std::string id = fmt::format("{}", vertex);
+    if (ImGui::GetContentRegionAvail().x < ImGui::CalcTextSize(id.c_str()).x + context.px(16)) ImGui::NewLine();
+    if (ImGui::SmallButton(id.c_str())) context.send(fmt::format("pick vertex {}", vertex));
+    next_item_tooltip("select this vertex");
+  }
+}
+
+/// The neighbours of a vertex in the order in which they lie around it.
+void draw_ring(PanelContext& context, const Frame& frame, Index vertex) {
+  constexpr std::size_t kMost = 24;  // more are no list to read
+  const std::vector<Index> ring = ordered_ring(frame.input->mesh, frame.input->topology, vertex);
+  if (ring.empty() || ring.size() > kMost) return;
+  draw_vertices(context, "ring", ring);
 }
 
 void draw_vertex(PanelContext& context, const Frame& frame, Index vertex) {
@@ -223,6 +282,8 @@ void draw_vertex(PanelContext& context, const Frame& frame, Index vertex) {
             interface ? interfaces.why(vertex) : std::string(held));
   if (run != nullptr) draw_vertex_kind(context, frame, *run, vertex);
   value_row(context, "valence", count(topology.star(vertex).size()), {}, {}, "elements of its star");
+  draw_loop_place(context, frame, vertex);
+  draw_ring(context, frame, vertex);
   number_row(context, "quality now", facts.now, "minimum over its star, of the shown metric");
   number_row(context, "at the input", facts.before);
   if (context.state.inspection.open && context.state.inspection.vertex == vertex) return;  // whose elements are listed above
@@ -325,20 +386,16 @@ void draw_element(PanelContext& context, const Frame& frame, Index element) {
   if (const PickedFacts& facts = context.derived.facts; facts.inverted)
     value_row(context, "inverted", facts.inverted_inside ? "inside alone" : "yes", {}, context.palette.error,
               facts.inverted_inside ? "not at its corners: where the diamond is" : nullptr);
+  if (const auto& angles = context.derived.facts.angles)
+    value_row(context, "angles", fmt::format("{:.1f}° to {:.1f}°", angles->smallest, angles->largest), {}, {},
+              "smallest and largest at its corners");
   if (frame.input->is_volume() && !frame.positions.empty())
     number_row(context, "volume", signed_volume(elements, frame.positions, element), "negative where it is inside out");
   if (const PickedFacts& facts = context.derived.facts; facts.aspect && facts.target_aspect) {
     number_row(context, "aspect", *facts.aspect, "longest over shortest axis of what makes it of an ideal element");
     number_row(context, "of its target", *facts.target_aspect, "the same of what it is wished to be");
   }
-  dim_text(context, "corners", false);
-  for (const Index corner : elements.corners(element)) {
-    ImGui::SameLine();
-    const std::string id = fmt::format("{}", corner);
-    if (ImGui::GetContentRegionAvail().x < ImGui::CalcTextSize(id.c_str()).x + context.px(16)) ImGui::NewLine();
-    if (ImGui::SmallButton(id.c_str())) context.send(fmt::format("pick vertex {}", corner));
-    next_item_tooltip("select this vertex");
-  }
+  draw_vertices(context, "corners", elements.corners(element));
   if (ImGui::SmallButton("Inspect its worst corner")) context.send(fmt::format("inspect element {}", element));
   note_item(context, "why", "looks into the search of its worst free corner");
   draw_metric_table(context);

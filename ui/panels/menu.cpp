@@ -59,7 +59,13 @@ void draw_submenu(PanelContext& context, const Submenu& submenu) {
 struct Nested {
   std::string_view menu, within;
 };
-constexpr std::array<Nested, 4> kNested{{{"Stepping", "Run"}, {"Inspect", "Run"}, {"Plot", "View"}, {"Colours", "View"}}};
+constexpr std::array<Nested, 7> kNested{{{"Timeline", "Run"},
+                                         {"Play", "Run"},
+                                         {"Marks A and B", "Run"},
+                                         {"Stepping", "Run"},
+                                         {"Inspect", "Run"},
+                                         {"Plot", "View"},
+                                         {"Colours", "View"}}};
 
 bool is_nested(std::string_view menu) { return std::ranges::find(kNested, menu, &Nested::menu) != kNested.end(); }
 
@@ -86,6 +92,7 @@ void draw_entries(PanelContext& context, std::string_view menu) {
   const Submenu* last = nullptr;
   for (const Action& action : actions()) {
     if (action.menu != menu || action.id.starts_with("sample-")) continue;
+    if (action.id.starts_with("unfold-") && !context.widgets.narrow) continue;  // columns that stand beside the mesh are not unfolded
     if (const Submenu* submenu = submenu_of(action)) {
       if (submenu != last) draw_submenu(context, *submenu);
       last = submenu;
@@ -119,11 +126,11 @@ struct Tool {
 constexpr std::array<Tool, 10> kTools{{{"open", "Open…", nullptr, false, 44},
                                        {"run-pause", "▶ Run", "❚❚ Pause", true},
                                        {"make-good", "Make it good", nullptr, false, 40},
-                                       {"step-iteration", "Step"},
+                                       {"step-iteration", "Iteration"},
                                        {"back-iteration", "Back"},
                                        {"reset", "Reset", nullptr, false, 36},
-                                       {"step-class", "Class", nullptr, true, 47},
-                                       {"step-vertex", "Vertex", nullptr, false, 47},
+                                       {"step-class", "Colour class", nullptr, true, 52},
+                                       {"step-vertex", "Vertex", nullptr, false, 52},
                                        {"fit", "Fit", nullptr, true, 30},
                                        {"wireframe", "Wires", "Wires ✓", false, 34}}};
 
@@ -131,15 +138,18 @@ float width_of(const Tool& tool) { return tool.other == nullptr ? widest_button(
 
 float gap_before(const PanelContext& context, const Tool& tool) { return tool.gap ? context.px(18) : context.px(6); }
 
-/// The metric that is shown, at the right end where there is room.
+/// The metric that is shown, at the right end where there is room; with its label where there is room for that, too.
 void draw_shown_metric(PanelContext& context, const Rect& rect) {
   const float width = 12 * context.em(), label = ImGui::CalcTextSize("shown").x + context.px(8), end = context.px(12);
   ImGui::SameLine();
   const float left = rect.w - end - width;
-  if (context.derived.metrics.empty() || left - label < ImGui::GetCursorPosX() + context.px(8)) return;
-  ImGui::SetCursorPosX(left - label);
-  ImGui::AlignTextToFramePadding();
-  dim_text(context, "shown", false);
+  const float room = left - ImGui::GetCursorPosX() - context.px(8);
+  if (context.derived.metrics.empty() || room < 0) return;
+  if (room >= label) {
+    ImGui::SetCursorPosX(left - label);
+    ImGui::AlignTextToFramePadding();
+    dim_text(context, "shown", false);
+  }
   ImGui::SameLine(left);
   ImGui::SetNextItemWidth(width);
   metric_combo(context, "toolbar-shown", context.session.shown, "show");

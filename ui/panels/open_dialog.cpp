@@ -22,12 +22,33 @@ void enter_folder(WidgetState& widgets, const fs::path& folder) {
   widgets.open.folder = whole.string();
   widgets.open.text = widgets.open.folder;
   widgets.open.selected = -1;
+  widgets.open.marked.clear();
   widgets.open.entries = list_folder(whole, widgets.open.all_files, widgets.open.error);
 }
 
-void open_file(PanelContext& context, const fs::path& file) {
+void open_files(PanelContext& context, const std::vector<fs::path>& files) {
   context.state.dialog = Dialog::None;
-  context.send(command_to_open(context.state.open_for, file.string()));
+  for (const std::string& command : commands_to_open(context.state.open_for, files)) context.send(command);
+}
+void open_file(PanelContext& context, const fs::path& file) { open_files(context, {file}); }
+
+/// A click with Ctrl adds a file to those that are chosen or takes it away, with Shift it adds all up to there; any other click chooses it
+/// alone. Folders are not among them.
+void choose(OpenDialog& open, int row, bool several) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const auto name_of = [&](int k) -> const FolderEntry& { return open.entries[static_cast<std::size_t>(k)]; };
+  if (several && io.KeyCtrl && !name_of(row).folder) {
+    if (open.marked.empty() && open.selected >= 0 && open.selected != row && !name_of(open.selected).folder)
+      open.marked.insert(name_of(open.selected).name);
+    if (!open.marked.insert(name_of(row).name).second) open.marked.erase(name_of(row).name);
+  } else if (several && io.KeyShift && open.selected >= 0) {
+    for (int k = std::min(open.selected, row); k <= std::max(open.selected, row); ++k)
+      if (!name_of(k).folder) open.marked.insert(name_of(k).name);
+  } else {
+    open.marked.clear();
+  }
+  open.selected = row;
+  if (!name_of(row).folder) open.text = (fs::path(open.folder) / name_of(row).name).string();
 }
 
 /// A folder is entered, a file opened; anything else gets a sentence.
@@ -72,10 +93,11 @@ void draw_entries(PanelContext& context) {
       const ImVec2 at = ImGui::GetCursorScreenPos();
       const float width = ImGui::GetContentRegionAvail().x;
       constexpr ImGuiSelectableFlags kFlags = ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups;
-      if (ImGui::Selectable("##entry", k == widgets.open.selected, kFlags)) {
-        if (entry.folder || ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) chosen = k;
-        widgets.open.selected = k;
-        if (!entry.folder) widgets.open.text = (fs::path(widgets.open.folder) / entry.name).string();
+      const bool marked = widgets.open.marked.empty() ? k == widgets.open.selected : widgets.open.marked.contains(entry.name);
+      if (ImGui::Selectable("##entry", marked, kFlags)) {
+        const bool alone = !ImGui::GetIO().KeyCtrl && !ImGui::GetIO().KeyShift;
+        if (alone && (entry.folder || ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))) chosen = k;
+        choose(widgets.open, k, context.state.open_for != OpenFor::Surface);
       }
       context.items.record_last("entry:" + entry.name);
       if (scroll && k == widgets.open.selected) ImGui::SetScrollHereY();
@@ -166,14 +188,21 @@ void draw_open_dialog(PanelContext& context) {
   draw_entries(context);
   ImGui::EndChild();
 
-  const bool open = ImGui::Button("Open");
+  const std::size_t marked = widgets.open.marked.size();
+  const bool open = ImGui::Button(marked > 1 ? fmt::format("Open {} files###open", marked).c_str() : "Open###open");
   context.items.record_last("open:open");
   ImGui::SameLine();
   close_button(context, "Cancel");
   ImGui::SameLine(0, context.px(24));
   if (ImGui::Checkbox("all files", &widgets.open.all_files)) enter_folder(widgets, widgets.open.folder);
   context.items.record_last("open:all");
-  if ((entered || open) && !widgets.open.text.empty()) go_to(context, widgets.open.text);
+  if ((entered || open) && marked > 1) {
+    std::vector<fs::path> files;
+    for (const std::string& name : widgets.open.marked) files.push_back(fs::path(widgets.open.folder) / name);
+    open_files(context, files);
+  } else if ((entered || open) && !widgets.open.text.empty()) {
+    go_to(context, widgets.open.text);
+  }
   end_dialog();
 }
 

@@ -14,6 +14,7 @@
 #include "core/view/view.h"
 #include "ui/analysis/derived.h"
 #include "ui/analysis/inspection.h"
+#include "ui/analysis/outline_source.h"
 #include "ui/panels/dialogs.h"
 #include "ui/state/actions.h"
 #include "ui/state/glyph_book.h"
@@ -101,6 +102,7 @@ struct WidgetState {
   FormulaDialog formula;
   CompareDialog compare;
   TargetChoices target_choices;
+  OutlineSource outline;
   ChooserTurn chooser;
   Dialog dialog_shown = Dialog::None;  // in the last frame
   bool dialog_opened = false;          // in this frame
@@ -122,6 +124,7 @@ struct WidgetState {
   PickedFacts vertex_under_menu, element_under_menu;  // and what there is to copy of them
   float setup_height = 0;                             // of the setup's contents in the last frame; 0: not drawn yet
   bool message_is_cut = false;                        // in the status
+  bool narrow = false;                                // columns lie over the mesh
   double moved_at = -1e9;                             // when the view last moved
 };
 

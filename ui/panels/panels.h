@@ -18,6 +18,9 @@ void draw_composite(PanelContext& context, const RunView& run);
 void draw_colours(PanelContext& context);
 /// The mesh's groups; nothing of a mesh without any.
 void draw_groups(PanelContext& context);
+/// The boundary loops of a planar or surface mesh; and where on its loop a vertex is, with buttons that walk along it.
+void draw_loops(PanelContext& context);
+void draw_loop_place(PanelContext& context, const Frame& frame, Index vertex);
 /// What is seen of a volume mesh, and from where; nothing of another one.
 void draw_clipping(PanelContext& context);
 /// To be called with the mouse over the mesh: after a while its element's value is shown.

@@ -25,13 +25,6 @@ void draw_method(PanelContext& context, const RunParameters& parameters) {
       context.send(fmt::format("method {}", method.name));
 }
 
-/// Of a method that promises nothing.
-void draw_method_note(PanelContext& context, const RunParameters& parameters) {
-  if (method_info(parameters.method).optimises) return;
-  wrapped_text(fmt::format("{}; Best goes back to the best iteration", kMayMakeWorse), context.palette.warning);
-  context.items.record_last("method-note");
-}
-
 /// Sends `command X` when another number was entered.
 void real(PanelContext& context, const char* item, double value) {
   double edited = value;
@@ -109,19 +102,29 @@ void draw_order(PanelContext& context, const RunParameters& parameters) {
   integer(context, "seed", static_cast<int>(*parameters.order.seed), 0, kLargestSeed, "order shuffle:");
 }
 
-/// In a place that is as high whatever it says: nothing below it moves.
-void draw_what_a_change_does(PanelContext& context, const RunView& run) {
+/// In a place that is as high whatever it says, so that nothing below it moves: what a change does; of a method that promises nothing,
+/// that.
+void draw_note(PanelContext& context, const RunView& run) {
   const bool begun = run.moment != Moment{} || run.edits > 0 || run.records.size() > 1;
   constexpr const char* kNew = "A change starts a new run.";
   constexpr const char* kSame = "A change alters this run.";
+  constexpr const char* kWorse = "May make elements worse.";
   const float room = ImGui::GetContentRegionAvail().x, top = ImGui::GetCursorPosY();
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   float height = 0;
-  for (const char* text : {kNew, kSame}) height = std::max(height, ImGui::CalcTextSize(text, nullptr, false, room).y);
-  dim_text(context, begun ? kNew : kSame);
+  for (const char* text : {kNew, kSame, kWorse}) height = std::max(height, ImGui::CalcTextSize(text, nullptr, false, room).y);
+  const bool promises = method_info(run.parameters.method).optimises;
+  std::string about = begun ? "A change starts a new run at the input, beside this one, which keeps what it has done."
+                            : "This run has not begun. Once it has, a change starts a new run beside it.";
+  if (promises) {
+    dim_text(context, begun ? kNew : kSame);
+  } else {
+    wrapped_text(kWorse, context.palette.warning);
+    context.items.record_last("method-note");
+    about = "This method promises nothing; Best, below, goes back to the best iteration. " + about;
+  }
   context.items.record("change-note", {corner.x, corner.y, corner.x + room, corner.y + height});
-  next_item_tooltip(begun ? "This run keeps what it has done; the new one begins at the input, beside it."
-                          : "It has not begun. Once it has, a change starts a new run beside it.");
+  next_item_tooltip(about);
   ImGui::SetCursorPosY(top + height + ImGui::GetStyle().ItemSpacing.y);
 }
 
@@ -169,13 +172,12 @@ void draw_parameters(PanelContext& context) {
   const RunParameters& parameters = run->parameters;
   ImGui::BeginDisabled(context.activity.busy);
   draw_method(context, parameters);
-  draw_method_note(context, parameters);
   if (method_info(parameters.method).optimises)
     labelled(context, "optimises", "the metric whose minimum over each star the method raises", metric_combo_width(context));
   else
     labelled(context, "judged by", "the metric of the run's statistics; the method goes by none", metric_combo_width(context));
   metric_combo(context, "metric", parameters.metric, "metric");
-  draw_what_a_change_does(context, *run);
+  draw_note(context, *run);
   ImGui::EndDisabled();
   const bool open = context.state.panels.settings;
   if (fold_row(context, "settings", "More settings", changes_of(parameters), open, "target, phases, grid, boundary, order, threads"))

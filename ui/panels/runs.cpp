@@ -6,6 +6,7 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include "core/smooth/execution/method_table.h"
 #include "ui/panels/icons.h"
 #include "ui/panels/panels.h"
 #include "ui/state/format.h"
@@ -156,10 +157,23 @@ void draw_add(PanelContext& context) {
   ImGui::EndDisabled();
   next_item_tooltip("another run on the same input, to compare with");
   if (!ImGui::BeginPopup("add run")) return;
-  dim_text(context, "new run: metric to optimise", false);
-  for (const Metric metric : context.derived.metrics)
+  const std::string own(info(run->parameters.metric).name);
+  dim_text(context, "a new run by this method, with the metric", false);
+  for (const Metric metric : context.derived.metrics) {
     if (ImGui::MenuItem(metric_title(metric).c_str()))
       context.send(fmt::format("add-run {}:{}", run->parameters.method, info(metric).name));
+    context.items.record_last(fmt::format("add-run:{}", info(metric).name));
+  }
+  ImGui::Separator();
+  dim_text(context, "a new run with this metric, by the method", false);
+  for (const MethodInfo& method : method_table()) {
+    if (ImGui::MenuItem(std::string(method.name).c_str())) context.send(fmt::format("add-run {}:{}", method.name, own));
+    note_item(context, fmt::format("add-run:{}", method.name), std::string(method.doc));
+  }
+  ImGui::Separator();
+  const Action& several = *find_action("compare-runs");
+  if (ImGui::MenuItem(std::string(several.title).c_str())) context.send(std::string(several.command));
+  context.items.record_last("add-run:several");
   ImGui::EndPopup();
 }
 
@@ -168,6 +182,12 @@ void draw_add(PanelContext& context) {
 void draw_runs(PanelContext& context) {
   const std::vector<RunView>& runs = context.session.runs;
   heading(context, runs.size() > 1 ? fmt::format("Runs ({})", runs.size()).c_str() : "Runs");
+  next_item_tooltip("beside each run its worst element by the metric that the run optimises");
+  const bool by_others = std::ranges::any_of(runs, [&](const RunView& run) { return run.parameters.metric != context.session.shown; });
+  if (by_others) {
+    ImGui::SameLine();
+    dim_text(context, "worst by its own metric", false);
+  }
   ImGui::SameLine();
   draw_add(context);
   RunListState& state = context.widgets.run_list;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "ui/analysis/step_report.h"
 #include "ui/panels/panels.h"
 #include "ui/state/format.h"
 #include "ui/state/run_progress.h"
@@ -189,10 +190,12 @@ void draw_status(PanelContext& context, const Rect& rect) {
 void draw_message(PanelContext& context, const Rect& viewport) {
   const auto message = newest_message(context);
   if (!message || !context.widgets.message_is_cut || viewport.h < 8 * context.em()) return;
-  // Other news is in the facts, too, and in the tooltip; of whole iterations the facts have all that counts.
+  // Other news is in the facts, too, and in the tooltip; of whole iterations the facts have all that counts, but for how a run ended.
   const RunView* run = context.run();
   const bool within = run != nullptr && run->moment.visits > 0;
-  const bool is_step = within && message->text == context.state.stepping.news.sentence && !context.state.tour.on;  // whose card is there
+  const bool ended = run != nullptr && has_converged(*run);
+  const bool is_step =
+      (within || ended) && message->text == context.state.stepping.news.sentence && !context.state.tour.on;  // whose card is
   if (message->kind == Message::Kind::Info && !is_step) return;
   const std::string text = first_line(context, *message);
   const float pad = context.px(10), axes = context.state.in_space ? 6 * context.em() : 0.0F;
@@ -220,8 +223,8 @@ void draw_strips(PanelContext& context, const Layout& layout) {
   const auto words = [&panels](Side side) {
     return panels.setup_side == panels.facts_side ? "setup and facts" : panels.setup_side == side ? "runs and parameters" : "facts";
   };
-  if (!layout.left_strip.empty()) strip(context, "left", layout.left_strip, "☰", words(Side::Left), panels.left_over);
-  if (!layout.right_strip.empty()) strip(context, "right", layout.right_strip, "☰", words(Side::Right), panels.right_over);
+  if (!layout.left_strip.empty()) strip(context, "left", layout.left_strip, "☰", words(Side::Left), panels.over(Side::Left));
+  if (!layout.right_strip.empty()) strip(context, "right", layout.right_strip, "☰", words(Side::Right), panels.over(Side::Right));
 }
 
 }  // namespace dmoscope::ui

@@ -9,19 +9,20 @@ namespace dmoscope::ui {
 namespace {
 
 /// How names of a tab's controls begin; the first that fits counts.
-constexpr std::array<std::pair<std::string_view, FactsTab>, 32> kHomes{
-    {{"worst:", FactsTab::Worst},        {"why:", FactsTab::Worst},          {"why?", FactsTab::Worst},
-     {"color-", FactsTab::Colours},      {"colormap", FactsTab::Colours},    {"reverse-colors", FactsTab::Colours},
+constexpr std::array<std::pair<std::string_view, FactsTab>, 36> kHomes{
+    {{"worst:", FactsTab::Worst},        {"why:", FactsTab::Worst},        {"why?", FactsTab::Worst},
+     {"color-", FactsTab::Colours},      {"colormap", FactsTab::Colours},  {"reverse-colors", FactsTab::Colours},
      {"range-menu", FactsTab::Mesh},  // in the legend
-     {"range-", FactsTab::Colours},      {"occlusion", FactsTab::Colours},   {"shading", FactsTab::Colours},
-     {"labels", FactsTab::Colours},      {"filter", FactsTab::Colours},      {"worst-view", FactsTab::Colours},
-     {"isolate-off", FactsTab::Colours}, {"shown", FactsTab::Colours},       {"inside:", FactsTab::Inside},
-     {"from:", FactsTab::Inside},        {"group-", FactsTab::Mesh},         {"held-by", FactsTab::Mesh},
-     {"show-worst", FactsTab::Mesh},     {"star:", FactsTab::Selection},     {"metric:", FactsTab::Selection},
-     {"why", FactsTab::Selection},       {"kind:", FactsTab::Selection},     {"edge:", FactsTab::Selection},
-     {"chain:", FactsTab::Selection},    {"place:", FactsTab::Selection},    {"inspect", FactsTab::Selection},
-     {"level", FactsTab::Selection},     {"candidate", FactsTab::Selection}, {"element:", FactsTab::Selection},
-     {"field", FactsTab::Selection}}};
+     {"range-", FactsTab::Colours},      {"occlusion", FactsTab::Colours}, {"shading", FactsTab::Colours},
+     {"labels", FactsTab::Colours},      {"filter", FactsTab::Colours},    {"worst-view", FactsTab::Colours},
+     {"isolate-off", FactsTab::Colours}, {"shown", FactsTab::Colours},     {"inside:", FactsTab::Inside},
+     {"from:", FactsTab::Inside},        {"group-", FactsTab::Mesh},       {"loop-next", FactsTab::Selection},
+     {"loop-back", FactsTab::Selection}, {"loop-", FactsTab::Mesh},        {"reference", FactsTab::Colours},
+     {"held-by", FactsTab::Mesh},        {"show-worst", FactsTab::Mesh},   {"star:", FactsTab::Selection},
+     {"metric:", FactsTab::Selection},   {"why", FactsTab::Selection},     {"kind:", FactsTab::Selection},
+     {"edge:", FactsTab::Selection},     {"chain:", FactsTab::Selection},  {"place:", FactsTab::Selection},
+     {"inspect", FactsTab::Selection},   {"level", FactsTab::Selection},   {"candidate", FactsTab::Selection},
+     {"element:", FactsTab::Selection},  {"field", FactsTab::Selection}}};
 /// Controls of the settings that are not rows of parameter_table().
 constexpr std::array<std::string_view, 8> kSettings{"target", "then-", "combine", "backend", "threads", "seed", "size", "threshold"};
 

@@ -6,12 +6,14 @@
 namespace dmoscope::ui {
 
 void Panels::show_selection(bool in_list) {
+  picked_over = true;
   if (tab == FactsTab::Selection || (in_list && tab == FactsTab::Worst)) return;
   tab_before = tab;
   tab = FactsTab::Selection;
 }
 
 void Panels::leave_selection() {
+  picked_over = false;
   if (tab == FactsTab::Selection) tab = tab_before;
 }
 

@@ -89,9 +89,15 @@ struct Panels {
   bool settings = false;                       // all parameters are unfolded
   bool holds = false;                          // what holds the minimum is unfolded
   bool notice = false;                         // the note about a run's end is unfolded
+  bool loops = false;                          // the list of boundary loops is unfolded
   bool bottom = true;                          // plots; the timeline below them is always there
   bool plots_wait = true;                      // for the first step of a mesh, or for a plot that needs none; then they open
   bool left_over = false, right_over = false;  // opened over the mesh where the window is too small for both
+  bool picked_over = false;                    // likewise the facts alone, of what was picked
+  /// Whether a side's docks lie over the mesh in such a window.
+  [[nodiscard]] bool over(Side side) const noexcept {
+    return (side == Side::Left ? left_over : right_over) || (picked_over && has_facts(side));
+  }
   [[nodiscard]] bool plots() const noexcept { return bottom && !plots_wait; }
   [[nodiscard]] bool has_setup(Side side) const noexcept { return setup && setup_side == side; }
   [[nodiscard]] bool has_facts(Side side) const noexcept { return facts && facts_side == side; }

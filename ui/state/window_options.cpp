@@ -104,6 +104,7 @@ std::vector<ViewOption> panel_options() {
       row("settings", "all parameters of the run", at<&V::panels, &Panels::settings>(), {"", "/panels/settings", kScript}),
       row("unfold-holds", "what holds the minimum, and what would raise it", at<&V::panels, &Panels::holds>(),
           {"", "/panels/holds", kScript}),
+      row("unfold-loops", "the list of boundary loops", at<&V::panels, &Panels::loops>(), {"", "/panels/loops"}),
       row("unfold-notice", "the note about a run's end", at<&V::panels, &Panels::notice>(), {"", "/panels/notice", kScript}),
       row("panel bottom", "shows or hides a panel",
           at<&V::panels, &Panels::bottom>().and_then([](V& state) { state.panels.plots_wait = false; }).seen_as([](const V& state) {
@@ -120,10 +121,12 @@ std::vector<ViewOption> panel_options() {
           numbers(at<&V::panels, &Panels::runs_height>(),
                   {.least = 4.0, .most = 60.0, .clamped = true, .unit = "EM", .rest_word = "default"}),
           both("/panels/runs_height", kScript)),
-      row("unfold left", "in a narrow window: shows a side panel over the mesh", at<&V::panels, &Panels::left_over>(), {"", "", kScript},
-          {"Narrow window: show the left column", "scale-one", "", "unfold-left"}),
-      row("unfold right", "in a narrow window: shows a side panel over the mesh", at<&V::panels, &Panels::right_over>(), {"", "", kScript},
-          {"Narrow window: show the right column", "unfold-left", "", "unfold-right"}),
+      row("unfold left", "in a narrow window: shows a side panel over the mesh",
+          at<&V::panels, &Panels::left_over>().and_then([](V& state) { state.panels.picked_over = false; }), {"", "", kScript},
+          {"Show the left column over the mesh", "scale-one", "", "unfold-left"}),
+      row("unfold right", "in a narrow window: shows a side panel over the mesh",
+          at<&V::panels, &Panels::right_over>().and_then([](V& state) { state.panels.picked_over = false; }), {"", "", kScript},
+          {"Show the right column over the mesh", "unfold-left", "", "unfold-right"}),
   };
 }
 

@@ -36,10 +36,12 @@ std::string open_beside_command(const std::string& file) {
   return is_session_name(file) ? open_command(file) : "open-beside " + quote_word(file);
 }
 
-std::string command_to_open(OpenFor open_for, const std::string& file) {
-  return open_for == OpenFor::Beside    ? open_beside_command(file)
-         : open_for == OpenFor::Surface ? "surface " + quote_word(file)
-                                        : open_command(file);
+std::vector<std::string> commands_to_open(OpenFor open_for, const std::vector<std::filesystem::path>& files) {
+  if (open_for == OpenFor::Alone) return open_commands(files);
+  std::vector<std::string> commands;
+  for (const std::filesystem::path& file : files)
+    commands.push_back(open_for == OpenFor::Surface ? "surface " + quote_word(file.string()) : open_beside_command(file.string()));
+  return commands;
 }
 
 const char* title_to_open(OpenFor open_for) {

@@ -26,8 +26,8 @@ inline constexpr std::string_view kSessionExtension = ".dmoscope";
 [[nodiscard]] std::string open_command(const std::string& file);
 /// The command that opens a mesh beside those that are open; a session in their place.
 [[nodiscard]] std::string open_beside_command(const std::string& file);
-/// The command, and the title of the dialog, for what a file is opened for.
-[[nodiscard]] std::string command_to_open(OpenFor open_for, const std::string& file);
+/// The commands, and the title of the dialog, for what files are opened for: a mesh after another is opened beside it.
+[[nodiscard]] std::vector<std::string> commands_to_open(OpenFor open_for, const std::vector<std::filesystem::path>& files);
 [[nodiscard]] const char* title_to_open(OpenFor open_for);
 /// The commands that open several files: a mesh after another is opened beside it.
 [[nodiscard]] std::vector<std::string> open_commands(const std::vector<std::filesystem::path>& files);

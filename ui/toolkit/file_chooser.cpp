@@ -41,6 +41,7 @@ fs::path on_path(std::string_view program) {
 std::vector<std::string> zenity_arguments(const fs::path& program, const ChooserWish& wish) {
   std::vector<std::string> out{program.string(), "--file-selection", "--title=" + wish.title};
   if (wish.save) out.insert(out.end(), {"--save", "--confirm-overwrite"});
+  if (wish.several) out.insert(out.end(), {"--multiple", "--separator=\n"});
   out.push_back("--filename=" + (fs::path(wish.folder) / wish.name).string());
   if (!wish.endings.empty()) {
     std::string patterns;
@@ -53,6 +54,7 @@ std::vector<std::string> zenity_arguments(const fs::path& program, const Chooser
 
 std::vector<std::string> kdialog_arguments(const fs::path& program, const ChooserWish& wish) {
   std::vector<std::string> out{program.string(), "--title", wish.title, wish.save ? "--getsavefilename" : "--getopenfilename"};
+  if (wish.several) out.insert(out.begin() + 1, {"--multiple", "--separate-output"});
   out.push_back((fs::path(wish.folder) / wish.name).string());
   if (!wish.endings.empty()) {
     std::string patterns;
@@ -80,6 +82,7 @@ struct FileChooser::Child {
   pid_t pid = -1;
   int out = -1;
   std::string program;
+  bool several = false;  // files may be chosen, one a line; else the line is one, whatever is in its name
   std::atomic<bool> unwanted = false;
   std::mutex mutex;
   std::optional<ChooserOutcome> outcome;
@@ -103,11 +106,25 @@ struct FileChooser::Child {
   [[nodiscard]] ChooserOutcome outcome_of(int status, std::string text, bool at_once) const;
 };
 
+namespace {
+
+std::vector<fs::path> lines_of(std::string_view text) {
+  std::vector<fs::path> lines;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    if (end > 0) lines.emplace_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return lines;
+}
+
+}  // namespace
+
 ChooserOutcome FileChooser::Child::outcome_of(int status, std::string text, bool at_once) const {
   using Kind = ChooserOutcome::Kind;
   if (text.ends_with('\n')) text.pop_back();
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  if (code == 0 && !text.empty()) return {Kind::Chosen, text, {}};
+  if (code == 0 && !text.empty()) return {Kind::Chosen, several ? lines_of(text) : std::vector<fs::path>{text}, {}};
   // Both end with 1 when a person cancels, and also when there is no screen for them.
   if (code == 0 || (code == 1 && !at_once)) return {};
   return {Kind::Failed, {}, fmt::format("the desktop's file dialog ({}) did not open", program)};
@@ -156,6 +173,7 @@ bool FileChooser::begin(const ChooserWish& wish, std::function<void()> wake, std
   }
   auto child = std::make_unique<Child>();
   child->program = program.filename().string();
+  child->several = wish.several;
   child->out = ends[0];
   std::vector<std::string> words = chooser_arguments(program, wish);
   std::vector<char*> arguments;

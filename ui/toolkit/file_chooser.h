@@ -16,13 +16,14 @@ struct ChooserWish {
   std::string folder, name;          // where it begins
   std::string filter_title;          // "meshes and sessions"
   std::vector<std::string> endings;  // ".off"; empty: all files
+  bool several = false;              // more than one may be chosen to be opened
 };
 
 struct ChooserOutcome {
   enum class Kind { Chosen, Cancelled, Failed };
   Kind kind = Kind::Cancelled;
-  std::filesystem::path path;  // of Chosen
-  std::string trouble;         // of Failed: a sentence
+  std::vector<std::filesystem::path> paths{};  // of Chosen: at least one
+  std::string trouble{};                       // of Failed: a sentence
 };
 
 /// The program that shows the desktop's file dialog, found on $PATH: kdialog first where $XDG_CURRENT_DESKTOP names KDE, else zenity.

@@ -53,8 +53,8 @@ void place_folded(Layout& layout, const Panels& panels, float width, float top, 
   layout.right_strip = {width - right, top, right, inner};
   layout.viewport = {left, top, std::max(0.0F, width - left - right), inner};
   const float over = std::min(layout.viewport.w, width * 0.6F);
-  float left_over = left > 0 && panels.left_over ? std::min(static_cast<float>(panels.left_width) * em, over) : 0.0F;
-  float right_over = right > 0 && panels.right_over ? std::min(static_cast<float>(panels.right_width) * em, over) : 0.0F;
+  float left_over = left > 0 && panels.over(Side::Left) ? std::min(static_cast<float>(panels.left_width) * em, over) : 0.0F;
+  float right_over = right > 0 && panels.over(Side::Right) ? std::min(static_cast<float>(panels.right_width) * em, over) : 0.0F;
   const float both = left_over + right_over;
   const float share = both > layout.viewport.w ? layout.viewport.w / both : 1.0F;
   left_over = std::floor(left_over * share);

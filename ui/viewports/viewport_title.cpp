@@ -56,7 +56,9 @@ std::vector<TitlePiece> title_of(const PaneFacts& pane, Metric shown) {
   if (frame == nullptr) return pieces;
   const bool difference = pane.colours && pane.colours->diverging;
   if (frame->run != Frame::kNoRun) pieces.push_back({moment_of(*frame), Role::Plain, difference ? 2 : 1});
-  pieces.push_back({fmt::format("min {}", short_number(frame->shown_statistics.minimum)), Role::Dim, difference ? 3 : 2});
+  const bool own = !of_run || frame->shown == pane.run()->parameters.metric;
+  pieces.push_back({fmt::format("min {}{}", short_number(frame->shown_statistics.minimum), own ? "" : " by " + metric_phrase(frame->shown)),
+                    Role::Dim, difference ? 3 : 2});
   if (const Index inverted = frame->shown_statistics.inverted; inverted > 0)
     pieces.push_back({fmt::format("{} inverted", count(inverted)), Role::Bad, 1});
   if (difference) pieces.push_back({difference_words(*pane.colours), Role::Plain, 1});
@@ -66,8 +68,7 @@ std::vector<TitlePiece> title_of(const PaneFacts& pane, Metric shown) {
   if (pane.colours && pane.colours->by == ColourBy::Difference && !pane.colours->has_values)
     pieces.push_back({"other elements: no difference", Role::Warning, 1});
   const bool other_metric = frame->shown != shown;
-  if (other_metric || (of_run && frame->shown != pane.run()->parameters.metric))
-    pieces.push_back({fmt::format("shown: {}", metric_phrase(frame->shown)), Role::Warning, other_metric ? 1 : 6});
+  if (other_metric) pieces.push_back({fmt::format("shown: {}", metric_phrase(frame->shown)), Role::Warning, 1});
   if (pane.reduced) pieces.push_back({"reduced detail", Role::Warning, 4});
   if (pane.lacks_room) pieces.push_back({"zoom in for labels", Role::Warning, 4});
   return pieces;

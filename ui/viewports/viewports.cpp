@@ -236,7 +236,7 @@ bool Viewports::fit(ViewState& state, double em) {
   };
   render::Bounds2 bounds = box_of_pane(focus_);
   const auto shows_another = [&](std::size_t k) { return k < count_ && views_[k]->session()->input != session_->input; };
-  for (std::size_t k = 0; k < count_ && state.panes.linked; ++k)
+  for (std::size_t k = 0; k < count_ && state.panes.linked && state.requests.fit_all; ++k)
     if (shows_another(k)) bounds.include(box_of_pane(k));
   const render::Camera2D camera = camera_for(bounds);
   const bool all = std::exchange(state.requests.fit_all, false);

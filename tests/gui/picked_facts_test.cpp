@@ -1,0 +1,119 @@
+// What the window says of a pick, of the worst element, of a run's end, and of what a difference is taken from.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/gui/headless_test.h"
+#include "ui/analysis/facts.h"
+#include "ui/analysis/step_report.h"
+#include "ui/state/format.h"
+
+namespace dmoscope::app {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+class SaidInTheWindow : public HeadlessTest {
+ protected:
+  [[nodiscard]] bool shows(const std::string& item) { return window_->app().items().boxes().contains(item); }
+};
+
+TEST_F(SaidInTheWindow, AnglesInDegreesOfTheWorstElement) {
+  good("generate annulus 300");
+  good("show min-angle");
+  const Frame& frame = *window_->app().frame();
+  const auto angles = ui::angles_of(frame, frame.shown_statistics.worst_element);
+  ASSERT_TRUE(angles.has_value());
+  EXPECT_NEAR(angles->smallest, 60 * frame.shown_statistics.minimum, 1e-9) << "the metric is the least angle over 60 degrees";
+  const auto corners = frame.input->mesh.elements.corners(frame.shown_statistics.worst_element);
+  const auto side = [&](int i, int k) {
+    const Vec3 a = frame.positions[corners[static_cast<std::size_t>(i)]], b = frame.positions[corners[static_cast<std::size_t>(k)]];
+    return std::hypot(a.x - b.x, a.y - b.y);
+  };
+  // By the law of cosines, across from the longest side.
+  const double a = side(0, 1), b = side(1, 2), c = side(2, 0), longest = std::max({a, b, c});
+  const double others = a * a + b * b + c * c - longest * longest, product = a * b * c / longest;
+  EXPECT_NEAR(angles->largest, std::acos((others - longest * longest) / (2 * product)) * 180 / std::numbers::pi, 1e-6);
+  good("generate tetrahedra 60");
+  EXPECT_FALSE(ui::angles_of(*window_->app().frame(), 0).has_value());
+}
+
+TEST_F(SaidInTheWindow, HowARunEndedInALine) {
+  good("generate annulus 300");
+  good("until-converged best");
+  const RunView& run = session()->runs[0];
+  const auto& first = run.records.whole().front().statistics;
+  const std::string said = state().stepping.news.sentence;
+  EXPECT_EQ(said, ui::end_sentence(run));
+  EXPECT_THAT(said, StartsWith("Converged: minimum "));
+  EXPECT_THAT(said, HasSubstr(ui::short_number(first.minimum) + " → "));
+  EXPECT_THAT(said, HasSubstr(fmt::format("{} iterations, ", run.records.whole().back().iteration)));
+  good("step iteration");
+  EXPECT_THAT(state().stepping.news.sentence, ::testing::Not(StartsWith("Converged"))) << "of the step now";
+  good("run 2");
+  EXPECT_THAT(state().stepping.news.sentence, ::testing::Not(StartsWith("Stopped"))) << "a number of iterations is no end";
+}
+
+TEST_F(SaidInTheWindow, APickOpensItsFactsInANarrowWindow) {
+  open(640, 520);
+  good("generate annulus 300");
+  ASSERT_FALSE(shows("tab:selection"));
+  good("pick vertex 5");
+  EXPECT_TRUE(shows("tab:selection"));
+  EXPECT_TRUE(shows("inspect")) << "the facts of the vertex";
+  EXPECT_FALSE(shows("settings")) << "and no more";
+  good("pick none");
+  EXPECT_FALSE(shows("tab:selection"));
+  good("pick vertex 5");
+  good("click fold:right");
+  EXPECT_FALSE(shows("tab:selection")) << "it can be closed";
+}
+
+TEST_F(SaidInTheWindow, WhatADifferenceIsTakenFromIsChosen) {
+  good("generate annulus 300");
+  good("add-run laplace");
+  good("each run 2");
+  good("select-run 1");
+  good("tab colours");
+  EXPECT_FALSE(shows("reference"));
+  good("color-by difference input");
+  good("click reference");
+  good("click \"reference:run 2\"");
+  EXPECT_EQ(state().colouring.reference.kind, ui::PaneContent::Kind::Run);
+  EXPECT_EQ(state().colouring.reference.run, session()->runs[1].id);
+}
+
+TEST_F(SaidInTheWindow, ARunByAnotherMethodIsAddedFromTheList) {
+  good("generate annulus 300");
+  good("click add-run");
+  good("click add-run:laplace");
+  ASSERT_EQ(session()->runs.size(), 2U);
+  EXPECT_EQ(session()->runs[1].parameters.method, "laplace");
+  EXPECT_EQ(session()->runs[1].parameters.metric, session()->runs[0].parameters.metric);
+}
+
+TEST_F(SaidInTheWindow, AWalkAlongABoundaryLoopComesBack) {
+  good("generate annulus 300");
+  good("select vertex loop:2");
+  const std::vector<Index> inner = state().selection.vertices();
+  good(fmt::format("pick vertex {}", inner.front()));
+  std::set<Index> met;
+  for (std::size_t k = 0; k < inner.size(); ++k) {
+    met.insert(state().picked.id);
+    good("click loop-next");
+  }
+  EXPECT_EQ(state().picked.id, inner.front());
+  EXPECT_EQ(met, std::set<Index>(inner.begin(), inner.end()));
+  good("click loop-back");
+  good("click loop-next");
+  EXPECT_EQ(state().picked.id, inner.front());
+}
+
+}  // namespace
+}  // namespace dmoscope::app

@@ -1,0 +1,81 @@
+// Boundary loops, which need no names in the file: each can be selected, fixed, or let slide while the rest of the boundary stays.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "ui/panels/panels.h"
+#include "ui/state/format.h"
+
+namespace dmoscope::ui {
+namespace {
+
+constexpr Index kMostShown = 40;  // beyond, a list in a panel helps nobody
+
+float small_button_width(const char* label) { return ImGui::CalcTextSize(label).x + 2 * ImGui::GetStyle().FramePadding.x; }
+
+void draw_loop(PanelContext& context, const Outline& outline, Index number) {
+  const BoundaryLoop& loop = outline.loops[number];
+  const float gap = context.px(4), right = ImGui::GetWindowContentRegionMax().x;
+  const float buttons = small_button_width("select") + small_button_width("fix") + small_button_width("slide") + 2 * gap;
+  const std::string name = outline.name(number);
+  const std::string counted_name = fmt::format("{}  {}", name, count(loop.vertices.size()));
+  const float room = right - buttons - context.px(8) - ImGui::GetCursorPosX();
+  ImGui::TextUnformatted(ImGui::CalcTextSize(counted_name.c_str()).x <= room ? counted_name.c_str() : fit_text(name, room).c_str());
+  next_item_tooltip(fmt::format("{}: {}\nlength {}\nencloses {}{}", name, counted(loop.vertices.size(), "vertex", "vertices"),
+                                short_number(loop.length), short_number(loop.area),
+                                outline.parts.size() > 1 ? fmt::format("\nof part {}", loop.part + 1) : ""));
+  ImGui::SameLine(right - buttons);
+  const std::string word = fmt::format("loop:{}", number + 1);
+  if (ImGui::SmallButton("select")) context.send("select vertex " + word);
+  note_item(context, fmt::format("loop-select:{}", number + 1), "selects its vertices");
+  ImGui::SameLine(0, gap);
+  if (ImGui::SmallButton("fix")) context.send("fix " + word);
+  note_item(context, fmt::format("loop-fix:{}", number + 1), "keeps its vertices where they are, also where the boundary slides");
+  ImGui::SameLine(0, gap);
+  if (ImGui::SmallButton("slide")) context.send("slide " + word);
+  note_item(context, fmt::format("loop-slide:{}", number + 1), "lets its vertices slide along it; the rest of the boundary stays");
+}
+
+}  // namespace
+
+void draw_loops(PanelContext& context) {
+  const Frame* frame = context.frame();
+  if (frame == nullptr || context.run() == nullptr || frame->input->is_volume()) return;
+  const Index known = frame->input->report.boundary_loops;  // without half-edges
+  const bool open = context.state.panels.loops;
+  if (fold_row(context, "loops", "Boundary loops", known == 0 ? "none" : count(known), open,
+               "closed curves of the boundary: their lengths, and buttons to select, to fix and to let slide"))
+    context.send(open ? "unfold-loops off" : "unfold-loops on");
+  if (!open || known == 0) return;
+  const Outline* outline = context.widgets.outline.of(frame->input);
+  if (outline == nullptr) return dim_text(context, "they are being found …");
+  ImGui::BeginDisabled(context.activity.busy);
+  const auto all = static_cast<Index>(outline->loops.size());
+  for (Index number = 0; number < std::min(all, kMostShown); ++number) {
+    ImGui::PushID(static_cast<int>(number));
+    draw_loop(context, *outline, number);
+    ImGui::PopID();
+  }
+  ImGui::EndDisabled();
+  if (all > kMostShown) dim_text(context, fmt::format("and {} more: dmoscope info FILE lists all", count(all - kMostShown)));
+}
+
+void draw_loop_place(PanelContext& context, const Frame& frame, Index vertex) {
+  if (frame.input->is_volume() || frame.input->topology.boundary()[vertex] == 0) return;
+  const Outline* outline = context.widgets.outline.of(frame.input);
+  if (outline == nullptr) return dim_text(context, "its boundary loop is being found …");
+  const auto place = outline->find(vertex);
+  if (!place) return;
+  const std::vector<Index>& around = outline->loops[place->loop].vertices;
+  const auto size = static_cast<Index>(around.size());
+  const float gap = context.px(4), buttons = small_button_width("<") + small_button_width(">") + gap;
+  dim_text(context, fmt::format("{}, {} of {}", outline->name(place->loop), count(place->at + 1), count(size)), false);
+  ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - buttons);
+  if (ImGui::SmallButton("<")) context.send(fmt::format("pick vertex {}", around[(place->at + size - 1) % size]));
+  note_item(context, "loop-back", "the vertex before it along the boundary");
+  ImGui::SameLine(0, gap);
+  if (ImGui::SmallButton(">")) context.send(fmt::format("pick vertex {}", around[(place->at + 1) % size]));
+  note_item(context, "loop-next", "the next vertex along the boundary, with the mesh to the left");
+}
+
+}  // namespace dmoscope::ui

@@ -29,6 +29,7 @@ struct BarLayout {
   float mode_left = 0, mode_width = 0;
   bool has_bar = true;
   float left = 0, top = 0, width = 0, bar_top = 0, bar = 0;  // of the bar
+  float histogram = 0;                                       // height of that of the qualities, above the bar; 0: there is none
   std::vector<Swatch> swatches;                              // of the categories, or beside the bar
   std::size_t entries = 0;                                   // the first so many are categories
 };
@@ -97,7 +98,9 @@ BarLayout lay_out(const PanelContext& context, const Rect& rect) {
   const float inner = 2 * pad;
   const float widest = rect.w - 2 * pad - 2 * inner;
   float height = 0, right = 0;
-  const float first = 0.6F * pad, second = first + 1.25F * line;
+  const bool roomy = context.state.panes.one() && rect.h > 26 * context.em();
+  layout.histogram = layout.mode.empty() || !roomy ? 0.0F : std::round(1.1F * line);
+  const float first = 0.6F * pad, second = first + 1.25F * line + layout.histogram;
   if (layout.has_bar) {
     layout.width = std::min(widest, std::clamp(rect.w * 0.42F, 10 * context.em(), 15 * context.em()));
     height = second + layout.bar + 1.15F * line + 0.6F * pad;
@@ -204,6 +207,7 @@ void handle_bar(PanelContext& context, const BarLayout& layout) {
   ImGui::SetCursorScreenPos({layout.left, layout.bar_top});
   ImGui::InvisibleButton("range:bar", {layout.width, layout.bar});
   context.items.record_last("range:bar");
+  if (layout.histogram > 0) next_item_tooltip("above it: how many elements have which quality");
   reset = reset || (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left));
   if (reset) context.send("range fixed");
   handle_mode(context, layout);
@@ -281,6 +285,31 @@ void draw_bar(const PanelContext& context, const BarLayout& layout) {
   }
 }
 
+/// How many elements have which quality, above the bar in its colours. The highest bin has all of the height, none that has an element is
+/// lost to sight.
+void draw_histogram(const PanelContext& context, const BarLayout& layout) {
+  const Histogram& histogram = context.frame()->now;
+  const Index most = *std::ranges::max_element(histogram.counts);
+  if (most == 0) return;
+  const render::ColourScale scale = shown_scale(context.state, context.derived);
+  const auto range = axis(context);
+  const double bin = (histogram.highest - histogram.lowest) / static_cast<double>(Histogram::kBins);
+  const auto at = [&](double value) {
+    const double share = (value - range.first) / (range.second - range.first);
+    return layout.left + static_cast<float>(std::clamp(share, 0.0, 1.0)) * layout.width;
+  };
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  for (std::size_t k = 0; k < Histogram::kBins; ++k) {
+    const double low = histogram.lowest + static_cast<double>(k) * bin;
+    const float left = at(low), right = at(low + bin);
+    if (histogram.counts[k] == 0 || right <= left) continue;
+    const float share = static_cast<float>(histogram.counts[k]) / static_cast<float>(most);
+    const float height = std::max(context.px(1), share * (layout.histogram - context.px(4)));
+    list.AddRectFilled({left, layout.bar_top - height - context.px(1)}, {right, layout.bar_top - context.px(1)},
+                       colour(scale.colour(low + bin / 2)));
+  }
+}
+
 }  // namespace
 
 float colour_bar_height(const PanelContext& context, const Rect& rect) { return lay_out(context, rect).plate.h + 2 * context.px(8); }
@@ -326,6 +355,7 @@ void draw_colour_bar(PanelContext& context, const Rect& rect) {
     list.AddText({at, layout.top}, colour(context.palette.dim), layout.right.c_str());
   }
   if (!layout.mode.empty()) list.AddText({layout.mode_left, layout.top}, colour(context.palette.accent), layout.mode.c_str());
+  if (layout.histogram > 0) draw_histogram(context, layout);
   if (layout.has_bar) draw_bar(context, layout);
   const auto& isolated = context.state.colouring.isolated;
   for (std::size_t k = 0; k < layout.swatches.size(); ++k) {

@@ -61,10 +61,10 @@ void draw_buttons(PanelContext& context) {
   const bool last = static_cast<std::size_t>(state.level) >= levels, foreign = !context.inspection.other_method.empty();
   ImGui::BeginDisabled(last && foreign);  // there is no such move to make
   action_button(context, "level-next",
-                state.applied      ? (state.in_order ? "Next vertex" : "Again")
+                state.applied      ? (state.in_order ? "Next one" : "Again")
                 : last && !foreign ? "Apply"
                                    : "Next level",
-                true, widest_button({"Next vertex", "Next level", "Apply", "Again"}));
+                true, widest_button({"Next one", "Next level", "Apply", "Again"}));
   ImGui::EndDisabled();
   const char* play = state.playing ? "❚❚" : "▶ Play";
   beside_or_below(play);

@@ -166,6 +166,14 @@ void draw_settings(PanelContext& context, const RunView& run) {
 
 }  // namespace
 
+const std::vector<TargetChoice>& TargetChoices::of(const std::shared_ptr<const InputMesh>& input) {
+  if (input != input_) {
+    input_ = input;
+    choices_ = target_choices(*input);
+  }
+  return choices_;
+}
+
 void draw_parameters(PanelContext& context) {
   const RunView* run = context.run();
   if (run == nullptr) return;

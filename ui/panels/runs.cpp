@@ -186,7 +186,8 @@ void draw_runs(PanelContext& context) {
   const bool by_others = std::ranges::any_of(runs, [&](const RunView& run) { return run.parameters.metric != context.session.shown; });
   if (by_others) {
     ImGui::SameLine();
-    dim_text(context, "worst by its own metric", false);
+    const float room = ImGui::GetContentRegionAvail().x - widest_button({"+ add"}) - context.px(12);
+    dim_text(context, fit_text("each by its metric", room), false);
   }
   ImGui::SameLine();
   draw_add(context);

@@ -138,14 +138,6 @@ void draw_target(PanelContext& context) {
 
 }  // namespace
 
-const std::vector<TargetChoice>& TargetChoices::of(const std::shared_ptr<const InputMesh>& input) {
-  if (input != input_) {
-    input_ = input;
-    choices_ = target_choices(*input);
-  }
-  return choices_;
-}
-
 void draw_formula_dialog(PanelContext& context) {
   FormulaDialog& dialog = context.widgets.formula;
   if (context.widgets.dialog_opened) begin(dialog, context.run());

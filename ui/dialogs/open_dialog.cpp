@@ -6,8 +6,8 @@
 #include <imgui.h>
 
 #include "core/commands/commands.h"
+#include "ui/dialogs/save_rows.h"
 #include "ui/panels/panels.h"
-#include "ui/panels/save_rows.h"
 #include "ui/state/recent_labels.h"
 
 namespace dmoscope::ui {

@@ -9,8 +9,8 @@
 #include "core/io/mesh_io.h"
 #include "core/io/writing/atomic_file.h"
 #include "core/session/original_copy.h"
+#include "ui/dialogs/save_rows.h"
 #include "ui/panels/panels.h"
-#include "ui/panels/save_rows.h"
 
 namespace dmoscope::ui {
 namespace {

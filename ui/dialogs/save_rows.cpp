@@ -1,4 +1,4 @@
-#include "ui/panels/save_rows.h"
+#include "ui/dialogs/save_rows.h"
 
 #include <filesystem>
 

@@ -115,4 +115,26 @@ bool DepthMap::shows(Vec3 point) const {
   return all_empty;
 }
 
+Unhidden unhidden_of(const SeenFaces& seen, const DepthMap& depths) {
+  enum : std::uint8_t { Unknown, Shown, Hidden };
+  std::vector<std::uint8_t> known(seen.positions.size(), Unknown);
+  const auto is_shown = [&](Index v) {
+    if (known[v] == Unknown) known[v] = !cut_away(seen, seen.positions[v]) && depths.shows(seen.positions[v]) ? Shown : Hidden;
+    return known[v] == Shown;
+  };
+  Unhidden unhidden;
+  for (const ElementFace& face : seen.faces.faces) {
+    const auto vertices = vertices_of(seen.elements, face);
+    const std::size_t count = vertices[3] == kNoIndex ? 3 : 4;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Index a = vertices[i], b = vertices[(i + 1) % count];
+      if (is_shown(a) && is_shown(b)) unhidden.edges.push_back({std::min(a, b), std::max(a, b)});
+    }
+  }
+  for (Index v = 0; v < known.size(); ++v)
+    if (known[v] == Shown) unhidden.vertices.push_back(v);
+  unhidden.tidy();
+  return unhidden;
+}
+
 }  // namespace dmoscope::render

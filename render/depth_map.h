@@ -34,4 +34,7 @@ class DepthMap {
   std::vector<float> depths_;  // row after row from below; infinite where nothing is
 };
 
+/// See Scene::unhidden.
+[[nodiscard]] Unhidden unhidden_of(const SeenFaces& seen, const DepthMap& depths);
+
 }  // namespace dmoscope::render

@@ -39,10 +39,8 @@ class ElementPainter {
   /// The buffers of the two, for others to write: new ones with every upload_topology, the same ones until then.
   [[nodiscard]] GLuint point_buffer() const noexcept { return points_.id(); }
   [[nodiscard]] GLuint shade_buffer() const noexcept { return shades_.id(); }
-  void set_colours(const ColourScale& colours) { colouring_.set_colours(colours); }
-  /// What is shown instead of quality; null: quality. Gone with upload_topology, as is the selection.
-  void set_shading(const Shading* shading) { colouring_.set_shading(shading); }
-  void set_selection(const Selection& selection) { colouring_.set_selection(selection); }
+  /// Shading and selection are gone with upload_topology.
+  [[nodiscard]] Fill& fill() noexcept { return colouring_; }
   /// Draws all elements of the ranges.
   void draw(const View& view, const Style& style, std::size_t batch, std::span<const DrawRange> ranges);
   /// Draws a square for every stride-th element of the ranges.

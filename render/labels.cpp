@@ -31,8 +31,7 @@ Vec2<double> label_digit(float scale) {
 
 double label_width(Index id, const LabelWish& wish) { return static_cast<double>(std::to_string(id).size()) * wish.digit_width; }
 
-void draw_labels(Image& image, std::span<const Label> labels, const Camera2D& camera, Vec2<double> viewport, const Style& style,
-                 float scale) {
+void draw_labels(Image& image, std::span<const Label> labels, Vec2<double> viewport, const Style& style, float scale) {
   const std::unique_ptr<Font> font = Font::load();
   if (!font || labels.empty()) return;
   const Rgba paper = style.casing_colour, ink = style.highlight_colour;
@@ -41,7 +40,7 @@ void draw_labels(Image& image, std::span<const Label> labels, const Camera2D& ca
     const std::string text = std::to_string(label.id);
     const int width = font->width(text, size), pad = static_cast<int>(std::lround(2.0F * scale));
     const int height = static_cast<int>(std::lround(0.74F * size));  // of a digit
-    const Vec2<double> at = camera.to_pixel(label.point, viewport);
+    const Vec2<double> at{0.5 * viewport.x + label.point.x, 0.5 * viewport.y - label.point.y};
     const int left = static_cast<int>(std::lround(at.x)) - width / 2, top = static_cast<int>(std::lround(at.y)) - height / 2;
     // Vertices dark on light where elements are light on dark.
     const Rgba plate = label.vertex ? ink : paper, letters = label.vertex ? paper : ink;

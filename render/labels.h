@@ -3,7 +3,6 @@
 
 #include <span>
 
-#include "render/camera.h"
 #include "render/image.h"
 #include "render/scene.h"
 #include "render/style.h"
@@ -17,7 +16,6 @@ namespace dmoscope::render {
 [[nodiscard]] double label_width(Index id, const LabelWish& wish);
 
 /// Writes the labels of a view of the size `viewport` into the left upper part of `image`. Without a font it does nothing.
-void draw_labels(Image& image, std::span<const Label> labels, const Camera2D& camera, Vec2<double> viewport, const Style& style,
-                 float scale);
+void draw_labels(Image& image, std::span<const Label> labels, Vec2<double> viewport, const Style& style, float scale);
 
 }  // namespace dmoscope::render

@@ -16,7 +16,7 @@ class LivePicture {
     int width = 1, height = 1;
     Camera camera;
     Style style;
-    SceneMarks marks;
+    Marks marks;
     double detail = 1.0;  // what can be drawn in a moment, see Scene::draw_elements
     bool refine = true;   // go on towards the full picture
   };
@@ -44,7 +44,7 @@ class LivePicture {
 
   Framebuffer base_{1, 1}, finer_{1, 1}, shown_{1, 1};
   std::optional<Key> key_;  // of base_
-  SceneMarks marks_;        // on shown_
+  Marks marks_;             // on shown_
   SliceProgress progress_;  // of finer_
   Index slice_ = 50'000;    // elements that are drawn in a moment
   bool complete_ = true;

@@ -5,6 +5,7 @@
 
 #include "render/element_painter.h"
 #include "render/gl.h"
+#include "render/marks.h"
 #include "render/style.h"
 
 namespace dmoscope::render {

@@ -10,6 +10,7 @@
 #include "core/base/error.h"
 #include "core/base/same_bits.h"
 #include "render/draw_state.h"
+#include "render/mark_painter.h"
 #include "render/planar_scene_impl.h"
 
 namespace dmoscope::render {
@@ -37,8 +38,6 @@ View make_view(const Layout& layout, const Camera2D& camera, Vec2<double> viewpo
 
 PlanarScene::PlanarScene() : Scene(75'000.0), impl_(std::make_unique<Impl>()) {}
 PlanarScene::~PlanarScene() = default;
-PlanarScene::PlanarScene(PlanarScene&&) noexcept = default;
-PlanarScene& PlanarScene::operator=(PlanarScene&&) noexcept = default;
 
 /// Whether the layout of the frame's mesh is on the OpenGL side now.
 bool PlanarScene::Impl::prepare(const Frame& wanted, Loading loading) {
@@ -65,6 +64,7 @@ bool PlanarScene::Impl::prepare(const Frame& wanted, Loading loading) {
 bool PlanarScene::show(std::shared_ptr<const Frame> frame, Loading loading) {
   Impl& s = *impl_;
   const bool ready = frame && s.prepare(*frame, loading);
+  if (std::exchange(s.is_new, false)) forget_look();
   if (!ready) {
     s.device.clear();
     s.source = Source::Host;
@@ -72,7 +72,7 @@ bool PlanarScene::show(std::shared_ptr<const Frame> frame, Loading loading) {
     s.placement = Placement();
     s.has_input = false;
     s.frame.reset();
-    ++s.revision;
+    changed();
     return !frame;
   }
   if (!s.frame || s.frame->serial != frame->serial || s.frame->input_serial != frame->input_serial) {
@@ -83,6 +83,7 @@ bool PlanarScene::show(std::shared_ptr<const Frame> frame, Loading loading) {
     } else {
       s.upload(frame->positions, frame->quality, frame->inverted);
     }
+    changed();
   }
   s.frame = std::move(frame);
   return true;
@@ -93,6 +94,8 @@ void PlanarScene::draw_through_host(std::string why) { impl_->device.never_direc
 void PlanarScene::set_mesh(const Mesh& mesh, const Plane& plane) {
   auto layout = build_layout(std::make_shared<const Mesh>(mesh), plane);
   impl_->adopt(std::move(layout));
+  impl_->is_new = false;
+  forget_look();
   impl_->frame.reset();
   impl_->has_input = false;
 }
@@ -100,6 +103,7 @@ void PlanarScene::set_mesh(const Mesh& mesh, const Plane& plane) {
 void PlanarScene::update(std::span<const Vec3> positions, std::span<const float> quality, std::span<const std::uint8_t> inverted) {
   if (impl_->placement.empty()) throw UsageError("there is no mesh to update");
   impl_->upload(positions, quality, inverted);
+  changed();
 }
 
 void PlanarScene::Impl::upload(std::span<const Vec3> positions, std::span<const float> quality,
@@ -143,7 +147,6 @@ void PlanarScene::Impl::upload_shades(std::span<const float> quality, std::span<
   for (Index e = 0; e < count; ++e) shades[e] = shade_of(quality[e], !inverted_flags.empty() && inverted_flags[e] != 0);
   elements.upload_shades(shades);
   elements.mark_inverted(placement.layout(), shades);
-  ++revision;
 }
 
 void PlanarScene::Impl::show_device(const Frame& light) {
@@ -152,7 +155,6 @@ void PlanarScene::Impl::show_device(const Frame& light) {
   elements.mark_inverted(placement.layout(), {});
   const bool shown = device.show(light.device, elements, placement.layout());
   source = !shown ? Source::Unreachable : device.direct() ? Source::Device : Source::HostCopy;
-  ++revision;
 }
 
 void PlanarScene::Impl::place_all() {
@@ -183,34 +185,8 @@ std::vector<DrawRange> PlanarScene::Impl::visible(std::size_t batch, const Bound
 
 void PlanarScene::set_fixed(std::span<const std::uint8_t> fixed) {
   impl_->fixed.assign(fixed.begin(), fixed.end());
-  ++impl_->revision;
+  changed();
 }
-
-void PlanarScene::set_shading(std::shared_ptr<const Shading> shading) {
-  Impl& s = *impl_;
-  if (s.shading == shading) return;
-  if (shading) {
-    const Index wanted = shading->by == Shading::By::Elements ? element_count() : s.placement.layout().vertex_count;
-    if (s.placement.empty() || shading->values.size() != wanted)
-      throw UsageError("as many values as the mesh has elements or vertices are needed");
-  }
-  s.elements.set_shading(shading.get());
-  s.shading = std::move(shading);
-  ++s.revision;
-}
-
-void PlanarScene::set_selection(const Selection& selection) {
-  Impl& s = *impl_;
-  if (s.selection == selection) return;
-  if (selection.members && selection.members->size() != element_count()) {
-    throw UsageError("as many members as the mesh has elements are needed");
-  }
-  s.elements.set_selection(selection);
-  s.selection = selection;
-  ++s.revision;
-}
-
-std::uint64_t PlanarScene::revision() const noexcept { return impl_->revision; }
 
 bool PlanarScene::empty() const noexcept { return impl_->placement.empty() || impl_->placement.layout().element_count() == 0; }
 Index PlanarScene::element_count() const noexcept { return impl_->placement.empty() ? 0 : impl_->placement.layout().element_count(); }
@@ -226,92 +202,95 @@ PlanarScene::Impl::InView PlanarScene::Impl::in_view(const Bounds2& window) cons
   return seen;
 }
 
-void PlanarScene::draw(Framebuffer& target, const Camera2D& camera, const Style& style, const Marks& marks, double detail) {
-  draw_elements(target, camera, style, detail);
-  draw_marks(target, camera, style, marks);
+bool PlanarScene::Impl::is_known() {
+  if (placement.empty() || source == Source::Unreachable) return false;
+  try {
+    place_all();
+  } catch (const DeviceError&) {  // the next frame finds out what is the matter
+    return false;
+  }
+  return true;
 }
 
-bool PlanarScene::draw_elements(Framebuffer& target, const Camera& seen_from, const Style& style, double detail) {
-  const Camera2D& camera = std::get<Camera2D>(seen_from);
-  const TargetGuard guard;
-  clear(target, style);
-  Impl& s = *impl_;
-  if (empty() || s.source == Source::Unreachable) return true;
-  const Vec2<double> viewport = size_of(target);
-  const View view = make_view(s.placement.layout(), camera, viewport, style.scale);
-  const Bounds2 window = camera.visible(viewport);
-  const Impl::InView seen = s.in_view(window);
-  const double budget = std::max(1.0, std::clamp(detail, 0.0, 1.0) * element_count());
-  const auto stride = static_cast<Index>(std::ceil(seen.count / budget - 1e-9));
-  s.elements.set_colours(style.colours);
-  begin_elements();
-  for (std::size_t batch = 0; batch < 2; ++batch) {
-    if (stride > 1) {
-      s.elements.draw_coarse(view, style, batch, seen.ranges[batch], stride);
-    } else {
-      s.elements.draw(view, style, batch, seen.ranges[batch]);
+Index PlanarScene::value_count(Shading::By by) const {
+  return by == Shading::By::Elements ? element_count() : impl_->placement.layout().vertex_count;
+}
+
+Fill& PlanarScene::fill() noexcept { return impl_->elements.fill(); }
+
+bool PlanarScene::hides(Index element) const {
+  const Selection& wanted = selection();
+  if (wanted.others != Selection::Others::Hide) return false;
+  if (wanted.members && (*wanted.members)[element] == 0) return true;
+  return wanted.quality && element < impl_->shades.size() && !in_quality_range(*wanted.quality, impl_->shades[element]);
+}
+
+class PlanarScene::PlanarPass final : public Pass {
+ public:
+  PlanarPass(PlanarScene& scene, const Camera2D& camera, const Style& style, Vec2<double> viewport)
+      : scene_(scene),
+        elements_(scene.impl_->elements),
+        style_(style),
+        camera_(camera),
+        viewport_(viewport),
+        view_(make_view(scene.impl_->placement.layout(), camera, viewport, style.scale)),
+        window_(camera.visible(viewport)),
+        seen_(scene.impl_->in_view(window_)) {}
+
+  [[nodiscard]] Index count() const override { return seen_.count; }
+  void draw(Index first, Index count) override {
+    for (std::size_t batch = 0; batch < 2; ++batch) {
+      std::vector<DrawRange> slice;
+      for (const DrawRange& range : seen_.ranges[batch]) {
+        const Index passed = std::min(first, range.last - range.first), begin = range.first + passed;
+        const Index taken = std::min(count, range.last - begin);
+        first -= passed;
+        count -= taken;
+        if (taken > 0) slice.push_back({begin, begin + taken});
+      }
+      elements_.draw(view_, style_, batch, slice);
     }
   }
-  s.draw_over(view, camera, style, stride <= 1 ? &window : nullptr);
-  return stride <= 1;
-}
-
-bool PlanarScene::draw_slice(Framebuffer& target, const Camera& seen_from, const Style& style, SliceProgress& progress, Index most) {
-  const Camera2D& camera = std::get<Camera2D>(seen_from);
-  const TargetGuard guard;
-  if (!std::exchange(progress.begun, true)) clear(target, style);
-  target.bind();
-  Impl& s = *impl_;
-  if (empty() || s.source == Source::Unreachable) return true;
-  const Vec2<double> viewport = size_of(target);
-  const View view = make_view(s.placement.layout(), camera, viewport, style.scale);
-  const Bounds2 window = camera.visible(viewport);
-  const Impl::InView seen = s.in_view(window);
-  s.elements.set_colours(style.colours);
-  begin_elements();
-  Index before = progress.drawn, rest = std::max<Index>(1, most);  // to pass over; to draw
-  for (std::size_t batch = 0; batch < 2; ++batch) {
-    std::vector<DrawRange> slice;
-    for (const DrawRange& range : seen.ranges[batch]) {
-      const Index passed = std::min(before, range.last - range.first), first = range.first + passed;
-      const Index taken = std::min(rest, range.last - first);
-      before -= passed;
-      rest -= taken;
-      progress.drawn += taken;
-      if (taken > 0) slice.push_back({first, first + taken});
-    }
-    s.elements.draw(view, style, batch, slice);
+  /// A group with an inverted element shows it.
+  void draw_coarse(Index stride) override {
+    for (std::size_t batch = 0; batch < 2; ++batch) elements_.draw_coarse(view_, style_, batch, seen_.ranges[batch], stride);
   }
-  const bool last = progress.drawn >= seen.count;
-  if (last) s.draw_over(view, camera, style, &window);
-  glFinish();
-  return last;
-}
+  void end(Framebuffer& /*target*/, bool whole) override {
+    begin_marks();
+    if (style_.boundary) elements_.draw_boundary(view_, style_);
+    if (style_.vertices && whole) scene_.gather_vertices({camera_, viewport_}, style_, window_);
+    scene_.painter().flush(view_, style_.scale);
+  }
 
-void PlanarScene::Impl::draw_over(const View& view, const Camera2D& camera, const Style& style, const Bounds2* vertices_of) {
-  begin_marks();
-  if (style.boundary) elements.draw_boundary(view, style);
-  if (style.vertices && vertices_of != nullptr) gather_vertices(camera, style, *vertices_of);
-  marks.flush(view, style.scale);
-}
+ private:
+  PlanarScene& scene_;
+  ElementPainter& elements_;
+  const Style& style_;
+  Camera2D camera_;
+  Vec2<double> viewport_;
+  View view_;
+  Bounds2 window_;
+  Impl::InView seen_;
+};
 
-void PlanarScene::draw_part(Framebuffer& target, const Camera& camera, const Style& style, const SceneMarks& marks, Vec2<double> viewport,
-                            const PicturePart& part) {
+namespace {
+
+/// The camera whose whole picture is a part of this one's.
+Camera2D camera_of(const Camera& camera, Vec2<double> viewport, const PicturePart& part) {
   Camera2D of_part = std::get<Camera2D>(camera);
   of_part.centre = of_part.to_plane({(part.low.x + part.high.x) / 2.0, (part.low.y + part.high.y) / 2.0}, viewport);
-  draw(target, of_part, style, std::get<Marks>(marks));
+  return of_part;
 }
 
-void PlanarScene::draw_marks(Framebuffer& target, const Camera& seen_from, const Style& style, const SceneMarks& marks) {
-  const Camera2D& camera = std::get<Camera2D>(seen_from);
-  const TargetGuard guard;
-  target.bind();
-  Impl& s = *impl_;
-  const Layout nothing;
-  const View view = make_view(s.placement.empty() ? nothing : s.placement.layout(), camera, size_of(target), style.scale);
-  s.gather_marks(camera, style, std::get<Marks>(marks));
-  begin_marks();
-  s.marks.flush(view, style.scale);
+}  // namespace
+
+std::unique_ptr<Scene::Pass> PlanarScene::pass(const Camera& camera, const Style& style, Vec2<double> viewport, const PicturePart& part) {
+  if (empty() || impl_->source == Source::Unreachable) return nullptr;
+  return std::make_unique<PlanarPass>(*this, camera_of(camera, viewport, part), style, part.high - part.low);
+}
+
+SceneView PlanarScene::view_of(const Camera& camera, Vec2<double> viewport, const PicturePart& part) const {
+  return {camera_of(camera, viewport, part), part.high - part.low};
 }
 
 }  // namespace dmoscope::render

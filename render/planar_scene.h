@@ -21,18 +21,15 @@ enum class Source {
   Unreachable  // not at all: the device tells nothing any more, and no element is drawn
 };
 
-/// Draws and picks. Needs a current context in every member function but pick, bounds and the other questions.
+/// A planar mesh. Besides what Scene says:
 class PlanarScene final : public Scene {
  public:
   PlanarScene();
   ~PlanarScene() override;
-  PlanarScene(PlanarScene&&) noexcept;
-  PlanarScene& operator=(PlanarScene&&) noexcept;
 
-  /// Shows a frame: uploads topology when frame->input_serial differs from the last one's, positions and qualities in place when
-  /// frame->serial does; otherwise costs nothing. Those of a device-resident frame are written by its device, or where that fails brought
-  /// through the host, from then on until another mesh is shown. Null shows nothing. With Loading::Background the ordering of a big new
-  /// mesh is done on a thread of its own, and the scene shows nothing of it until a later call. Returns whether `frame` is on show now.
+  /// Positions and qualities of a device-resident frame are written by its device, or where that fails brought through the host, from then
+  /// on until another mesh is shown. With Loading::Background the ordering of a big new mesh is done on a thread of its own, and the scene
+  /// shows nothing of it until a later call.
   bool show(std::shared_ptr<const Frame> frame, Loading loading = Loading::Wait) override;
 
   /// What lives on a device is brought through the host from now on; `why`: for device_trouble(), empty: no longer.
@@ -47,10 +44,6 @@ class PlanarScene final : public Scene {
   /// Which vertices are fixed (RunView::fixed), for Style::vertices; empty: all free. Forgotten when another mesh is shown.
   void set_fixed(std::span<const std::uint8_t> fixed);
 
-  void set_shading(std::shared_ptr<const Shading> shading) override;
-  void set_selection(const Selection& selection) override;
-
-  [[nodiscard]] std::uint64_t revision() const noexcept override;
   [[nodiscard]] bool empty() const noexcept override;
   [[nodiscard]] Index element_count() const noexcept;
   [[nodiscard]] std::size_t drawn_count() const noexcept override { return element_count(); }
@@ -61,31 +54,34 @@ class PlanarScene final : public Scene {
   /// Why what lives on a device is drawn through the host, or not at all; empty when nothing speaks against drawing it there.
   [[nodiscard]] const std::string& device_trouble() const noexcept;
 
-  /// Clears `target` and draws all of it. detail in (0, 1]: below 1, when more than that share of the elements is in view, each
-  /// of an evenly spread subset stands for its neighbours as a small square (a group with an inverted element shows it),
-  /// and the wireframe is left out: the same picture for the same detail, coarser. Throws Error.
-  void draw(Framebuffer& target, const Camera2D& camera, const Style& style, const Marks& marks = {}, double detail = 1.0);
-
-  bool draw_elements(Framebuffer& target, const Camera& camera, const Style& style, double detail = 1.0) override;
-  void draw_marks(Framebuffer& target, const Camera& camera, const Style& style, const SceneMarks& marks) override;
-  bool draw_slice(Framebuffer& target, const Camera& camera, const Style& style, SliceProgress& progress, Index most) override;
-  void draw_part(Framebuffer& target, const Camera& camera, const Style& style, const SceneMarks& marks, Vec2<double> viewport,
-                 const PicturePart& part) override;
-
   /// Milliseconds even for millions of elements; of a device-resident frame once a frame as long as it takes to bring all of it to the
   /// host, and nothing when the device does not give it.
   [[nodiscard]] Pick pick(const Camera& camera, Vec2<double> viewport, Vec2<double> pixel, double radius = 8.0) const override;
   /// All vertices of elements within `radius` pixels of `pixel`, ascending; at the cost of pick().
   [[nodiscard]] std::vector<Index> vertices_near(const Camera2D& camera, Vec2<double> viewport, Vec2<double> pixel, double radius) const;
-  /// The elements in view and some around it, in no order; none when they are more than `most`, or stand on a device.
-  [[nodiscard]] std::optional<std::vector<Index>> elements_in_view(const Camera2D& camera, Vec2<double> viewport, std::size_t most) const;
-
-  /// The ids that have space in a viewport of that size: of an element inside of it, of a vertex between it and its neighbours. None when
-  /// there are more than wish.most, and none while too much is in view to look at it all.
-  [[nodiscard]] std::vector<Label> labels(const Camera& camera, Vec2<double> viewport, const LabelWish& wish) const override;
+  /// Vertices and edges in view, and some around it.
+  [[nodiscard]] std::optional<Unhidden> unhidden(const Camera& camera, Vec2<double> viewport) const override;
 
  private:
   struct Impl;
+  class PlanarPass;
+  [[nodiscard]] std::unique_ptr<Pass> pass(const Camera& camera, const Style& style, Vec2<double> viewport,
+                                           const PicturePart& part) override;
+  [[nodiscard]] SceneView view_of(const Camera& camera, Vec2<double> viewport, const PicturePart& part) const override;
+  [[nodiscard]] const ElementTable* elements() const override;
+  [[nodiscard]] Index vertex_count() const override;
+  [[nodiscard]] std::vector<Vec3> places_of(std::span<const Corner> corners) const override;
+  void visit_shown(const Camera& camera, Vec2<double> viewport, const VisitPolygon& visit) const override;
+  [[nodiscard]] Index value_count(Shading::By by) const override;
+  [[nodiscard]] Fill& fill() noexcept override;
+  /// Dots on the vertices of elements in `window` that are big enough, each once.
+  void gather_vertices(const SceneView& view, const Style& style, const Bounds2& window);
+  /// Asks the selection; only where the placement is current.
+  [[nodiscard]] bool hides(Index element) const;
+  /// Calls visit(element) for all that are not hidden in blocks that meet `window`, in the order in which they are drawn.
+  template <class Visit>
+  void for_elements(const Bounds2& window, Visit&& visit) const;
+
   std::unique_ptr<Impl> impl_;
 };
 

@@ -11,7 +11,6 @@
 #include "render/device_feed.h"
 #include "render/draw_order.h"
 #include "render/element_painter.h"
-#include "render/mark_painter.h"
 #include "render/planar_scene.h"
 
 namespace dmoscope::render {
@@ -22,12 +21,8 @@ struct PlanarScene::Impl {
   Source source = Source::Host;
   ElementPainter elements;
   DeviceFeed device;  // after the painter, whose buffers it knows
-  MarkPainter marks;
   std::vector<std::uint8_t> fixed;
-  std::vector<float> shades;  // one per element, see shade_of; as old as the placement
-  std::shared_ptr<const Shading> shading;
-  Selection selection;
-  std::uint64_t revision = 0;
+  std::vector<float> shades;           // one per element, see shade_of; as old as the placement
   std::shared_ptr<const Frame> frame;  // the one on show
   std::uint64_t input_serial = 0;
   bool has_input = false;
@@ -35,15 +30,14 @@ struct PlanarScene::Impl {
   std::uint64_t pending_serial = 0;
   std::shared_ptr<const InputMesh> pending_input;
 
+  bool is_new = false;  // the placement: shading and selection are still another mesh's
   void adopt(std::shared_ptr<const Layout> layout) {
     device.forget_buffers();
     elements.upload_topology(*layout);
     placement = Placement(std::move(layout));
     fixed.clear();
     shades.clear();
-    shading.reset();
-    selection = {};
-    ++revision;
+    is_new = true;
   }
   bool prepare(const Frame& wanted, Loading loading);
   [[nodiscard]] bool stands_at(const Frame& wanted) const;
@@ -61,22 +55,17 @@ struct PlanarScene::Impl {
     Index count = 0;
   };
   [[nodiscard]] InView in_view(const Bounds2& window) const;
-  /// Everything that lies over the elements and under the marks.
-  void draw_over(const View& view, const Camera2D& camera, const Style& style, const Bounds2* vertices_of);
-  /// Asks the selection; only where the placement is current.
-  [[nodiscard]] bool counts(Index element) const {
-    if (selection.members && (*selection.members)[element] == 0) return false;
-    return !selection.quality || element >= shades.size() || in_quality_range(*selection.quality, shades[element]);
-  }
-  [[nodiscard]] bool hidden(Index element) const { return selection.others == Selection::Others::Hide && !counts(element); }
-  void gather_mesh_marks(const Camera2D& camera, const Style& style, const Marks& wanted);
-  void gather_marks(const Camera2D& camera, const Style& style, const Marks& wanted);
-  void gather_vertices(const Camera2D& camera, const Style& style, const Bounds2& window);
-  void outline(std::span<const Vec2<double>> corners, const Camera2D& camera, const Style& style);
-  /// Pixels from the middle of the viewport, y up.
-  [[nodiscard]] static Vec2<double> place(Vec2<double> point, const Camera2D& camera) {
-    return {(point.x - camera.centre.x) / camera.units_per_pixel, (point.y - camera.centre.y) / camera.units_per_pixel};
-  }
+  /// Whether what is on show can be looked up here; brings it here if need be.
+  [[nodiscard]] bool is_known();
 };
+
+template <class Visit>
+void PlanarScene::for_elements(const Bounds2& window, Visit&& visit) const {
+  const Layout& layout = impl_->placement.layout();
+  for (std::size_t batch = 0; batch < layout.batches.size(); ++batch)
+    for (const DrawRange& range : impl_->placement.visible(batch, window))
+      for (Index drawn = range.first; drawn < range.last; ++drawn)
+        if (const Index element = layout.batches[batch].order[drawn]; !hides(element)) visit(element);
+}
 
 }  // namespace dmoscope::render

@@ -72,7 +72,7 @@ Rendered draw_tiles(const Shot& shot, const Style& style, const Draw& draw) {
 
 }  // namespace
 
-Rendered render_image(Scene& scene, const Camera& camera, const Style& style, const SceneMarks& marks, const Shot& shot) {
+Rendered render_image(Scene& scene, const Camera& camera, const Style& style, const Marks& marks, const Shot& shot) {
   const auto fine_pixels = static_cast<double>(shot.supersample);
   const auto scaled = [&](Vec2<double> p) { return Vec2<double>{p.x * fine_pixels, p.y * fine_pixels}; };
   Camera fine = camera;  // an OrbitCamera is about the whole viewport, however many pixels it has

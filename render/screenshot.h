@@ -49,6 +49,6 @@ struct Rendered {
 
 /// Draws the scene at full detail, supersampled, in tiles where OpenGL's limits ask for it. `camera` is for mesh_viewport(shot).
 /// Style::scale is multiplied by shot.scale. Throws UsageError for sizes out of range (1 to 32768), Error.
-[[nodiscard]] Rendered render_image(Scene& scene, const Camera& camera, const Style& style, const SceneMarks& marks, const Shot& shot);
+[[nodiscard]] Rendered render_image(Scene& scene, const Camera& camera, const Style& style, const Marks& marks, const Shot& shot);
 
 }  // namespace dmoscope::render

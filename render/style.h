@@ -1,10 +1,6 @@
 #pragma once
-// How a scene looks, and what is marked in it.
+// How a scene looks.
 
-#include <optional>
-#include <vector>
-
-#include "core/base/vec.h"
 #include "render/colour_map.h"
 
 namespace dmoscope::render {
@@ -38,39 +34,6 @@ struct Style {
   friend bool operator==(const Style&, const Style&) = default;
   [[nodiscard]] static Style dark();
   [[nodiscard]] static Style light();
-};
-
-enum class DotShape { Round, Square, Ring, Cross, Diamond };
-
-/// A dot at a point of the plane (a candidate of the grid).
-struct OverlayDot {
-  Vec2<double> point;
-  float diameter = 6.0F;  // pixels
-  Rgba colour{255, 255, 255, 255};
-  DotShape shape = DotShape::Round;
-  friend bool operator==(const OverlayDot& a, const OverlayDot& b) {
-    return a.point.x == b.point.x && a.point.y == b.point.y && a.diameter == b.diameter && a.colour == b.colour && a.shape == b.shape;
-  }
-};
-/// A straight line between two points of the plane (the box of a candidate grid, a vertex's path).
-struct OverlayLine {
-  Vec2<double> from, to;
-  float width = 1.5F;  // pixels
-  Rgba colour{255, 255, 255, 255};
-  friend bool operator==(const OverlayLine& a, const OverlayLine& b) {
-    return a.from.x == b.from.x && a.from.y == b.from.y && a.to.x == b.to.x && a.to.y == b.to.y && a.width == b.width &&
-           a.colour == b.colour;
-  }
-};
-
-/// What is marked on top of the elements, in this order.
-struct Marks {
-  std::vector<Index> elements;  // outlined
-  std::vector<Index> vertices;  // dots
-  std::optional<Index> worst;   // element with a ring around it
-  std::vector<OverlayLine> lines;
-  std::vector<OverlayDot> dots;
-  friend bool operator==(const Marks&, const Marks&) = default;
 };
 
 }  // namespace dmoscope::render

@@ -10,10 +10,9 @@
 #include "core/run/summary.h"
 #include "render/depth_map.h"
 #include "render/draw_state.h"
+#include "render/element_painter.h"
 #include "render/face_painter.h"
 #include "render/occlusion.h"
-#include "render/volume_labels.h"
-#include "render/volume_marks.h"
 #include "render/volume_pick.h"
 
 namespace dmoscope::render {
@@ -27,24 +26,27 @@ FacePainter::Point point_of(Vec3 p) { return {static_cast<float>(p.x), static_ca
 }  // namespace
 
 struct VolumeScene::Impl {
+  /// From where a picture of what is seen of a mesh, whose revision it is, was taken.
+  struct SeenFrom {
+    OrbitCamera camera;
+    Vec2<double> viewport;
+    std::uint64_t revision;
+    friend bool operator==(const SeenFrom&, const SeenFrom&) = default;
+  };
   FacePainter painter;
   OcclusionPainter occlusion;
-  std::optional<Framebuffer> wider;  // than a part of a picture, as far as occlusion looks around
-  MarkPainter marks;
   std::shared_ptr<const void> mesh_owner, state_owner;
   const ElementTable* elements = nullptr;
   std::unique_ptr<Clipping> inside;
   CellState state;
   ClippingView view;
-  Selection selection;
-  std::shared_ptr<const Shading> shading;
   ClippedFaces nothing;
   std::vector<std::uint8_t> used;  // vertices that are corners of elements
   bool is_surface = false;
   Bounds3 bounds;
   Vec3 origin;  // positions on the OpenGL side are relative to it: the middle of the bounds
   ThreadPool* pool = nullptr;
-  std::uint64_t revision = 0, uploaded_faces = 0, uploaded_cuts = 0, updates = 0;
+  std::uint64_t uploaded_faces = 0, uploaded_cuts = 0, updates = 0;
   std::uint64_t means_of = 0;  // the update whose means are uploaded
   std::vector<FacePainter::Point> points;
   std::vector<FaceRecord> records;
@@ -52,20 +54,12 @@ struct VolumeScene::Impl {
   [[nodiscard]] const ClippedFaces& seen() const noexcept { return inside ? inside->faces() : nothing; }
   [[nodiscard]] SeenFaces seen_faces() const { return {*elements, state.positions, seen(), view, inside->visible(), {}}; }
   [[nodiscard]] SeenFaces seen_vertices();
-  [[nodiscard]] const DepthMap* depth_map(const OrbitCamera& camera, Vec2<double> viewport);
+  [[nodiscard]] const DepthMap* depth_map(const SeenFrom& from);
   std::shared_ptr<const InputMesh> input;  // of the frame on show
   std::uint64_t frame_serial = 0;          // likewise; 0: none
 
   std::vector<std::uint8_t> corners_seen;  // vertices of cells that are seen; made when it is asked for
   std::uint64_t corners_seen_of = 0;       // the faces' revision that it is of
-  struct SeenFrom {
-    OrbitCamera camera;
-    Vec2<double> viewport;
-    std::uint64_t revision;
-    friend bool operator==(const SeenFrom& a, const SeenFrom& b) {
-      return a.camera == b.camera && a.viewport.x == b.viewport.x && a.viewport.y == b.viewport.y && a.revision == b.revision;
-    }
-  };
   struct ShownCell {
     SeenFrom from;
     Index cell;
@@ -82,24 +76,18 @@ struct VolumeScene::Impl {
   void refresh() {
     inside->update(view, state, pool);
     upload_faces();
-    ++revision;
   }
   [[nodiscard]] Vec3 relative(Vec3 p) const { return p - origin; }
-  struct Stage;
-  void draw_whole(const Stage& stage);
-  void darken(Framebuffer& target, const Stage& stage, int reach) const;
-  void draw_marks(const Stage& stage, const SpaceMarks& wanted);
 };
 
 VolumeScene::VolumeScene() : Scene(60'000.0), impl_(std::make_unique<Impl>()) {}
 VolumeScene::~VolumeScene() = default;
-VolumeScene::VolumeScene(VolumeScene&&) noexcept = default;
-VolumeScene& VolumeScene::operator=(VolumeScene&&) noexcept = default;
 
 bool VolumeScene::show(std::shared_ptr<const Frame> frame, Loading /*loading*/) {
   Impl& s = *impl_;
   if (!frame) {
     s.forget();
+    forget_look();
     return true;
   }
   if (frame->device) return false;
@@ -119,6 +107,7 @@ bool VolumeScene::show(std::shared_ptr<const Frame> frame, Loading /*loading*/) 
 void VolumeScene::set_mesh(const ElementTable& elements, const FaceNeighbours& faces, std::shared_ptr<const void> owner) {
   Impl& s = *impl_;
   s.forget();
+  forget_look();
   s.inside = std::make_unique<Clipping>(elements, faces);
   s.elements = &elements;
   s.mesh_owner = std::move(owner);
@@ -139,13 +128,10 @@ void VolumeScene::Impl::forget() {
   input.reset();
   frame_serial = 0;
   view = {};
-  selection = {};
-  shading.reset();
   bounds = {};
   uploaded_faces = uploaded_cuts = means_of = corners_seen_of = 0;
   depths_of.reset();
   depths.reset();
-  ++revision;
 }
 
 void VolumeScene::update(const CellState& state, std::shared_ptr<const void> owner) {
@@ -160,6 +146,7 @@ void VolumeScene::update(const CellState& state, std::shared_ptr<const void> own
   s.state_owner = std::move(owner);
   s.upload_state();
   s.refresh();
+  changed();
 }
 
 void VolumeScene::Impl::upload_state() {
@@ -216,31 +203,21 @@ void VolumeScene::set_view(const ClippingView& view) {
   if (s.state.serial > 0) s.inside->update(view, s.state, s.pool);
   s.view = view;
   if (s.state.serial > 0) s.upload_faces();
-  ++s.revision;
+  changed();
 }
 
-const ClippingView& VolumeScene::view() const noexcept { return impl_->view; }
+Index VolumeScene::value_count(Shading::By by) const { return by == Shading::By::Elements ? impl_->elements->size() : kNoIndex; }
+Fill& VolumeScene::fill() noexcept { return impl_->painter.fill(); }
+const ElementTable* VolumeScene::elements() const { return impl_->elements; }
+Index VolumeScene::vertex_count() const { return static_cast<Index>(impl_->state.positions.size()); }
 
-void VolumeScene::set_shading(std::shared_ptr<const Shading> shading) {
-  Impl& s = *impl_;
-  if (shading && (s.elements == nullptr || shading->by != Shading::By::Elements || shading->values.size() != s.elements->size())) {
-    throw UsageError("as many values as the mesh has elements are needed");
-  }
-  if (shading == s.shading) return;  // nothing new: a picture that is refined goes on
-  s.painter.fill().set_shading(shading.get());
-  s.shading = std::move(shading);
-  ++s.revision;
-}
-
-void VolumeScene::set_selection(const Selection& selection) {
-  Impl& s = *impl_;
-  if (s.selection == selection) return;
-  if (selection.members && (s.elements == nullptr || selection.members->size() != s.elements->size())) {
-    throw UsageError("as many members as the mesh has elements are needed");
-  }
-  s.painter.fill().set_selection(selection);
-  s.selection = selection;
-  ++s.revision;
+std::vector<Vec3> VolumeScene::places_of(std::span<const Corner> corners) const {
+  const SeenFaces seen = impl_->seen_faces();
+  std::vector<Vec3> places(corners.size());
+  std::ranges::transform(corners, places.begin(), [&](const Corner& corner) {
+    return corner.element == kNoIndex ? seen.positions[corner.vertex] : drawn_corner(seen, corner.element, corner.vertex);
+  });
+  return places;
 }
 
 /// With the vertices that are seen.
@@ -262,15 +239,14 @@ SeenFaces VolumeScene::Impl::seen_vertices() {
 }
 
 /// Null where it would take too long.
-const DepthMap* VolumeScene::Impl::depth_map(const OrbitCamera& camera, Vec2<double> viewport) {
+const DepthMap* VolumeScene::Impl::depth_map(const SeenFrom& from) {
   if (elements == nullptr || bounds.empty() || seen().faces.size() > kMostFaces) return nullptr;
-  const SeenFrom from{camera, viewport, revision};
-  if (depths_of != from) depths.emplace(seen_faces(), camera.projection(viewport, bounds));
+  if (depths_of != from) depths.emplace(seen_faces(), from.camera.projection(from.viewport, bounds));
   depths_of = from;
   return &*depths;
 }
 
-bool VolumeScene::sees_cell(Index cell) const {
+bool VolumeScene::sees_element(Index cell) const {
   return !impl_->inside || cell >= impl_->elements->size() || impl_->seen_faces().has_cell(cell);
 }
 
@@ -278,32 +254,40 @@ bool VolumeScene::sees_vertex(Index vertex) const {
   return !impl_->inside || vertex >= impl_->state.positions.size() || impl_->seen_vertices().has_vertex(vertex);
 }
 
-bool VolumeScene::shows_cell(const OrbitCamera& camera, Vec2<double> viewport, Index cell) const {
+bool VolumeScene::shows_element(const Camera& seen_from, Vec2<double> viewport, Index cell) const {
+  const auto& camera = std::get<OrbitCamera>(seen_from);
   Impl& s = *impl_;
-  if (!sees_cell(cell)) return false;
+  if (!sees_element(cell)) return false;
   if (s.elements == nullptr || s.bounds.empty() || s.seen().faces.size() > kMostFacesOfRays) return true;
-  const Impl::SeenFrom from{camera, viewport, s.revision};
+  const Impl::SeenFrom from{camera, viewport, revision()};
   if (!s.shown_cell || s.shown_cell->cell != cell || !(s.shown_cell->from == from))
     s.shown_cell = {from, cell, is_unhidden(s.seen_faces(), s.bounds, camera, viewport, cell)};
   return s.shown_cell->shown;
 }
 
-std::optional<Unhidden> VolumeScene::unhidden(const OrbitCamera& camera, Vec2<double> viewport) const {
-  const DepthMap* depths = impl_->depth_map(camera, viewport);
+std::optional<Unhidden> VolumeScene::unhidden(const Camera& camera, Vec2<double> viewport) const {
+  const DepthMap* depths = impl_->depth_map({std::get<OrbitCamera>(camera), viewport, revision()});
   if (depths == nullptr) return std::nullopt;
   return unhidden_of(impl_->seen_faces(), *depths);
 }
 
-std::vector<Label> VolumeScene::labels(const Camera& seen_from, Vec2<double> viewport, const LabelWish& wish) const {
-  const OrbitCamera& camera = std::get<OrbitCamera>(seen_from);
-  if (!(wish.vertices || wish.elements)) return {};
-  const DepthMap* depths = impl_->depth_map(camera, viewport);
-  return depths == nullptr ? std::vector<Label>{} : labels_of(impl_->seen_faces(), *depths, wish);
+void VolumeScene::visit_shown(const Camera& camera, Vec2<double> viewport, const VisitPolygon& visit) const {
+  const DepthMap* depths = impl_->depth_map({std::get<OrbitCamera>(camera), viewport, revision()});
+  if (depths == nullptr) return;
+  const SeenFaces seen = impl_->seen_faces();
+  const auto visit_seen = [&](Index cell, std::span<const Vec3> polygon) {
+    if (depths->shows(point_on(polygon))) visit(cell, polygon);
+  };
+  for (const ElementFace& face : seen.faces.faces) {
+    const DrawnFace drawn = drawn_face(seen, face);
+    if (std::ranges::none_of(drawn.corners(), [&](Vec3 p) { return cut_away(seen, p); })) visit_seen(face.element, drawn.corners());
+  }
+  const PlaneCuts& cuts = seen.faces.cuts;
+  for (const CutPolygon& polygon : cuts.polygons) visit_seen(polygon.element, std::span(cuts.points).subspan(polygon.first, polygon.count));
 }
 
 void VolumeScene::set_pool(ThreadPool* pool) noexcept { impl_->pool = pool; }
 bool VolumeScene::empty() const noexcept { return impl_->elements == nullptr; }
-std::uint64_t VolumeScene::revision() const noexcept { return impl_->revision; }
 const ClippedFaces& VolumeScene::faces() const noexcept { return impl_->seen(); }
 const Bounds3& VolumeScene::bounds() const noexcept { return impl_->bounds; }
 
@@ -317,157 +301,63 @@ void VolumeScene::fit(OrbitCamera& camera, Vec2<double> viewport, const PictureP
   camera.fit(points, viewport, room);
 }
 
-namespace {
+int VolumeScene::reach(const Style& style, Vec2<double> viewport) const {
+  return style.occlusion && !empty() && !impl_->bounds.empty() ? OcclusionPainter::reach(viewport, style) + 2 : 0;
+}
 
-/// The part that is the whole of a target.
-PicturePart all_of(Vec2<double> viewport) { return {{0, 0}, viewport}; }
+SceneView VolumeScene::view_of(const Camera& camera, Vec2<double> viewport, const PicturePart& part) const {
+  const auto& orbit = std::get<OrbitCamera>(camera);
+  return {orbit, orbit.projection(viewport, impl_->bounds, part)};
+}
 
-}  // namespace
+class VolumeScene::VolumePass final : public Pass {
+ public:
+  VolumePass(const Impl& scene, const OrbitCamera& camera, const Style& style, Vec2<double> viewport, const PicturePart& part)
+      : scene_(scene),
+        style_(style),
+        whole_(viewport),
+        pixel_(camera.height / std::max(1.0, viewport.y)),
+        projection_(camera.projection(viewport, scene.bounds, part)),
+        view_(camera, projection_),
+        look_{.style = style, .shrink = scene.view.shrink, .both_sides = scene.is_surface, .plane = {}} {
+    // The stripes stand still in the picture, so that its parts fit together.
+    const double period = static_cast<double>(kHatchPeriod * style.scale);
+    const Vec2<double> middle{0.5 * (part.low.x + part.high.x - viewport.x), -0.5 * (part.low.y + part.high.y - viewport.y)};
+    const auto phase = [&](double along) { return static_cast<float>(std::fmod(along / period, 1.0)); };
+    view_.hatch_phase = {phase(middle.x - middle.y), phase(middle.x + middle.y)};
+    const ClipPlane& clip = scene.view.clip;
+    if (!clip.on || clip.mode != ClipPlane::Mode::Cut) return;
+    const double side = (clip.flip ? -1.0 : 1.0) / length(clip.normal), slack = 1e-6 * scene.bounds.radius();  // faces in the plane stay
+    const Vec3 normal = side * clip.normal;
+    look_.plane = std::array{static_cast<float>(normal.x), static_cast<float>(normal.y), static_cast<float>(normal.z),
+                             static_cast<float>(side * clip.offset - dot(normal, projection_.origin()) + slack)};
+  }
 
-/// Everything a picture, or a part of one, is drawn with.
-struct VolumeScene::Impl::Stage {
-  Stage(const Impl& scene, const OrbitCamera& seen_by, const Style& in_style, Vec2<double> viewport, const PicturePart& part);
-  const OrbitCamera& camera;
-  const Style& style;
-  Projection projection;
-  SpaceView view;
-  FacePainter::Look look;
-  Vec2<double> triad;  // middle of the axes, pixels from the middle of the part
-  Vec2<double> whole;  // pixels of the picture that it may be a part of
+  [[nodiscard]] Index count() const override { return scene_.painter.face_count(); }
+  void begin() override { scene_.painter.draw_ghost(view_, style_); }
+  void draw(Index first, Index count) override { scene_.painter.draw_faces(view_, look_, first, count); }
+  void draw_coarse(Index stride) override { scene_.painter.draw_coarse(view_, look_, stride); }
+  /// Darkens corners where that is wanted, and depths tell the places of pixels apart.
+  void end(Framebuffer& target, bool whole) override {
+    constexpr double kDepths = 16'777'216.0, kStepsAPixel = 16.0;  // of 24 bits
+    scene_.painter.draw_cuts(view_, style_);
+    if (whole && style_.occlusion && pixel_ * kDepths > kStepsAPixel * 2.0 * scene_.bounds.radius())
+      scene_.occlusion.darken(target, projection_, OcclusionPainter::reach(whole_, style_), style_);
+  }
+
+ private:
+  const Impl& scene_;
+  const Style& style_;
+  Vec2<double> whole_;  // pixels of the picture that it may be a part of
+  double pixel_;        // units
+  Projection projection_;
+  SpaceView view_;
+  FacePainter::Look look_;
 };
 
-VolumeScene::Impl::Stage::Stage(const Impl& scene, const OrbitCamera& seen_by, const Style& in_style, Vec2<double> viewport,
-                                const PicturePart& part)
-    : camera(seen_by),
-      style(in_style),
-      projection(camera.projection(viewport, scene.bounds, part)),
-      view(camera, projection),
-      look{.style = style, .shrink = scene.view.shrink, .both_sides = scene.is_surface, .plane = {}},
-      whole(viewport) {
-  // The stripes stand still in the picture, so that its parts fit together.
-  const double period = static_cast<double>(kHatchPeriod * style.scale), margin = kTriadMargin * static_cast<double>(style.scale);
-  const Vec2<double> middle{0.5 * (part.low.x + part.high.x - viewport.x), -0.5 * (part.low.y + part.high.y - viewport.y)};
-  const auto phase = [&](double along) { return static_cast<float>(std::fmod(along / period, 1.0)); };
-  view.hatch_phase = {phase(middle.x - middle.y), phase(middle.x + middle.y)};
-  triad = {0.5 * viewport.x - margin - middle.x, margin - 0.5 * viewport.y - middle.y};
-  const ClipPlane& clip = scene.view.clip;
-  if (!clip.on || clip.mode != ClipPlane::Mode::Cut) return;
-  const double side = (clip.flip ? -1.0 : 1.0) / length(clip.normal), slack = 1e-6 * scene.bounds.radius();  // faces in the plane stay
-  const Vec3 normal = side * clip.normal;
-  look.plane = std::array{static_cast<float>(normal.x), static_cast<float>(normal.y), static_cast<float>(normal.z),
-                          static_cast<float>(side * clip.offset - dot(normal, projection.origin()) + slack)};
-}
-
-void VolumeScene::Impl::draw_marks(const Stage& stage, const SpaceMarks& wanted) {
-  begin_marks();
-  if (elements != nullptr)
-    gather_marks(wanted.vertices.empty() ? seen_faces() : seen_vertices(), stage.projection, stage.style, wanted, marks);
-  if (wanted.triad) gather_triad(stage.camera, stage.triad, stage.style, marks);
-  View flat;
-  flat.viewport = stage.view.viewport;
-  marks.flush(flat, stage.style.scale);
-}
-
-/// All that is seen, at full detail.
-void VolumeScene::Impl::draw_whole(const Stage& stage) {
-  painter.fill().set_colours(stage.style.colours);
-  begin_elements();
-  painter.draw_ghost(stage.view, stage.style);
-  painter.draw_faces(stage.view, stage.look, 0, painter.face_count());
-  painter.draw_cuts(stage.view, stage.style);
-}
-
-/// Where it is wanted, and depths tell the places of pixels apart.
-void VolumeScene::Impl::darken(Framebuffer& target, const Stage& stage, int reach) const {
-  constexpr double kDepths = 16'777'216.0, kStepsAPixel = 16.0;  // of 24 bits
-  const double pixel = stage.camera.height / std::max(1.0, stage.whole.y);
-  if (stage.style.occlusion && pixel * kDepths > kStepsAPixel * 2.0 * bounds.radius())
-    occlusion.darken(target, stage.projection, reach, stage.style);
-}
-
-void VolumeScene::draw(Framebuffer& target, const OrbitCamera& camera, const Style& style, const SpaceMarks& marks, double detail) {
-  draw_elements(target, camera, style, detail);
-  draw_marks(target, camera, style, marks);
-}
-
-bool VolumeScene::draw_elements(Framebuffer& target, const Camera& seen_from, const Style& style, double detail) {
-  const OrbitCamera& camera = std::get<OrbitCamera>(seen_from);
-  const TargetGuard guard;
-  clear(target, style);
-  Impl& s = *impl_;
-  if (s.elements == nullptr || s.bounds.empty()) return true;
-  const Vec2<double> viewport = size_of(target);
-  const Impl::Stage stage(s, camera, style, viewport, all_of(viewport));
-  const double budget = std::max(1.0, std::clamp(detail, 0.0, 1.0) * s.painter.face_count());
-  const auto stride = static_cast<Index>(std::ceil(s.painter.face_count() / budget - 1e-9));
-  s.painter.fill().set_colours(style.colours);
-  begin_elements();
-  s.painter.draw_ghost(stage.view, style);
-  if (stride > 1) {
-    s.painter.draw_coarse(stage.view, stage.look, stride);
-  } else {
-    s.painter.draw_faces(stage.view, stage.look, 0, s.painter.face_count());
-  }
-  s.painter.draw_cuts(stage.view, style);
-  if (stride <= 1) s.darken(target, stage, OcclusionPainter::reach(viewport, style));
-  return stride <= 1;
-}
-
-bool VolumeScene::draw_slice(Framebuffer& target, const Camera& seen_from, const Style& style, SliceProgress& progress, Index most) {
-  const OrbitCamera& camera = std::get<OrbitCamera>(seen_from);
-  const TargetGuard guard;
-  const bool first = !std::exchange(progress.begun, true);
-  if (first) clear(target, style);
-  target.bind();
-  Impl& s = *impl_;
-  if (s.elements == nullptr || s.bounds.empty()) return true;
-  const Vec2<double> viewport = size_of(target);
-  const Impl::Stage stage(s, camera, style, viewport, all_of(viewport));
-  s.painter.fill().set_colours(style.colours);
-  begin_elements();
-  if (first) s.painter.draw_ghost(stage.view, style);
-  const Index count = std::min(std::max<Index>(1, most), s.painter.face_count() - progress.drawn);
-  s.painter.draw_faces(stage.view, stage.look, progress.drawn, count);
-  progress.drawn += count;
-  const bool last = progress.drawn >= s.painter.face_count();
-  if (last) s.painter.draw_cuts(stage.view, style);
-  if (last) s.darken(target, stage, OcclusionPainter::reach(viewport, style));
-  glFinish();
-  return last;
-}
-
-void VolumeScene::draw_marks(Framebuffer& target, const Camera& seen_from, const Style& style, const SceneMarks& marks) {
-  const OrbitCamera& camera = std::get<OrbitCamera>(seen_from);
-  const TargetGuard guard;
-  target.bind();
-  const Vec2<double> viewport = size_of(target);
-  impl_->draw_marks(Impl::Stage(*impl_, camera, style, viewport, all_of(viewport)), std::get<SpaceMarks>(marks));
-}
-
-void VolumeScene::draw_part(Framebuffer& target, const Camera& seen_from, const Style& style, const SceneMarks& marks,
-                            Vec2<double> viewport, const PicturePart& part) {
-  const OrbitCamera& camera = std::get<OrbitCamera>(seen_from);
-  const TargetGuard guard;
-  clear(target, style);
-  Impl& s = *impl_;
-  if (s.elements == nullptr || s.bounds.empty()) return;
-  const Impl::Stage stage(s, camera, style, viewport, part);
-  if (style.occlusion) {
-    // Parts look beyond their borders, so that they fit together.
-    const int reach = OcclusionPainter::reach(viewport, style), margin = reach + 2;
-    const Vec2<double> around{static_cast<double>(margin), static_cast<double>(margin)};
-    const Impl::Stage wide(s, camera, style, viewport, {part.low - around, part.high + around});
-    if (!s.wider) s.wider.emplace(1, 1);
-    s.wider->resize(target.width() + 2 * margin, target.height() + 2 * margin);
-    clear(*s.wider, style);
-    s.draw_whole(wide);
-    s.darken(*s.wider, wide, reach);
-    target.copy_middle_of(*s.wider);
-    target.bind();
-  } else {
-    s.draw_whole(stage);
-  }
-  s.draw_marks(stage, std::get<SpaceMarks>(marks));
+std::unique_ptr<Scene::Pass> VolumeScene::pass(const Camera& camera, const Style& style, Vec2<double> viewport, const PicturePart& part) {
+  if (empty() || impl_->bounds.empty()) return nullptr;
+  return std::make_unique<VolumePass>(*impl_, std::get<OrbitCamera>(camera), style, viewport, part);
 }
 
 Pick VolumeScene::pick(const Camera& seen_from, Vec2<double> viewport, Vec2<double> pixel, double radius) const {

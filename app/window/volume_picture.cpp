@@ -50,7 +50,7 @@ render::Image volume_picture(const InputMesh& input, std::span<const Vec3> posit
   scene.fit(camera, viewport, {{kMargin, kMargin}, {viewport.x - kMargin, viewport.y - kMargin}});
   if (look.at) camera.orbit_about(*look.at);
   camera.height /= look.zoom;
-  return render::render_image(scene, camera, style_of(look, judged), render::SpaceMarks{}, shot).image;
+  return render::render_image(scene, camera, style_of(look, judged), {}, shot).image;
 }
 
 }  // namespace dmoscope::app

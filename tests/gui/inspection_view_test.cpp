@@ -11,7 +11,7 @@
 #include "tests/gui/headless_test.h"
 #include "ui/analysis/inspection_text.h"
 #include "ui/commands/view_commands.h"
-#include "ui/viewports/inspection_marks.h"
+#include "ui/overlays/inspection_marks.h"
 
 namespace dmoscope::app {
 namespace {
@@ -204,7 +204,7 @@ TEST_F(InspectionView, ACandidateIsReadUnderTheMouseInViewAndHeatMap) {
   good("inspect-worst");
   const TracedLevel& level = look().trace->levels[0];
   const auto& view = window_->app().items().find("viewport");
-  const auto pixel = state().camera.to_pixel(look().origin + level.at(21), state().viewport);
+  const auto pixel = state().camera.to_pixel(Vec2<double>{look().origin.x, look().origin.y} + level.at(21), state().viewport);
   good("move " + std::to_string(static_cast<double>(view[0]) + pixel.x) + " " + std::to_string(static_cast<double>(view[1]) + pixel.y));
   ASSERT_TRUE(inspection().hovered.has_value());
   EXPECT_EQ(*inspection().hovered, (ui::CandidateName{1, 21}));
@@ -241,7 +241,7 @@ TEST_F(InspectionView, TheViewGoesToAStarThatIsTooSmallAndStaysAtOneThatIsNot) {
   good("inspect vertex 3000");
   const auto near = state().camera;
   EXPECT_LT(near.units_per_pixel, far.units_per_pixel / 4);
-  const double star = std::max(look().box.size().x, look().box.size().y) / near.units_per_pixel;
+  const double star = std::max(look().box.high.x - look().box.low.x, look().box.high.y - look().box.low.y) / near.units_per_pixel;
   EXPECT_GT(star, std::min(state().viewport.x, state().viewport.y) / 8);
   good("inspect off");
   good("inspect on");

@@ -14,7 +14,7 @@
 #include "tests/gui/headless_test.h"
 #include "ui/analysis/inspection_text.h"
 #include "ui/commands/view_commands.h"
-#include "ui/viewports/inspection_marks.h"
+#include "ui/overlays/inspection_marks.h"
 
 namespace dmoscope::app {
 namespace {
@@ -46,16 +46,16 @@ class VolumeInspection : public HeadlessTest {
   [[nodiscard]] const ui::Inspection& look() { return window_->app().inspection(); }
   [[nodiscard]] const RunView& run() { return session()->runs[session()->active]; }
   [[nodiscard]] std::vector<std::uint8_t> picture() { return window_->picture().rgba; }
-  [[nodiscard]] render::SpaceMarks marks() {
-    render::SpaceMarks marks;
+  [[nodiscard]] render::Marks marks() {
+    render::Marks marks;
     ui::InspectionLook how;
     how.units_per_pixel = state().orbit.units_per_pixel(state().viewport);
     ui::add_inspection_marks(marks, inspection(), look(), how);
     return marks;
   }
-  static std::size_t count(const render::SpaceMarks& marks, std::initializer_list<render::DotShape> shapes) {
+  static std::size_t count(const render::Marks& marks, std::initializer_list<render::DotShape> shapes) {
     return static_cast<std::size_t>(std::ranges::count_if(
-        marks.dots, [&](const render::SpaceDot& dot) { return std::find(shapes.begin(), shapes.end(), dot.shape) != shapes.end(); }));
+        marks.dots, [&](const render::OverlayDot& dot) { return std::find(shapes.begin(), shapes.end(), dot.shape) != shapes.end(); }));
   }
 };
 

@@ -7,23 +7,24 @@
 
 #include "core/io/mesh_io.h"
 #include "tests/gui/headless_test.h"
+#include "tests/support/meshes.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/volume_grids.h"
+#include "ui/overlays/moves.h"
 #include "ui/toolkit/theme.h"
-#include "ui/viewports/volume_stepping_marks.h"
 
 namespace dmoscope::ui {
 namespace {
 
 /// 1000 pixels for 10 units, looked at from +x: y goes to the right and z up.
-SpaceMarkView seen_from_x() {
+MarkView seen_from_x() {
   render::OrbitCamera camera;
   camera.look_from(render::ViewPreset::PlusX);
   camera.height = 10.0;
   render::Bounds3 bounds;
   bounds.include({-5, -5, -5});
   bounds.include({5, 5, 5});
-  return {camera, camera.projection({1000, 1000}, bounds), 1.0};
+  return {{camera, camera.projection({1000, 1000}, bounds)}};
 }
 
 const std::vector<Vec3> kFrom{{0, 0, 0}, {0, 2, 0}, {0, -3, 0}, {0, 0, 3}, {0, 0.03, 3}, {0, 9, 0}};
@@ -36,8 +37,8 @@ TEST(SpaceArrows, LeadFromWhereVerticesWereLongestFirstWhereThereIsRoom) {
   to[3].z += 0.2;   // 20 pixels
   to[4].z += 0.1;   // 10 pixels, from where another one begins
   const std::vector<Index> all{0, 1, 2, 3, 4};
-  render::SpaceMarks marks;
-  const ArrowsAdded added = add_space_arrows(marks, seen_from_x(), kFrom, to, all, 1.0, {1, 2, 3, 255}, {4, 5, 6, 255});
+  render::Marks marks;
+  const ArrowsAdded added = add_arrows(marks, seen_from_x(), Displacements({}, kFrom, to, all), 1.0, {{1, 2, 3, 255}, {4, 5, 6, 255}});
   EXPECT_EQ(added.drawn, 2U);
   EXPECT_EQ(added.left_out, 1U);
   ASSERT_EQ(marks.lines.size(), 12U);  // a shaft and two lines of a head each, with casings below
@@ -51,7 +52,7 @@ TEST(SpaceArrows, LeadFromWhereVerticesWereLongestFirstWhereThereIsRoom) {
   EXPECT_NEAR(marks.lines[1].to.z, -marks.lines[2].to.z, 1e-12);
   // Arrows for some vertices alone.
   marks = {};
-  EXPECT_EQ(add_space_arrows(marks, seen_from_x(), kFrom, to, std::vector<Index>{3}, 2.0, {}, {}).drawn, 1U);
+  EXPECT_EQ(add_arrows(marks, seen_from_x(), Displacements({}, kFrom, to, std::vector<Index>{3}), 2.0, {}).drawn, 1U);
   EXPECT_NEAR(marks.lines[0].to.z, 3.4, 1e-12);
 }
 
@@ -59,18 +60,19 @@ TEST(SpaceArrows, AreFortyPixelsLongWhereNothingElseIsWanted) {
   std::vector<Vec3> to = kFrom;
   to[0].y += 0.5;
   to[5].y += 100.0;  // not among those that are seen
-  const std::vector<Index> seen{0, 3};
-  EXPECT_NEAR(space_arrow_factor(seen_from_x(), kFrom, to, seen, 0.0) * 0.5 * 100.0, 40.0, 1e-9);
-  EXPECT_EQ(space_arrow_factor(seen_from_x(), kFrom, to, seen, 3.0), 3.0);
-  EXPECT_EQ(space_arrow_factor(seen_from_x(), kFrom, kFrom, seen, 0.0), 1.0);
+  MarkView view = seen_from_x();
+  view.unhidden = {{0, 3}, {}};
+  EXPECT_NEAR(arrow_factor(view, Displacements({}, kFrom, to), 0.0) * 0.5 * 100.0, 40.0, 1e-9);
+  EXPECT_EQ(arrow_factor(view, Displacements({}, kFrom, to), 3.0), 3.0);
+  EXPECT_EQ(arrow_factor(view, Displacements({}, kFrom, kFrom), 0.0), 1.0);
 }
 
 TEST(SpaceGhost, HasTheEdgesOfWhatMovedWhereTheyWere) {
   std::vector<Vec3> to = kFrom;
   to[0].y += 0.5;
   const std::vector<std::array<Index, 2>> edges{{0, 1}, {1, 2}, {3, 4}, {0, 3}};
-  render::SpaceMarks marks;
-  EXPECT_EQ(add_space_ghost(marks, seen_from_x(), kFrom, to, edges, {}, {}), 2U);
+  render::Marks marks;
+  add_ghost(marks, seen_from_x(), kFrom, to, edges, {});
   ASSERT_EQ(marks.lines.size(), 4U);
   EXPECT_EQ(marks.lines[0].from, kFrom[0]);
   EXPECT_EQ(marks.lines[0].to, kFrom[1]);
@@ -78,11 +80,14 @@ TEST(SpaceGhost, HasTheEdgesOfWhatMovedWhereTheyWere) {
 }
 
 TEST(SpaceDots, AreOnWhatNothingHides) {
-  render::SpaceMarks marks;
-  add_space_dots(marks, kFrom, std::vector<Index>{4, 2, 0}, std::vector<Index>{0, 1, 4}, {9, 9, 9, 255}, 8.0F);
+  const auto input = dmoscope::testing::input(test::volume_grid(2, test::Fill::Hexahedra));
+  MarkView view = seen_from_x();
+  view.unhidden = {{0, 1, 4}, {}};
+  render::Marks marks;
+  add_dots(marks, view, *input, input->mesh.positions, std::vector<Index>{4, 2, 0}, {9, 9, 9, 255}, 8.0);
   ASSERT_EQ(marks.dots.size(), 2U);
-  EXPECT_EQ(marks.dots[0].point, kFrom[4]);
-  EXPECT_EQ(marks.dots[1].point, kFrom[0]);
+  EXPECT_EQ(marks.dots[0].point, input->mesh.positions[4]);
+  EXPECT_EQ(marks.dots[1].point, input->mesh.positions[0]);
 }
 
 class VolumeStepping : public app::HeadlessTest {

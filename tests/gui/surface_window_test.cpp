@@ -10,7 +10,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/volume_grids.h"
 #include "ui/analysis/inspection.h"
-#include "ui/viewports/mesh_marks.h"
+#include "ui/overlays/marks.h"
 
 namespace dmoscope::app {
 namespace {
@@ -118,22 +118,21 @@ TEST(FeatureMarks, OfACube) {
   const auto mesh = dmoscope::testing::input(cube(n));
   const Domain domain(*mesh, {});
   EXPECT_EQ(domain.feature_edges().size(), 12U * n);
-  render::Unhidden all;
-  for (Index v = 0; v < mesh->mesh.vertex_count(); ++v)
-    if (!mesh->topology.star(v).empty()) all.vertices.push_back(v);
-  for (Index e = 0; e < mesh->mesh.elements.size(); ++e) {
-    const auto c = mesh->mesh.elements.corners(e);
-    for (std::size_t i = 0; i < 4; ++i)
-      if (c[i] < c[(i + 1) % 4]) all.edges.push_back({c[i], c[(i + 1) % 4]});
-  }
-  render::SpaceMarks marks;
-  ui::add_space_features(marks, domain, mesh->mesh.positions, all, {0, 0, 0, 255}, {255, 255, 255, 255});
+  // Seen from the front, as if it were of glass, and with a front that hides all.
+  render::OrbitCamera camera;
+  render::Bounds3 box;
+  for (const Vec3& position : mesh->mesh.positions) box.include(position);
+  camera.fit(box, {400, 400});
+  ui::MarkView view{{camera, camera.projection({400, 400}, box)}};
+  render::Marks marks;
+  ui::add_features(marks, view, domain, mesh->mesh.positions, {{0, 0, 0, 255}, {255, 255, 255, 255}});
   EXPECT_EQ(marks.lines.size(), 2 * 12U * n) << "each with a casing";
   EXPECT_EQ(marks.dots.size(), 8U);
   for (const auto& dot : marks.dots)
     for (const double x : {dot.point.x, dot.point.y, dot.point.z}) EXPECT_TRUE(x == 0.0 || x == 1.0);
-  render::SpaceMarks none;
-  ui::add_space_features(none, domain, mesh->mesh.positions, {}, {0, 0, 0, 255}, {255, 255, 255, 255});
+  view.unhidden.emplace();
+  render::Marks none;
+  ui::add_features(none, view, domain, mesh->mesh.positions, {{0, 0, 0, 255}, {255, 255, 255, 255}});
   EXPECT_TRUE(none.lines.empty() && none.dots.empty()) << "what is hidden is not drawn";
 }
 

@@ -9,7 +9,7 @@
 #include "core/run/parameters.h"
 #include "tests/support/meshes.h"
 #include "tests/support/volume_grids.h"
-#include "ui/viewports/mesh_marks.h"
+#include "ui/overlays/marks.h"
 
 namespace dmoscope::app {
 namespace {
@@ -22,14 +22,13 @@ Frame frame_of(Mesh mesh) {
 }
 
 /// Of the outline that is drawn widest but for its casing: lengths from the centre, and the way to the farthest point.
-template <class Lines, class Point>
 struct Outline {
   double least = HUGE_VAL, most = 0.0;
-  Point farthest{};
-  Outline(const Lines& lines, Point centre) {
+  Vec3 farthest{};
+  Outline(const std::vector<render::OverlayLine>& lines, Vec3 centre) {
     for (const auto& line : lines) {
       if (line.width != 1.6F) continue;
-      const Point way = line.from - centre;
+      const Vec3 way = line.from - centre;
       const double length = std::sqrt(dot(way, way));
       least = std::min(least, length);
       if (length > most) most = length, farthest = way;
@@ -41,10 +40,9 @@ TEST(TargetMarks, AnEllipseHasTheTargetsStretchAndDirection) {
   const Frame frame = frame_of(testing::lattice(4, 0.2, 5));
   const Index element = 12;
   render::Marks marks;
-  ui::add_targets(marks, frame, parse_metric("mean-ratio@aspect:3:30"), std::vector<Index>{element});
-  Vec2<double> centre{};
-  for (const Index v : frame.input->mesh.elements.corners(element))
-    centre = {centre.x + frame.positions[v].x / 3.0, centre.y + frame.positions[v].y / 3.0};
+  ui::add_targets(marks, ui::ScenePoints::of(*frame.input), frame, parse_metric("mean-ratio@aspect:3:30"), std::vector<Index>{element});
+  Vec3 centre{};
+  for (const Index v : frame.input->mesh.elements.corners(element)) centre = centre + (1.0 / 3.0) * frame.positions[v];
   const Outline ellipse(marks.lines, centre);
   EXPECT_NEAR(ellipse.most / ellipse.least, 3.0, 0.02);
   const double angle = std::atan2(ellipse.farthest.y, ellipse.farthest.x) * 180.0 / std::numbers::pi;
@@ -63,8 +61,8 @@ TEST(TargetMarks, AnEllipsoidToo) {
   Index element = 0;  // the smallest: targets are as large as the mean
   for (Index e = 1; e < frame.element_count(); ++e)
     if (volume_of(frame, e) < volume_of(frame, element)) element = e;
-  render::SpaceMarks marks;
-  ui::add_space_target(marks, frame, parse_metric("mean-ratio@aspect:4:3:1:2"), element);
+  render::Marks marks;
+  ui::add_targets(marks, {}, frame, parse_metric("mean-ratio@aspect:4:3:1:2"), std::vector<Index>{element});
   Vec3 centre{};
   for (const Index v : frame.input->mesh.elements.corners(element)) centre = centre + 0.25 * frame.positions[v];
   const Outline ellipsoid(marks.lines, centre);
@@ -80,13 +78,11 @@ TEST(TargetMarks, AnEllipsoidToo) {
 TEST(TargetMarks, ThereAreNoneWithoutATarget) {
   const Frame plane = frame_of(testing::lattice(3, 0.2, 7)), space = frame_of(test::volume_grid(2, test::Fill::Hexahedra, 0.1, 8));
   render::Marks marks;
-  render::SpaceMarks in_space;
   for (const char* metric : {"mean-ratio", "formula:lmin/lmax", "mean-ratio@nothing:input", "mean-ratio@field"}) {
-    ui::add_targets(marks, plane, parse_metric(metric), std::vector<Index>{0});
-    ui::add_space_target(in_space, space, parse_metric(metric), 0);
+    for (const Frame& frame : {plane, space})
+      ui::add_targets(marks, ui::ScenePoints::of(*frame.input), frame, parse_metric(metric), std::vector<Index>{0});
   }
   EXPECT_TRUE(marks.lines.empty());
-  EXPECT_TRUE(in_space.lines.empty());
 }
 
 }  // namespace

@@ -10,8 +10,8 @@
 #include "tests/gui/headless_test.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/volume_grids.h"
+#include "ui/overlays/marks.h"
 #include "ui/state/actions.h"
-#include "ui/viewports/mesh_marks.h"
 
 namespace dmoscope::app {
 namespace {
@@ -57,8 +57,9 @@ TEST_F(VolumeWindow, ThePlaceInsideIsMarkedForAllThatAreListed) {
   const auto marked = picture();
   good("worst off");
   EXPECT_NE(picture(), marked);
-  render::SpaceMarks marks;
-  ui::add_inverted_inside(marks, *session()->frame, {});
+  render::Marks marks;
+  const ui::MarkView view{window_->app().panes().front().view.value()};
+  ui::add_inverted_inside(marks, view, *session()->frame, {});
   ASSERT_EQ(marks.dots.size(), 2U) << "casing and diamond";
   EXPECT_EQ(marks.dots[1].point, *worst[0].inside);
   EXPECT_EQ(marks.dots[1].shape, render::DotShape::Diamond);

@@ -53,7 +53,7 @@ class Device : public WithContext {
 TEST_F(Device, ALightFrameLooksLikeTheWholeOne) {
   const auto whole = sheet(2, 17);
   ASSERT_GT(whole->shown_statistics.inverted, 0U);
-  const Marks marks{{3, 20}, {8, 30}, whole->worst.front().element, {}, {}};
+  const Marks marks{.elements = {3, 20}, .vertices = {8, 30}, .worst = whole->worst.front().element};
   scene->show(sheet(1, 0));
   const Image before = look(marks);
   scene->show(whole);
@@ -141,7 +141,7 @@ TEST_F(Device, ALostDeviceShowsNothingRatherThanWhatIsOld) {
   scene->show(light_frame(*sheet(2, 17), device));
   EXPECT_EQ(scene->source(), Source::Unreachable);
   EXPECT_EQ(scene->device_trouble(), "the device was lost");
-  const Image empty = look({{3}, {8}, 4, {}, {}});
+  const Image empty = look({.elements = {3}, .vertices = {8}, .worst = 4});
   for (int x = 0; x < empty.width; ++x) ASSERT_TRUE(near_colour(empty.at(x, empty.height / 2), Style::dark().background));
   EXPECT_EQ(scene->pick(camera, kViewport, {100, 60}).element, kNoIndex);
   scene->show(sheet(3, 17));

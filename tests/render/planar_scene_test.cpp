@@ -126,8 +126,8 @@ TEST_F(WithContext, BoundaryEdgesAndMarksAreDrawn) {
   EXPECT_TRUE(near_colour(picture(unit_camera(), style).at(150, 110), {255, 0, 0}));
   style.boundary = false;
   Marks marks;
-  marks.dots.push_back({{50, 0}, 10.0F, {1, 2, 3, 255}, DotShape::Round});
-  marks.lines.push_back({{-90, 0}, {90, 0}, 3.0F, {0, 255, 0, 255}});
+  marks.dots.push_back({{50, 0, 0}, 10.0F, {1, 2, 3, 255}, DotShape::Round});
+  marks.lines.push_back({{-90, 0, 0}, {90, 0, 0}, 3.0F, {0, 255, 0, 255}});
   marks.vertices = {2};
   marks.elements = {1};
   marks.worst = 0;

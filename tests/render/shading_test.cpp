@@ -228,11 +228,11 @@ TEST_F(WithContext, ALivePictureComesToRestAtTheFullOneWhateverHappensOnTheWay) 
   live.update(*scene, wish);
   settle();
   ASSERT_TRUE(live.complete());
-  std::get<Marks>(wish.marks).dots.push_back({scene->bounds().centre(), 12.0F, {1, 2, 3, 255}, DotShape::Round});
+  wish.marks.dots.push_back({in_scene(scene->bounds().centre()), 12.0F, {1, 2, 3, 255}, DotShape::Round});
   live.update(*scene, wish);
   EXPECT_TRUE(live.complete()) << "marks ask for no new elements";
   Framebuffer copy(200, 120);
-  scene->draw(copy, std::get<Camera2D>(wish.camera), wish.style, std::get<Marks>(wish.marks));
+  scene->draw(copy, std::get<Camera2D>(wish.camera), wish.style, wish.marks);
   const Image wanted = copy.read_pixels();
   EXPECT_TRUE(near_colour(wanted.at(100, 60), {1, 2, 3}));
   EXPECT_EQ(live.picture().rgba, wanted.rgba);
@@ -257,10 +257,10 @@ TEST_F(WithContext, LabelsGoWhereThereIsRoom) {
   EXPECT_NEAR(elements[1].point.x, 50, 1e-9);
   EXPECT_NEAR(elements[1].point.y, -5, 1e-9);
   const auto vertices = labels({true, false, 8.0, 15.0, 400});
-  ASSERT_EQ(vertices.size(), 7U);
+  ASSERT_EQ(vertices.size(), 6U) << "1 and 3 stand too near each other for both";
   EXPECT_EQ(vertices[2].point.x, -40);
   EXPECT_TRUE(labels({true, true, 8.0, 15.0, 8}).empty()) << "nine are more than eight";
-  EXPECT_EQ(labels({true, true, 8.0, 15.0, 9}).size(), 9U);
+  EXPECT_EQ(labels({true, true, 8.0, 15.0, 9}).size(), 8U);
   EXPECT_TRUE(labels({true, true, 100.0, 15.0, 400}).empty()) << "no room for wide figures";
   Camera2D right = unit_camera({60, 0});
   right.units_per_pixel = 0.5;

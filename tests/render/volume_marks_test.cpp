@@ -14,7 +14,7 @@ TEST_F(VolumePicture, MarksLieOverTheMesh) {
   Style style = flat_style();
   style.highlight_colour = {1, 2, 3, 255};
   plain.vertices = {0};  // behind all cells
-  plain.cells = {6};
+  plain.elements = {6};
   plain.dots.push_back({{1, 0.25, 0.75}, 9.0F, {250, 20, 30, 255}, DotShape::Round});
   plain.dots.push_back({{0, 0.25, 0.75}, 9.0F, {20, 250, 30, 255}, DotShape::Round});  // behind the other
   const Image image = shot(style);
@@ -44,8 +44,8 @@ TEST_F(VolumePicture, MarksOfWhatWasTakenAwayAreFaint) {
   ClippingView view;
   view.clip = {.on = true, .normal = {1, 0, 0}, .offset = 0.5, .flip = false, .mode = ClipPlane::Mode::Crinkle};
   space->set_view(view);
-  EXPECT_FALSE(space->sees_cell(7));
-  EXPECT_TRUE(space->sees_cell(6));
+  EXPECT_FALSE(space->sees_element(7));
+  EXPECT_TRUE(space->sees_element(6));
   const int faint = most_light();
   EXPECT_LT(faint, 200);
   EXPECT_GT(faint, 60);
@@ -64,7 +64,7 @@ TEST_F(VolumePicture, AWorstCellBehindOthersHasAFaintRing) {
   const auto shown = [&] {
     std::vector<Index> cells;
     for (Index cell = 0; cell < 8; ++cell)
-      if (space->shows_cell(camera, kViewport, cell)) cells.push_back(cell);
+      if (space->shows_element(camera, kViewport, cell)) cells.push_back(cell);
     return cells;
   };
   EXPECT_EQ(shown(), (std::vector<Index>{1, 3, 5, 7}));

@@ -55,7 +55,7 @@ class VolumePicture : public WithContext {
   std::vector<std::uint8_t> inverted = std::vector<std::uint8_t>(8, 0);
   std::unique_ptr<VolumeScene> space;
   OrbitCamera camera;
-  SpaceMarks plain;
+  Marks plain;
 };
 
 }  // namespace dmoscope::render

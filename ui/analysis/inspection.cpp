@@ -91,8 +91,8 @@ std::vector<std::array<Index, 2>> edges_of(const InputMesh& input, Index vertex)
 void gather_star(Inspection& inspection, const Frame& frame, Index vertex) {
   const InputMesh& input = *frame.input;
   const Vec3 origin = frame.positions[vertex];
-  const auto away = [&](Index v) { return input.geometry.plane.difference(frame.positions[v], origin); };
-  const auto relative = [&](Index v) { return input.geometry.plane.project(away(v)); };
+  const ScenePoints points = ScenePoints::of(input);
+  const auto away = [&](Index v) { return points.way(frame.positions[v], origin); };
   for (const Incidence& incidence : input.topology.star(vertex))
     for (const Index corner : input.mesh.elements.corners(incidence.element))
       if (corner != vertex) inspection.corners.push_back(corner);
@@ -100,17 +100,10 @@ void gather_star(Inspection& inspection, const Frame& frame, Index vertex) {
   std::sort(corners.begin(), corners.end());
   corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
   for (const Index corner : corners) inspection.corners_at.push_back(frame.positions[corner]);
-  if (input.in_space()) {
-    inspection.stood = origin;
-    for (const auto& [a, b] : edges_of(input, vertex)) inspection.space_edges.push_back({away(a), away(b)});
-    inspection.space_box.include(Vec3{});
-    for (const Index corner : corners) inspection.space_box.include(away(corner));
-    return;
-  }
-  inspection.origin = input.geometry.plane.place(origin);
-  for (const auto& [a, b] : edges_of(input, vertex)) inspection.edges.push_back({relative(a), relative(b)});
-  inspection.box.include(Vec2<double>{0, 0});
-  for (const Index corner : corners) inspection.box.include(relative(corner));
+  inspection.origin = points.at(origin);
+  for (const auto& [a, b] : edges_of(input, vertex)) inspection.edges.push_back({away(a), away(b)});
+  inspection.box.include(Vec3{});
+  for (const Index corner : corners) inspection.box.include(away(corner));
 }
 
 /// Round values between the least and the greatest quality of the valid region.
@@ -135,7 +128,7 @@ void add_lines(FieldPicture& picture) {
 
 /// Of the star and the grids.
 render::Bounds2 box_of(const Inspection& inspection) {
-  render::Bounds2 box = inspection.box;
+  render::Bounds2 box{{inspection.box.low.x, inspection.box.low.y}, {inspection.box.high.x, inspection.box.high.y}};
   for (const TracedLevel& level : inspection.trace->levels) {
     const Vec2<double> half{level.size.x / 2, level.size.y / 2};
     box.include(level.centre - half);
@@ -145,8 +138,8 @@ render::Bounds2 box_of(const Inspection& inspection) {
 }
 render::Bounds2 box_in(const StarSlice& slice, const Inspection& inspection) {
   render::Bounds2 box;
-  box.include(slice.project(inspection.space_box.low));
-  box.include(slice.project(inspection.space_box.high));
+  box.include(slice.project(inspection.box.low));
+  box.include(slice.project(inspection.box.high));
   for (const VolumeLevel& level : inspection.solid->levels) {
     box.include(slice.project(level.centre - 0.5 * level.size));
     box.include(slice.project(level.centre + 0.5 * level.size));

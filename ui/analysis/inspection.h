@@ -15,6 +15,7 @@
 #include "render/orbit_camera.h"
 #include "ui/analysis/contours.h"
 #include "ui/analysis/grid_slice.h"
+#include "ui/analysis/scene_points.h"
 #include "ui/state/inspection_state.h"
 #include "ui/state/view_state.h"
 
@@ -47,18 +48,14 @@ struct Inspection {
   std::string trouble;  // why there is no trace
   /// Whose trace it is: empty for the run's own; else the run's method, which tries no grid, and the trace is what dmo would do.
   std::string other_method;
-  std::optional<VisitTrace> trace;   // of a planar mesh, and of a vertex that slides on a surface
-  std::optional<SurfaceGrid> grid;   // of the latter: where its candidates lie
-  std::optional<VolumeTrace> solid;  // of a volume, in its place
-  Vec2<double> origin;               // where the vertex stood: in the plane. Everything below is relative to it, in mesh units
-  std::vector<std::array<Vec2<double>, 2>> edges;  // of the star, each once
-  render::Bounds2 box;                             // of the star
-  std::optional<LocalOptimum> optimum;
+  std::optional<VisitTrace> trace;         // of a planar mesh, and of a vertex that slides on a surface
+  std::optional<SurfaceGrid> grid;         // of the latter: where its candidates lie
+  std::optional<VolumeTrace> solid;        // of a volume, in its place
+  Vec3 origin;                             // where the vertex stood, a point of the scene. All below is relative to it
+  std::vector<std::array<Vec3, 2>> edges;  // of the star, each once
+  render::Bounds3 box;                     // of the star
+  std::optional<LocalOptimum> optimum;     // of a planar mesh
   std::optional<FieldPicture> field;
-  // In space, in the place of origin, edges and box.
-  Vec3 stood;
-  std::vector<std::array<Vec3, 2>> space_edges;
-  render::Bounds3 space_box;
   StarSlice field_slice;         // where the field is
   std::vector<Index> corners;    // of the star, without the vertex, ascending
   std::vector<Vec3> corners_at;  // where they stood

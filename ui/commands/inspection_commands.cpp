@@ -56,7 +56,7 @@ void close_up_in_space(ViewState& state, const Inspection& look) {
   const double extent = length(size);
   if (!(extent > 0.0) || extent >= kLeastShare * state.orbit.height) return;
   const render::OrbitCamera before = state.orbit;
-  state.orbit.orbit_about(look.stood + centre);
+  state.orbit.orbit_about(look.origin + centre);
   state.orbit.height = extent / kShare;
   state.inspection.space_close_up = {before, state.orbit};
 }
@@ -76,7 +76,7 @@ void close_up_on(ViewState& state, const Inspection& look) {
   const double side = std::min(state.viewport.x, state.viewport.y);
   const double pixels = std::min(kLargestShare * side, kSpacing * state.scale * extent / spacing);
   if (extent / pixels >= before.units_per_pixel) return;  // as close as it can be and stay in sight
-  state.camera.look_at(look.origin + level.centre, extent * side / pixels, state.viewport);
+  state.camera.look_at({look.origin.x + level.centre.x, look.origin.y + level.centre.y}, extent * side / pixels, state.viewport);
   inspection.close_up = {before, state.camera};
 }
 

@@ -32,12 +32,4 @@ std::string size_point_command(const ViewState& state, const InputMesh& input, V
   return command;
 }
 
-void add_size_point(render::Marks& marks, const RunView& run, const InputMesh& input, render::Rgba ink, render::Rgba casing) {
-  const Vec3* point = size_point_of(run);
-  if (point == nullptr) return;
-  const Vec2<double> at = input.geometry.plane.place(on_map(input.mesh, *point));
-  marks.dots.push_back({at, 17.0F, casing, render::DotShape::Diamond});
-  marks.dots.push_back({at, 12.0F, ink, render::DotShape::Diamond});
-}
-
 }  // namespace dmoscope::ui

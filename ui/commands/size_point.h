@@ -4,7 +4,6 @@
 #include <string>
 
 #include "core/view/view.h"
-#include "render/style.h"
 #include "ui/commands/view_commands.h"
 
 namespace dmoscope::ui {
@@ -17,8 +16,5 @@ void add_size_point_commands(CommandTable& table, ViewState& state, const Comman
 
 /// The session's command that puts the point to where the viewport has a pixel.
 [[nodiscard]] std::string size_point_command(const ViewState& state, const InputMesh& input, Vec2<double> pixel);
-
-/// A diamond at the point of the run's size function.
-void add_size_point(render::Marks& marks, const RunView& run, const InputMesh& input, render::Rgba ink, render::Rgba casing);
 
 }  // namespace dmoscope::ui

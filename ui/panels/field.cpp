@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "ui/viewports/inspection_marks.h"
+#include "ui/overlays/inspection_marks.h"
 
 namespace dmoscope::ui {
 namespace {

@@ -1,8 +1,8 @@
 // Over the mesh: the quality around the inspected vertex.
 #include "ui/analysis/derived.h"
+#include "ui/overlays/inspection_marks.h"
 #include "ui/panels/field.h"
 #include "ui/panels/panels.h"
-#include "ui/viewports/inspection_marks.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -67,19 +67,18 @@ void draw_field_in_view(PanelContext& context, const PaneFacts& pane) {
     const Vec2<double> pixel = pane.camera.to_pixel(point, state.viewport);
     return ImVec2{rect.x + static_cast<float>(pixel.x), rect.y + static_cast<float>(pixel.y)};
   };
-  const ToWindow at = [&](Vec2<double> point) { return window(inspection.origin + point); };
+  const ToWindow at = [&](Vec2<double> point) { return window({inspection.origin.x + point.x, inspection.origin.y + point.y}); };
   ImDrawList& list = *ImGui::GetWindowDrawList();
   draw_field(list, *inspection.field, {colour_scale(state, context.derived), context.palette, context.em(), context.px(1), true}, at);
-  render::Style style = scene_style(state);
-  style.colours = colour_scale(state, context.derived);
+  const render::Style style = scene_style(state);
   render::Marks marks;
-  add_inspection_marks(marks, state.inspection, inspection,
-                       inspection_look(style, context.palette.accent, pane.camera.units_per_pixel, state.scale));
+  add_inspection_marks(marks, state.inspection, inspection, inspection_look(state, context.derived, pane.camera.units_per_pixel));
   MarkPen pen(list, context.px(1), style.casing_colour);
-  for (const render::OverlayLine& line : marks.lines) pen.line(window(line.from), window(line.to), line);
+  const auto place = [&](Vec3 point) { return window({point.x, point.y}); };
+  for (const render::OverlayLine& line : marks.lines) pen.line(place(line.from), place(line.to), line);
   const Vec2<double> stands = state.inspection.applied ? inspection.trace->step : Vec2<double>{};
   pen.dot(at(stands), {{}, 9.0F, style.highlight_colour, render::DotShape::Round});
-  for (const render::OverlayDot& dot : marks.dots) pen.dot(window(dot.point), dot);
+  for (const render::OverlayDot& dot : marks.dots) pen.dot(place(dot.point), dot);
 }
 
 }  // namespace dmoscope::ui

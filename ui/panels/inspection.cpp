@@ -7,10 +7,10 @@
 
 #include "ui/analysis/derived.h"
 #include "ui/analysis/inspection_text.h"
+#include "ui/overlays/inspection_marks.h"
 #include "ui/panels/field.h"
 #include "ui/panels/panels.h"
 #include "ui/state/format.h"
-#include "ui/viewports/inspection_marks.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -304,7 +304,7 @@ void draw_field_marks(const PanelContext& context, const Inspection& inspection,
   };
   Vec2<double> step;
   if (inspection.trace) {
-    for (const auto& [a, b] : inspection.edges) edge(a, b, 1.0F);
+    for (const auto& [a, b] : inspection.edges) edge({a.x, a.y}, {b.x, b.y}, 1.0F);
     for (const TracedLevel& level : inspection.trace->levels) {
       const Vec2<double> half{level.size.x / 2, level.size.y / 2};
       rectangle(level.centre - half, level.centre + half);
@@ -312,7 +312,7 @@ void draw_field_marks(const PanelContext& context, const Inspection& inspection,
     step = inspection.trace->step;
   } else {  // their shadows in the plane of the slice
     const StarSlice& plane = inspection.field_slice;
-    for (const auto& [a, b] : inspection.space_edges) edge(plane.project(a), plane.project(b), 0.5F);
+    for (const auto& [a, b] : inspection.edges) edge(plane.project(a), plane.project(b), 0.5F);
     for (const VolumeLevel& level : inspection.solid->levels)
       rectangle(plane.project(level.centre - 0.5 * level.size), plane.project(level.centre + 0.5 * level.size));
     step = plane.project(inspection.solid->step);

@@ -8,12 +8,11 @@ namespace dmoscope::ui {
 void draw_labels(PanelContext& context, const PaneFacts& pane) {
   const Rect& rect = pane.rect;
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  const ViewState& state = context.state;
   const float size = std::round(0.8F * context.em());
   for (const render::Label& label : pane.labels) {
     const std::string text = std::to_string(label.id);
     const ImVec2 extent = context.fonts.body->CalcTextSizeA(size, FLT_MAX, 0.0F, text.c_str());
-    const Vec2<double> at = pane.camera.to_pixel(label.point, state.viewport);
+    const Vec2<double> at{0.5 * context.state.viewport.x + label.point.x, 0.5 * context.state.viewport.y - label.point.y};
     const ImVec2 low{std::round(rect.x + static_cast<float>(at.x) - extent.x / 2),
                      std::round(rect.y + static_cast<float>(at.y) - extent.y / 2)};
     const float pad = context.px(2);

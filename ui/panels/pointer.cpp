@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "render/space_marks.h"
+#include "render/triad.h"
 #include "ui/panels/panels.h"
 #include "ui/state/format.h"
 

@@ -8,6 +8,7 @@
 #include "core/drawing/ticks.h"
 #include "ui/analysis/inspection_text.h"
 #include "ui/commands/size_point.h"
+#include "ui/overlays/inspection_marks.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/reading_page.h"
 #include "ui/state/format.h"
@@ -84,7 +85,7 @@ void draw_level_label(PanelContext& context, const PaneFacts& pane) {
       const TracedLevel& level = inspection.trace->levels[static_cast<std::size_t>(state.level - 1)];
       corner = {level.centre.x - level.size.x / 2, level.centre.y + level.size.y / 2};
     }
-    pixel = pane.camera.to_pixel(inspection.origin + corner, context.state.viewport);
+    pixel = pane.camera.to_pixel(Vec2<double>{inspection.origin.x, inspection.origin.y} + corner, context.state.viewport);
   }
   const ImVec2 size = ImGui::CalcTextSize(label.c_str());
   const float pad = context.px(6), line = size.y;
@@ -96,85 +97,29 @@ void draw_level_label(PanelContext& context, const PaneFacts& pane) {
   ImGui::GetWindowDrawList()->AddText({x + pad, y + pad / 2}, colour(context.palette.text), label.c_str());
 }
 
-/// Of a volume: where a candidate is in the picture.
-class SeenInSpace {
- public:
-  SeenInSpace(const ViewState& state, const Inspection& inspection)
-      : middle_{state.viewport.x / 2, state.viewport.y / 2}, stood_(inspection.stood) {
-    render::Bounds3 bounds;
-    bounds.include(stood_ + inspection.space_box.low);
-    bounds.include(stood_ + inspection.space_box.high);
-    projection_ = state.orbit.projection(state.viewport, bounds);
-  }
-  /// Nowhere: behind the eye.
-  [[nodiscard]] std::optional<Vec2<double>> pixel(Vec3 offset) const {
-    const auto place = projection_.place(stood_ + offset);
-    return place ? std::optional(Vec2<double>{middle_.x + place->x, middle_.y - place->y}) : std::nullopt;
-  }
-
- private:
-  Vec2<double> middle_;
-  Vec3 stood_;
-  render::Projection projection_;
-};
-
-/// The candidate of a volume under the mouse: of the slice that the maps show, and only where none of these is there of the others.
-void read_candidate_in_space(PanelContext& context, const PaneFacts& pane) {
+/// The candidate under the mouse, in words; the inspector marks it, too. Of a volume it is one of the slice that the maps show, and only
+/// where none of these is there of the others.
+void read_candidate(PanelContext& context, const PaneFacts& pane) {
   InspectionState& state = context.state.inspection;
-  const VolumeLevel& level = context.inspection.solid->levels[static_cast<std::size_t>(state.level - 1)];
-  const GridSlice slice = shown_slice(state, context.inspection, state.level);
-  const SeenInSpace seen(context.state, context.inspection);
-  const Vec2<double> mouse = mouse_in(pane.rect);
+  const Inspection& inspection = context.inspection;
+  if (!state.open || state.applied || state.all_levels || state.level < 1 || !ImGui::IsItemHovered()) return;
+  if (static_cast<std::size_t>(state.level) > inspection.level_count()) return;
+  const GridSlice slice = shown_slice(state, inspection, state.level);
+  const Vec2<double> viewport = context.state.viewport, mouse = mouse_in(pane.rect);
+  const auto count = static_cast<int>(inspection.level(state.level).quality.size());
   for (const bool of_slice : {true, false}) {
-    double nearest = 6.0 * context.state.scale;  // pixels
-    for (std::size_t index = 0; index < level.offsets.size(); ++index) {
-      if (slice.place(static_cast<int>(index)).has_value() != of_slice) continue;
-      const auto pixel = seen.pixel(level.offsets[index]);
-      const double away = pixel ? std::hypot(pixel->x - mouse.x, pixel->y - mouse.y) : nearest;
+    double nearest = (inspection.solid ? 6.0 : 9.0) * context.state.scale;  // pixels
+    for (int index = 0; index < count; ++index) {
+      if (slice.place(index).has_value() != of_slice) continue;
+      const auto place = pane.view->place(inspection.origin + candidate_at(inspection, state.level, index));
+      const double away = place ? std::hypot(0.5 * viewport.x + place->x - mouse.x, 0.5 * viewport.y - place->y - mouse.y) : nearest;
       if (away >= nearest) continue;
       nearest = away;
-      state.hovered = CandidateName{state.level, static_cast<int>(index)};
+      state.hovered = CandidateName{state.level, index};
     }
     if (state.hovered) break;
   }
-  if (state.hovered && !ImGui::IsAnyMouseDown()) next_item_tooltip(candidate_text(context.inspection, state.level, state.hovered->index));
-}
-
-/// The same of a vertex that slides on a surface.
-void read_candidate_on_surface(PanelContext& context, const PaneFacts& pane) {
-  InspectionState& state = context.state.inspection;
-  const auto& places = context.inspection.grid->levels[static_cast<std::size_t>(state.level - 1)].places;
-  const SeenInSpace seen(context.state, context.inspection);
-  const Vec2<double> mouse = mouse_in(pane.rect);
-  double nearest = 9.0 * context.state.scale;  // pixels
-  for (std::size_t index = 0; index < places.size(); ++index) {
-    const auto pixel = seen.pixel(places[index]);
-    const double away = pixel ? std::hypot(pixel->x - mouse.x, pixel->y - mouse.y) : nearest;
-    if (away >= nearest) continue;
-    nearest = away;
-    state.hovered = CandidateName{state.level, static_cast<int>(index)};
-  }
-  if (state.hovered && !ImGui::IsAnyMouseDown()) next_item_tooltip(candidate_text(context.inspection, state.level, state.hovered->index));
-}
-
-/// The candidate under the mouse, in words; the inspector marks it, too.
-void read_candidate(PanelContext& context, const PaneFacts& pane) {
-  InspectionState& state = context.state.inspection;
-  if (!state.open || state.applied || state.all_levels || state.level < 1 || !ImGui::IsItemHovered()) return;
-  if (static_cast<std::size_t>(state.level) > context.inspection.level_count()) return;
-  if (context.inspection.solid) return read_candidate_in_space(context, pane);
-  if (context.inspection.grid) return read_candidate_on_surface(context, pane);
-  const VisitTrace& trace = *context.inspection.trace;
-  const TracedLevel& level = trace.levels[static_cast<std::size_t>(state.level - 1)];
-  const Vec2<double> mouse = mouse_in(pane.rect);
-  double nearest = 9.0 * context.state.scale;  // pixels
-  for (int index = 0; index < level.points * level.points; ++index) {
-    const Vec2<double> way = pane.camera.to_pixel(context.inspection.origin + level.at(index), context.state.viewport) - mouse;
-    if (std::hypot(way.x, way.y) >= nearest) continue;
-    nearest = std::hypot(way.x, way.y);
-    state.hovered = CandidateName{state.level, index};
-  }
-  if (state.hovered && !ImGui::IsAnyMouseDown()) next_item_tooltip(candidate_text(context.inspection, state.level, state.hovered->index));
+  if (state.hovered && !ImGui::IsAnyMouseDown()) next_item_tooltip(candidate_text(inspection, state.level, state.hovered->index));
 }
 
 /// Of a mesh that is not the active one: first it becomes that.

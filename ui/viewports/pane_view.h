@@ -12,18 +12,10 @@
 #include "ui/analysis/colour_worker.h"
 #include "ui/analysis/derived.h"
 #include "ui/analysis/inspection.h"
+#include "ui/overlays/overlays.h"
 #include "ui/state/view_state.h"
-#include "ui/viewports/stepping_view.h"
 
 namespace dmoscope::ui {
-
-/// What all viewports have in common.
-struct Scenery {
-  const ViewState& state;
-  const Derived& derived;
-  const Inspection& inspection;
-  const InputMesh* active = nullptr;  // that picks and selections are of
-};
 
 class PaneView {
  public:
@@ -37,8 +29,7 @@ class PaneView {
   /// viewport that has worked out the same already, or null.
   void update_colours(const ViewState& state, std::shared_ptr<const Frame> reference, const PaneView* like);
   [[nodiscard]] const std::shared_ptr<const ElementColours>& colours() const noexcept { return colours_; }
-  void update_stepping(bool busy);
-  [[nodiscard]] const SteppingView& stepping() const noexcept { return stepping_; }
+  void update_stepping(bool busy) { overlays_.update(*session_, busy); }
 
   /// Brings the mesh to OpenGL; false while that goes on in the background.
   bool bring(render::Loading loading);
@@ -51,9 +42,9 @@ class PaneView {
   /// Draws it as far as a moment goes; of the size state.viewport.
   void draw(const Scenery& scenery, const Wish& wish);
   /// All that is marked, in a picture of another size perhaps.
-  [[nodiscard]] render::Marks marks(const Scenery& scenery, const MarkView& view, bool inspected);
-  /// The same of a volume mesh.
-  [[nodiscard]] render::SpaceMarks space_marks(const Scenery& scenery, Vec2<double> viewport, bool inspected);
+  [[nodiscard]] render::Marks marks(const Scenery& scenery, const render::Camera& camera, Vec2<double> viewport, bool inspected) {
+    return overlays_.marks(scenery, *session_, scene(), camera, viewport, inspected);
+  }
   /// What of the marks is faint, since it was taken away, and what is shown of stepping; in words.
   [[nodiscard]] std::string note(const ViewState& state) const;
   /// Threads for finding what is seen of a volume; null: the caller's alone.
@@ -89,20 +80,16 @@ class PaneView {
  private:
   void update_planar(const Scenery& scenery);
   void update_volume(const Scenery& scenery, const Wish& wish);
-  void select(const Scenery& scenery);
-  void find_labels(const Scenery& scenery, const render::Camera2D& camera);
-  /// Whether it shows the active mesh, or one whose ids mean the same.
-  [[nodiscard]] bool is_active_mesh(const Scenery& scenery) const;
-  [[nodiscard]] Picked picked_here(const Scenery& scenery) const;
-  [[nodiscard]] Metric metric_of_targets() const;
-  [[nodiscard]] bool marks_worst(const ViewState& state, bool inspecting) const;
+  /// Which elements of its frame count.
+  [[nodiscard]] render::Selection selection(const Scenery& scenery);
+  void find_labels(const Scenery& scenery, const render::Camera& camera);
 
   std::shared_ptr<const SessionView> session_;
   render::PlanarScene planar_;
   render::LivePicture picture_;
   std::unique_ptr<render::VolumeScene> volume_;  // from the first volume mesh on
   ThreadPool* pool_ = nullptr;
-  SteppingView stepping_;
+  Overlays overlays_;
   ColourWorker worker_;
   std::shared_ptr<const ElementColours> colours_;
   ColourFacts members_;  // where its frame is not the active one's
@@ -110,8 +97,6 @@ class PaneView {
   bool labels_lack_room_ = false;
   bool current_ = true;
   std::uint64_t fixed_serial_ = 0;
-  std::vector<Index> inverted_;  // elements of the frame of this serial
-  std::uint64_t inverted_of_ = 0;
 };
 
 /// How the mesh is drawn now.

@@ -74,16 +74,10 @@ render::Image Viewports::picture_of(std::size_t pane, const Scenery& scenery, co
   const Vec2<double> digit = render::label_digit(shot.scale), viewport = render::mesh_viewport(shot);
   const render::LabelWish wish{state.colouring.label_vertices, state.colouring.label_elements, digit.x, digit.y, 400};
   const render::Camera2D planar = facts_[pane].camera.for_viewport(state.viewport, viewport);
-  const bool inspected = facts_[pane].inspected;
   const render::Camera camera = view.seen_from(state, planar);
-  const auto marked = [&]() -> render::SceneMarks {
-    if (view.in_space()) return view.space_marks(scenery, viewport, inspected);
-    return view.marks(scenery, {planar, viewport, state.scale}, inspected);
-  };
-  render::Image image = render::render_image(view.scene(), camera, look, marked(), shot).image;
-  // Of a volume labels are in pixels already.
-  render::draw_labels(image, view.scene().labels(camera, viewport, wish), view.in_space() ? render::Camera2D{} : planar, viewport, look,
-                      shot.scale);
+  const render::Marks marks = view.marks(scenery, camera, viewport, facts_[pane].inspected);
+  render::Image image = render::render_image(view.scene(), camera, look, marks, shot).image;
+  render::draw_labels(image, view.scene().labels(camera, viewport, wish), viewport, look, shot.scale);
   return image;
 }
 

@@ -327,8 +327,8 @@ PaneFacts Viewports::facts_of_pane(ViewState& state, std::size_t pane, const Rec
   facts.of_run = kind == ContentKind::Run || kind == ContentKind::Active || (view.frame() != nullptr && kind != ContentKind::Input);
   facts.colours = view.colours();
   facts.labels = view.labels();
-  // Of a volume labels are in pixels already.
-  facts.camera = view.in_space() ? render::Camera2D{} : state.camera_of(pane);
+  facts.camera = state.camera_of(pane);
+  if (view.frame() != nullptr) facts.view = view.scene().view(view.seen_from(state, facts.camera), state.viewport);
   facts.texture = view.texture();
   facts.focus = pane == focus_;
   facts.inspected = inspected(state, pane);

@@ -26,7 +26,8 @@ struct PaneFacts {
   bool removed = false;                           // which the session has no longer: it was marked before
   std::shared_ptr<const ElementColours> colours;  // null: quality
   std::span<const render::Label> labels;
-  render::Camera2D camera;
+  render::Camera2D camera;                // of a planar mesh
+  std::optional<render::SceneView> view;  // none: it shows no mesh
   unsigned texture = 0;
   bool focus = false;                     // the active one
   bool inspected = false;                 // where the search that is looked into is shown

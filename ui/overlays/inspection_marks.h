@@ -1,8 +1,9 @@
 #pragma once
 // What of an inspected visit is drawn on the mesh.
 
+#include "render/marks.h"
 #include "render/style.h"
-#include "render/volume_scene.h"
+#include "ui/analysis/derived.h"
 #include "ui/analysis/inspection.h"
 
 namespace dmoscope::ui {
@@ -19,16 +20,15 @@ struct InspectionLook {
   double scale = 1.0;            // pixels at scale 1 are multiplied by it
 };
 
-/// As the mesh is drawn in this style.
-[[nodiscard]] InspectionLook inspection_look(const render::Style& style, render::Rgb accent, double units_per_pixel, double scale);
+/// As the mesh is drawn; candidates in the colours of quality, whatever the elements show.
+[[nodiscard]] InspectionLook inspection_look(const ViewState& state, const Derived& derived, double units_per_pixel);
 
 /// Diameters of candidates, pixels at scale 1. `spacing`: between neighbours, pixels; `part`: 0 the level's worst valid candidate, 1 its
 /// best.
 [[nodiscard]] float candidate_diameter(double spacing, double part);
 
-/// The same in space, in a volume or on a surface.
-void add_inspection_marks(render::SpaceMarks& marks, const InspectionState& state, const Inspection& inspection,
-                          const InspectionLook& look);
+/// Where a candidate of a level (from 1) is, relative to where the vertex stood.
+[[nodiscard]] Vec3 candidate_at(const Inspection& inspection, int level, int index);
 
 /// Adds the star, and of the levels shown: the grid's outline, a dot or cross for every candidate, a ring around the one chosen, the next
 /// grid's outline, and the way from where the vertex stood.

@@ -1,0 +1,54 @@
+#include <cmath>
+
+#include "render/colour_map.h"
+#include "ui/overlays/marks.h"
+#include "ui/overlays/overlay.h"
+
+namespace dmoscope::ui {
+namespace {
+
+class InvertedOverlay final : public Overlay {
+ public:
+  /// In space a diamond would lie over what hides the element.
+  [[nodiscard]] bool wanted(const OverlayInput& in) const override {
+    return !in.input().in_space() && !in.searching && in.frame().shown_statistics.inverted > 0;
+  }
+  void make(const OverlayInput& in, const MarkView& view, render::Marks& marks) override {
+    if (inverted_of_ != in.frame().serial) inverted_ = inverted_elements(in.frame());
+    inverted_of_ = in.frame().serial;
+    add_inverted(marks, view, in.frame(), inverted_);
+  }
+
+ private:
+  std::vector<Index> inverted_;  // elements of the frame of this serial
+  std::uint64_t inverted_of_ = 0;
+};
+
+}  // namespace
+
+std::vector<Index> inverted_elements(const Frame& frame) {
+  std::vector<Index> found;
+  for (Index e = 0; e < frame.inverted.size(); ++e)
+    if (frame.inverted[e] != 0) found.push_back(e);
+  const std::size_t stride = (found.size() + kMostMarks - 1) / kMostMarks;
+  for (std::size_t k = 1; stride > 1 && k * stride < found.size(); ++k) found[k] = found[k * stride];
+  if (stride > 1) found.resize((found.size() + stride - 1) / stride);
+  return found;
+}
+
+void add_inverted(render::Marks& marks, const MarkView& view, const Frame& frame, std::span<const Index> elements) {
+  constexpr double kSmall = 8.0, kApart = 16.0;  // pixels at scale 1
+  PlacesTaken taken(view, kApart);
+  for (const Index e : elements) {
+    render::Bounds3 box;
+    const auto corners = frame.input->mesh.elements.corners(e);
+    for (const Index v : corners) box.include(view.points.at(frame.positions[v], frame.positions[corners[0]]));
+    const Vec3 middle = box.centre();
+    if (view.pixels(box.low, box.high) <= kSmall && view.view.holds(middle) && taken.take(middle))
+      marks.dots.push_back({middle, static_cast<float>(kSmall), solid(render::kInvertedColour), render::DotShape::Diamond});
+  }
+}
+
+OverlayPointer inverted_overlay() { return std::make_unique<InvertedOverlay>(); }
+
+}  // namespace dmoscope::ui

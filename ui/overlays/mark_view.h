@@ -1,0 +1,63 @@
+#pragma once
+// A mesh as overlays see it: in a plane or in space alike.
+
+#include <optional>
+#include <span>
+
+#include "core/input/input_mesh.h"
+#include "core/mesh/faces.h"
+#include "render/scene.h"
+#include "ui/analysis/scene_points.h"
+
+namespace dmoscope::ui {
+
+/// More dots or arrows than this would hide the mesh, and cost too much.
+inline constexpr std::size_t kMostMarks = 20'000;
+
+/// The picture that marks are made for.
+struct MarkView {
+  render::SceneView view;
+  double scale = 1.0;                          // of the interface
+  ScenePoints points{};                        // of the mesh
+  std::optional<render::Unhidden> unhidden{};  // in space; none: nothing hides anything
+
+  [[nodiscard]] double units(double pixels_at_scale_one) const { return pixels_at_scale_one * scale * view.units_per_pixel(); }
+  [[nodiscard]] double pixels(Vec3 a, Vec3 b) const { return view.pixels(a, b) / scale; }  // at scale 1
+  /// Whether something else covers a vertex, or one of the two ends of an edge.
+  [[nodiscard]] bool hides(Index vertex) const;
+  [[nodiscard]] bool hides(const EdgeEnds& edge) const;
+  /// Whether a vertex, and some of an edge by its ends, is in the picture and nothing covers it.
+  [[nodiscard]] bool sees(Index vertex, std::span<const Vec3> positions) const;
+  [[nodiscard]] bool sees(const EdgeEnds& edge, std::span<const Vec3> positions) const;
+};
+
+/// Which places of a picture are taken, where marks are to keep apart.
+class PlacesTaken {
+ public:
+  /// `apart`: pixels at scale 1.
+  PlacesTaken(const MarkView& seen, double apart);
+  /// False where another one came first, or behind the eye.
+  [[nodiscard]] bool take(Vec3 point);
+
+ private:
+  [[nodiscard]] std::size_t place(double at, std::size_t count) const;
+  const render::SceneView& view_;
+  double size_;
+  std::size_t columns_, rows_;
+  std::vector<bool> taken_;
+};
+
+/// Calls visit(a, b) for every edge of an element once: vertices.
+template <class Visit>
+void for_edges(const ElementTable& elements, Index element, Visit&& visit) {
+  const auto faces = faces_of(elements.kind(element));
+  const auto corners = elements.corners(element);
+  for (const LocalFace& face : faces) {
+    for (std::size_t i = 0; i < face.count; ++i) {
+      const Index a = face.corners[i], b = face.corners[(i + 1) % face.count];
+      if (faces.size() == 1 || a < b) visit(corners[a], corners[b]);
+    }
+  }
+}
+
+}  // namespace dmoscope::ui

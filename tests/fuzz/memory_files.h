@@ -83,7 +83,10 @@ Written written_by(Write&& write) {
 /// A new file of a format. Throws OutputError.
 inline Written write_anew(std::string_view format, const Mesh& mesh, std::span<const Vec3> positions) {
   const FormatHandler& handler = handler_of(format);
-  Written result = written_by([&](AtomicFile& file, Progress& progress) { return handler.write(file, mesh, positions, progress); });
+  Written result = written_by([&](AtomicFile& file, Progress& progress) {
+    if (handler.write == nullptr) throw OutputError(file.path().string(), std::string(handler.not_written));
+    return handler.write(file, mesh, positions, progress);
+  });
   if (handler.companion == nullptr) return result;
   const Written second = written_by([&](AtomicFile& file, Progress& progress) {
     handler.companion->write(file, mesh, progress);

@@ -1,4 +1,3 @@
-#include "core/io/cell_table.h"
 #include "core/io/gmsh/gmsh_data.h"
 
 #include <algorithm>
@@ -8,6 +7,8 @@
 #include <utility>
 
 #include <fmt/format.h>
+
+#include "core/io/cell_table.h"
 
 namespace dmoscope {
 namespace {

@@ -1,4 +1,3 @@
-#include "core/io/cell_table.h"
 #include "core/io/vtk/vtk_cells.h"
 
 #include <algorithm>
@@ -6,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/io/cell_table.h"
 #include "core/io/format.h"
 #include "core/io/vtk/vtk_order.h"
 

@@ -63,7 +63,8 @@ void CoordinateArrays::describe(SourceFile& source) const {
 }
 
 CoordinateLayout CoordinateArrays::layout() const {
-  CoordinateLayout layout{.components = 0};
+  CoordinateLayout layout;
+  layout.components = 0;
   layout.binary = true;
   for (const CoordinateArray& array : arrays_) {
     const int first = array.axis < 0 ? 0 : array.axis;

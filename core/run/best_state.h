@@ -19,7 +19,7 @@ inline constexpr double kLeastRise = 1e-6;
 /// - Of another method: fewest inverted elements, then greatest minimum, then greatest movable minimum, then greatest mean.
 /// - Of a run for two aims, which gives up some of the first for the second: the last.
 /// Of a run by one metric, never one that is worse than the input by fewest inverted elements, then greatest minimum (a rise of less than
-/// kLeastRise is none), then greatest mean. Among equals the last.
+/// kLeastRise, or a thousandth where that is less, is none), then greatest mean. Among equals the last.
 class BestState {
  public:
   /// What is written, or what the next phase begins with: that must not lower the minimum by anything.

@@ -55,10 +55,14 @@ struct Worth {
   double least = 1.0;
   std::vector<double> qualities;
   void add(double quality) { qualities.push_back(quality); }
-  /// A power mean of the qualities, by its exponent.
+  /// A power mean of the qualities, by its exponent; the harmonic one with the steps that make a bad element dear.
   [[nodiscard]] double mean(double exponent) const {
+    constexpr std::array kSteps{std::pair{0.4, 1e3}, std::pair{0.3, 16e3}, std::pair{0.2, 256e3}, std::pair{0.1, 4096e3}};
     double sum = 0.0;
-    for (const double quality : qualities) sum += std::pow(quality, exponent);
+    for (const double quality : qualities) {
+      sum += std::pow(quality, exponent);
+      for (const auto& [below, adds] : kSteps) sum += exponent == -1.0 && quality < below ? adds : 0.0;
+    }
     return std::pow(sum / static_cast<double>(qualities.size()), 1.0 / exponent);
   }
 };

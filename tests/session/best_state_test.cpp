@@ -78,13 +78,20 @@ TEST(BestState, WhatIsNoRiseIsNoReasonToGiveUpTheMeanUnlessItAddsUp) {
   EXPECT_EQ(best_iteration(dmo, course({{0.4, 0.7}, {0.4 + 4e-7, 0.6}, {0.4 + 8e-7, 0.5}, {0.4 + 12e-7, 0.4}})), 3U);
 }
 
+/// The iteration that the next phase begins with.
+std::uint64_t next_begins_at(const RunParameters& parameters, const std::vector<IterationRecord>& records) {
+  BestState best(parameters, BestState::For::NextPhase);
+  for (const IterationRecord& record : records) best.take(record);
+  return best.iteration();
+}
+
 TEST(BestState, NothingOfTheMinimumIsGivenUpWhereAPhaseFollows) {
   RunParameters mean, joint;
   mean.then_mean.emplace();
   joint.then_joint.emplace();
   for (const RunParameters& dmo : {mean, joint}) {
-    EXPECT_EQ(best_iteration(dmo, course({{0.4, 0.7}, {0.4 + 4e-7, 0.6}, {0.4 + 4e-7, 0.5}})), 1U);
-    EXPECT_EQ(best_iteration(dmo, course({{0.4, 0.7}, {0.4 + 4e-7, 0.5}, {0.4 + 4e-7, 0.6}, {0.4 + 4e-7, 0.55}, {0.4, 0.7}})), 2U);
+    EXPECT_EQ(next_begins_at(dmo, course({{0.4, 0.7}, {0.4 + 4e-7, 0.6}, {0.4 + 4e-7, 0.5}})), 1U);
+    EXPECT_EQ(next_begins_at(dmo, course({{0.4, 0.7}, {0.4 + 4e-7, 0.5}, {0.4 + 4e-7, 0.6}, {0.4 + 4e-7, 0.55}, {0.4, 0.7}})), 2U);
   }
 }
 

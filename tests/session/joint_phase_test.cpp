@@ -76,7 +76,8 @@ TEST_P(JointPhaseOf, NoChainOfPhasesEndsBelowTheFirstAlone) {
     EXPECT_GE(minimum(mean), alone - 1e-6) << seed;
     // Alone a tangled mesh has its worst element raised jointly, too; what can be reached is found within a gap.
     EXPECT_GE(joint, alone * (1.0 - RunParameters{}.joint_gap)) << seed;
-    EXPECT_GE(minimum(then_joint(true)), joint - 1e-6) << seed;
+    // The mean that comes next may have the gap.
+    EXPECT_GE(minimum(then_joint(true)), joint * (1.0 - RunParameters{}.joint_gap)) << seed;
   }
 }
 

@@ -56,7 +56,7 @@ JudgedRun judged_run(Run& run, std::string name, Metric judge, ThreadPool* pool)
   return judged;
 }
 
-/// What a report says of all runs.
+/// The head of a report, about all runs together.
 CompareOptions options_like(const Run& run) {
   CompareOptions options;
   const InputMesh& input = run.input();

@@ -19,7 +19,7 @@ void tell_interfaces(const InputMesh& input, const RunParameters& parameters, st
 [[nodiscard]] std::vector<Index> vertices_to_fix(const Mesh& mesh, const std::vector<std::string>& words);
 /// Sets what --slide and --fix say together; the vertices are those that the words of each name. Throws UsageError.
 void fix_and_slide(RunParameters& parameters, const InputMesh& input, const std::vector<Index>& fixed, const std::vector<Index>& sliding);
-/// What the words of --slide name, likewise.
+/// The vertices that the words of --slide name, see vertices_named(). Sorted, each once. Throws UsageError.
 [[nodiscard]] std::vector<Index> vertices_to_slide(const Mesh& mesh, const std::vector<std::string>& words);
 /// The corners and feature edges that --corner and the like name. Says, and adds to `warnings`, what of them does not come true by the
 /// parameters; throws UsageError where nothing that an option names does.

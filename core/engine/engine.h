@@ -61,7 +61,7 @@ class Engine {
   /// asked for.
   void rest_without_long_work() { long_work_ = false; }
 
-  /// What `save-report` does, on the engine's thread: core writes no pages. Before the first post.
+  /// Sets the function behind `save-report`, which runs on the engine's thread: core writes no pages. To be called before the first post.
   using ReportWriter = std::function<void(Session&, const std::filesystem::path&, Progress&)>;
   void set_report_writer(ReportWriter writer);
 

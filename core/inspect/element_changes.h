@@ -1,5 +1,5 @@
 #pragma once
-// What a visit makes of the elements of its star, by the statistics' formulas.
+// Qualities of the elements around a vertex before and after a visit, by the statistics' formulas.
 
 #include <algorithm>
 #include <memory>

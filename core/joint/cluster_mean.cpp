@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kMeanGap = 1e-3;  // relative, of the sum of 1 / quality
 constexpr double kRoom = 1e-9;     // of what stands at its limit
-// What rounded coordinates may take: of the way from the minimum to the floor, and of a step.
+// Margins for coordinates that are rounded: a share of the way from the minimum to the floor, and a share of a step.
 constexpr double kMargin = 0.1, kStepMargin = 1e-5;
 constexpr int kMostHalvings = 4;
 

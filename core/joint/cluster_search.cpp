@@ -293,7 +293,7 @@ bool ClusterSearch<D>::first_stays_beyond() const {
   });
 }
 
-/// Where the free vertices come to stand a share of the way on.
+/// Targets of the free vertices, at a share of the way to the solution.
 template <int D>
 std::vector<Vec3> ClusterSearch<D>::targets_of(const Solved& solved, double share) const {
   const std::span<const Index> free = solved.local.free();

@@ -36,7 +36,7 @@ class InteriorPoint {
   [[nodiscard]] std::size_t at_once() const { return pool_ != nullptr ? kAtOnce : kAloneAtOnce; }
   [[nodiscard]] double slack(std::size_t atom) const { return problem_.bound(atom, at_.tau) - at_.values[atom]; }
   [[nodiscard]] const AtomFunction<D>& function(std::size_t atom) const { return atom < raised_ ? function_ : *problem_.limited; }
-  /// What falls: the greatest f of those that are raised, or the sum of all.
+  /// The objective: the greatest f of the raised atoms, or the sum of all f over that at the start.
   [[nodiscard]] double worst() const {
     if (raised_ == 0) return weight_ * std::accumulate(at_.values.begin(), at_.values.end(), 0.0);
     return *std::max_element(at_.values.begin(), at_.values.begin() + static_cast<std::ptrdiff_t>(raised_));

@@ -1,7 +1,7 @@
 #pragma once
 // Raises the least quality of a set of atoms by moving all their free vertices together: minimises tau subject to f <= tau for every
 // atom's f, by a primal-dual interior point (Nocedal and Wright 2006, chapter 19). Other atoms may have limits of their own instead of tau.
-// Where all have limits it minimises the sum of their f.
+// If every atom has a limit, the sum of all f is minimised instead.
 
 #include <functional>
 #include <span>

@@ -9,7 +9,7 @@ namespace {
 constexpr double kCentreY = 8.0, kHalfWidth = 64.0, kHalfHeight = 54.0;  // the ellipse of the open boundary
 constexpr double kPixelsPerEdge = 3.0;
 
-/// 1 on the ellipse.
+/// Quadratic form of a point that is 1 on the ellipse.
 double ellipse(Vec2<double> p) {
   const double x = p.x / kHalfWidth;
   const double y = (p.y - kCentreY) / kHalfHeight;
@@ -36,14 +36,14 @@ std::vector<Island> draw_islands(Random& random) {
   return islands;
 }
 
-/// Positive on land.
+/// Land function at a point, positive on land.
 double land(Vec2<double> p, const std::vector<Island>& islands, std::uint64_t seed) {
   const double rough = fractal_noise(p.x / 26.0 + 11.0, p.y / 26.0, 6, seed);
   const double bays = fractal_noise(p.x / 55.0, 0.37 * p.y / 55.0 + 5.0, 2, seed + 100);
   double height = (p.y - 15.0) / 15.0 + 2.4 * rough + 1.2 * bays;
   for (const Island& island : islands) {
     const auto d = p - island.centre;
-    if (dot(d, d) > 4.0 * island.radius * island.radius) continue;  // beyond all raggedness
+    if (dot(d, d) > 4.0 * island.radius * island.radius) continue;  // beyond the island's ragged rim
     const double ragged = 1.0 + 1.3 * fractal_noise(p.x / (1.6 * island.radius), p.y / (1.6 * island.radius), 4, seed + 200);
     height = std::max(height, (island.radius * ragged - std::sqrt(dot(d, d))) / island.radius);
   }
@@ -69,7 +69,7 @@ CoastMap::CoastMap(double finest, std::uint64_t seed, Progress& progress)
       ground.at(i, j) = ellipse(p) >= 1.0 || land(p, islands, noise_seed) > 0.0 ? 1 : 0;
     }
   }
-  // No strait and no spit narrower than the edges that shall follow it.
+  // Closes straits and removes spits that are narrower than the edges that shall follow them.
   ground = closed(ground, 1.1 * kPixelsPerEdge);
   progress.check();
   ground = opened(ground, 0.9 * kPixelsPerEdge);

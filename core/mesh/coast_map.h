@@ -8,25 +8,25 @@
 
 namespace dmoscope::generators {
 
-/// Kilometres; x to the east, y to the north. The mainland lies in the north, the open sea is bounded by an arc in the south.
+/// A map in kilometres, x to the east, y to the north. The mainland lies in the north, an arc in the south bounds the open sea.
 class CoastMap {
  public:
-  /// `finest`: edge length at the coast. Details of the coast narrower than that are left out.
+  /// Draws the sea. `finest`: edge length at the coast, in kilometres; narrower details of the coast are left out.
   CoastMap(double finest, std::uint64_t seed, Progress& progress);
 
-  /// Distance to the sea's outline, negative in the sea.
+  /// Distance to the sea's outline in kilometres, negative in the sea.
   [[nodiscard]] double outside(Vec2<double> p) const { return interpolate(outline_, pixel(p.x - kWest), pixel(p.y - kSouth)) * step_; }
-  /// Distance from land, 0 on it.
+  /// Distance from land in kilometres, 0 on it.
   [[nodiscard]] double from_land(Vec2<double> p) const { return interpolate(from_land_, pixel(p.x - kWest), pixel(p.y - kSouth)) * step_; }
-  /// Wanted edge length.
+  /// Wanted edge length at a place, in kilometres.
   [[nodiscard]] double edge_length(Vec2<double> p) const;
-  /// On the open boundary's arc.
+  /// Whether a place lies on the open boundary's arc.
   [[nodiscard]] bool on_arc(Vec2<double> p) const;
   /// The nearest place on the arc as seen from its centre.
   [[nodiscard]] static Vec2<double> to_arc(Vec2<double> p);
-  /// Closed outlines with the sea to the left, the longest first.
+  /// Closed outlines of the sea, which lies to their left; the longest first.
   [[nodiscard]] std::vector<std::vector<Vec2<double>>> outlines() const;
-  /// How many vertices a mesh of this sea has when its finest edge is `finest`, roughly.
+  /// Estimated number of vertices of a mesh of this sea whose finest edge is `finest`.
   [[nodiscard]] double estimated_vertices(double finest) const;
   [[nodiscard]] double finest() const { return finest_; }
 
@@ -36,7 +36,7 @@ class CoastMap {
   [[nodiscard]] static double edge_length(double from_land, double finest);
   [[nodiscard]] double pixel(double kilometres) const { return kilometres / step_; }
   double finest_;
-  double step_;  // edge of a pixel
+  double step_;  // edge of a pixel, in kilometres
   Distances outline_;
   Distances from_land_;
 };

@@ -11,7 +11,7 @@
 namespace dmoscope {
 namespace {
 
-/// A face by corners, from its least one on. Not of bytes: g++ 12 warns of how it compares vectors of these.
+/// A face by its corners, beginning with the least one. Not of bytes: g++ 12 warns of how it compares vectors of these.
 using Polygon = std::vector<std::uint16_t>;
 
 Polygon from_least(Polygon polygon) {
@@ -19,7 +19,7 @@ Polygon from_least(Polygon polygon) {
   return polygon;
 }
 
-/// The faces of a kind whose corner i is corners[i], those that are left; none where one touches itself.
+/// The remaining faces of a kind whose corner i is corners[i]; none if a face touches itself.
 std::optional<std::vector<Polygon>> faces_left(ElementKind kind, const auto& corners) {
   std::vector<Polygon> left;
   for (const LocalFace& face : faces_of(kind)) {
@@ -53,7 +53,7 @@ CollapsedKinds take_simpler(ElementTable& table) {
   return collapsed;
 }
 
-/// Calls each(from, to, count) for the pairs that there are.
+/// Calls each(from, to, count) for the pairs of kinds that occur.
 template <class Each>
 void for_pairs(const CollapsedKinds& collapsed, const Each& each) {
   for (std::size_t from = 0; from < kElementKindCount; ++from)
@@ -72,7 +72,7 @@ std::optional<SimplerElement> simpler_element(ElementKind kind, const CornerPatt
   const auto simpler = kind_with(info(kind).dimension, corners.size());
   const auto left = faces_left(kind, pattern);
   if (!simpler || !left) return std::nullopt;
-  do {  // in every order, the own one first
+  do {  // tries every order, the original one first
     if (faces_left(*simpler, corners) != left) continue;
     SimplerElement found{*simpler, {}};
     std::ranges::copy(corners, found.corners.begin());

@@ -1,6 +1,6 @@
 #pragma once
-// Elements that have a corner several times, as programs write that know one kind of element alone: a quadrilateral that is a triangle, a
-// hexahedron that is a wedge, a pyramid or a tetrahedron.
+// Collapsed elements: elements with a repeated corner, as programs write them that know one kind of element alone, such as a hexahedron
+// that is a wedge, a pyramid or a tetrahedron.
 
 #include <array>
 #include <cstdint>
@@ -15,14 +15,14 @@
 
 namespace dmoscope {
 
-/// The element that is left when corners are one. `corners`: info(kind).corners of the element's own, counted from 0, in the order of the
-/// kind.
+/// An element without its repeated corners. `corners`: its info(kind).corners corners as indices from 0 into those of the original, in the
+/// order of its kind.
 struct SimplerElement {
   ElementKind kind;
   std::array<std::uint8_t, 8> corners;
 };
 
-/// For every corner of an element the first of its corners that is the same vertex: 0, 1, 2, ... where all differ.
+/// For each corner of an element, the first of its corners that is the same vertex: 0, 1, 2, ... if all differ.
 using CornerPattern = std::array<std::uint8_t, 8>;
 template <class Vertex>
 [[nodiscard]] CornerPattern corner_pattern(std::span<const Vertex> corners) {
@@ -35,19 +35,20 @@ template <class Vertex>
   return pattern;
 }
 
-/// The kind whose faces are those that are left of an element with a corner twice, the same way round. None where no corner is there
-/// twice, and where the faces make no kind: opposite corners of a face that are one, a hexahedron of seven corners.
+/// The simpler element that has the remaining faces of a collapsed one, in the same winding. None if no corner is repeated, or if the
+/// remaining faces make no kind: opposite corners of a face that coincide, a hexahedron of seven corners.
 [[nodiscard]] std::optional<SimplerElement> simpler_element(ElementKind kind, const CornerPattern& pattern);
 
-/// How many elements of each kind became another.
+/// Counts of collapsed elements, by their kind as written and the kind that they are.
 class CollapsedKinds {
  public:
   void add(ElementKind from, ElementKind to, std::uint64_t count = 1) { counts_[place(from)][place(to)] += count; }
   [[nodiscard]] std::uint64_t count(ElementKind from, ElementKind to) const { return counts_[place(from)][place(to)]; }
   [[nodiscard]] bool any() const;
-  /// "2 quadrilaterals that have corners twice are taken as the triangles that they are", one for each pair of kinds.
+  /// Sentences for a report, one for each pair of kinds: "2 quadrilaterals that have corners twice are taken as the triangles that they
+  /// are".
   [[nodiscard]] std::vector<std::string> sentences() const;
-  /// "the repeated corners of 2 quadrilaterals (written as triangles)", likewise.
+  /// Phrases on what was dropped, one for each pair of kinds: "the repeated corners of 2 quadrilaterals (written as triangles)".
   [[nodiscard]] std::vector<std::string> repeated() const;
 
  private:
@@ -55,11 +56,12 @@ class CollapsedKinds {
   std::array<std::array<std::uint64_t, kElementKindCount>, kElementKindCount> counts_{};
 };
 
-/// Calls take(kind, corners) with each of these elements, as what it is; `corners`: of all of them, element after element.
+/// Calls take(kind, corners) for every element, collapsed ones as the simpler element. `corners`: those of all elements, one after the
+/// other.
 template <class Vertex, class Take>
 CollapsedKinds for_simpler_elements(std::span<const ElementKind> kinds, std::span<const Vertex> corners, const Take& take) {
   CollapsedKinds collapsed;
-  std::map<std::pair<ElementKind, CornerPattern>, std::optional<SimplerElement>> known;  // a mesh has few patterns, many times
+  std::map<std::pair<ElementKind, CornerPattern>, std::optional<SimplerElement>> known;  // each of the few patterns occurs many times
   std::array<Vertex, 8> left{};
   for (const ElementKind kind : kinds) {
     const std::span<const Vertex> own = corners.first(info(kind).corners);
@@ -80,7 +82,7 @@ CollapsedKinds for_simpler_elements(std::span<const ElementKind> kinds, std::spa
   return collapsed;
 }
 
-/// Does an element have a corner twice?
+/// Whether any element has a repeated corner.
 template <class Vertex>
 [[nodiscard]] bool any_collapsed(std::span<const ElementKind> kinds, std::span<const Vertex> corners) {
   for (const ElementKind kind : kinds) {
@@ -93,7 +95,7 @@ template <class Vertex>
   return false;
 }
 
-/// Makes the mesh's elements, and the faces that its groups name, what they are. Their numbers stay.
+/// Replaces the collapsed elements of the mesh, and the collapsed faces of its groups, by simpler ones. Element numbers stay.
 CollapsedKinds take_simpler_kinds(Mesh& mesh);
 
 }  // namespace dmoscope

@@ -17,17 +17,17 @@ namespace dmoscope {
 
 namespace {
 
-/// A vertex with what it is sorted by.
+/// A vertex with its sort key.
 struct KeyedVertex {
   std::uint32_t key;
   Index vertex;
 };
 
-constexpr std::size_t kStretch = 4096;  // vertices: some 200 KB with their rings
+constexpr std::size_t kStretch = 4096;  // vertices in a stretch: some 200 KB with their rings
 
 /// Sorts vertices, at most kStretch, by the size of their stars, stably.
 void sort_by_star(std::span<Index> vertices, const Topology& topology) {
-  constexpr std::size_t kLargest = 63;  // larger ones count as this
+  constexpr std::size_t kLargest = 63;  // stars larger than this count as this large
   std::array<std::uint8_t, kStretch> star;
   std::array<Index, kStretch> unsorted;
   std::array<std::size_t, kLargest + 2> start{};
@@ -40,10 +40,10 @@ void sort_by_star(std::span<Index> vertices, const Topology& topology) {
   for (std::size_t i = 0; i < vertices.size(); ++i) vertices[start[star[i]]++] = unsorted[i];
 }
 
-/// Where vertices lie along the Z-order curve over the box of all of them, 0 to 2^32 - 1.
+/// Place of a vertex along the Z-order curve over the bounding box of all vertices, 0 to 2^32 - 1.
 class Curve {
  public:
-  /// `plane`: null for a curve of space.
+  /// Fits the curve to the vertices. `plane`: null for a curve of space.
   Curve(const Mesh& mesh, const Plane* plane, std::span<const Index> vertices, ThreadPool* pool) : mesh_(mesh), plane_(plane) {
     constexpr std::size_t kGrain = 65536;
     std::vector<PointBox> parts((vertices.size() + kGrain - 1) / kGrain);
@@ -65,7 +65,7 @@ class Curve {
   }
 
  private:
-  /// In the plane: with z = 0.
+  /// Coordinates of a vertex; with a plane those in it, and z = 0.
   [[nodiscard]] Vec3 place(Index vertex) const {
     const Vec3& p = mesh_.positions[vertex];
     if (plane_ == nullptr) return p;
@@ -97,7 +97,7 @@ class Greedy {
 
   [[nodiscard]] Colouring classes(std::span<const Index> vertices, ThreadPool* pool) const {
     const std::size_t parts = (vertices.size() + kPart - 1) / kPart;
-    std::vector<std::vector<Index>> next(parts);  // by colours: how many a part has, then where its first one goes
+    std::vector<std::vector<Index>> next(parts);  // by colour, the number of vertices in a part, then the place of its first one
     for_chunks(pool, vertices.size(), kPart, [&](std::size_t first, std::size_t last) {
       auto& count = next[first / kPart];
       for (const Index v : vertices.subspan(first, last - first)) {
@@ -125,24 +125,24 @@ class Greedy {
   }
 
  private:
-  /// More colours than this would need more corners than 32 bits can count.
+  /// A colour's number: more than 65,536 would need more corners than 32 bits can count.
   using Colour = std::uint16_t;
   static constexpr Colour kNone = 0xffff;
-  static constexpr std::size_t kPart = 32768;  // vertices
+  static constexpr std::size_t kPart = 32768;  // vertices in a part
 
   [[nodiscard]] Index follower_of(Index v) const { return followers_.empty() ? kNoIndex : followers_[v]; }
 
-  /// Colours of the vertices that share an element with v, a bit each, among the 64 from `base` on.
+  /// Bits of the colours, among the 64 from `base` on, of the vertices that share an element with v.
   [[nodiscard]] std::uint64_t colours_around(Index v, unsigned base) const {
     std::uint64_t taken = 0;
     for (const Incidence& incidence : topology_.star(v))
       for (const Index other : mesh_.elements.corners(incidence.element)) {
-        const unsigned above = colour_[other] - base;  // wraps where it is below
+        const unsigned above = colour_[other] - base;  // wraps to a huge number if the colour is below
         if (above < 64) taken |= std::uint64_t{1} << above;
       }
     return taken;
   }
-  /// The lowest colour that none of the vertices that share an element with v, or with its follower, has.
+  /// The lowest colour that no vertex has that shares an element with v, or with its follower.
   [[nodiscard]] Colour lowest_free(Index v) const {
     const Index follower = follower_of(v);
     for (unsigned base = 0;; base += 64) {
@@ -158,14 +158,14 @@ class Greedy {
   std::vector<Colour> colour_;
 };
 
-/// Sorts the members of every class by their keys, stably: by the highest bits into buckets, and each of these by the rest.
+/// Sorts the members of every class by their keys, stably: by the highest bits into buckets, and each bucket by the rest.
 void sort_classes(Colouring& colouring, const Curve& curve, ThreadPool* pool) {
   constexpr unsigned kBits = 8;
   constexpr std::size_t kGrain = 65536;
   const std::vector<Index>& offsets = colouring.class_offsets;
   const std::size_t count = colouring.order.size(), buckets = std::size_t{colouring.class_count()} << kBits;
   auto items = large_vector<KeyedVertex>(count), sorted = large_vector<KeyedVertex>(count);
-  std::vector<std::vector<Index>> next((count + kGrain - 1) / kGrain);  // by buckets: how many a chunk has, then where its first one goes
+  std::vector<std::vector<Index>> next((count + kGrain - 1) / kGrain);  // by bucket, a chunk's number of members, then its first place
   const auto for_buckets = [&](std::size_t first, std::size_t last, const auto& take) {
     auto c = static_cast<std::size_t>(std::ranges::upper_bound(offsets, first) - offsets.begin()) - 1;
     for (std::size_t i = first; i < last; ++i) {
@@ -223,7 +223,7 @@ void arrange_classes(Colouring& colouring, const Mesh& mesh, const Plane* plane,
 std::vector<Index> shuffled(std::span<const Index> vertices, std::uint64_t seed) {
   std::vector<Index> order(vertices.begin(), vertices.end());
   Random random(seed);
-  for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);  // Fisher-Yates
+  for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);  // Fisher-Yates shuffle
   return order;
 }
 

@@ -23,17 +23,17 @@ struct Colouring {
 };
 
 /// Greedy colouring in the order given: each vertex gets the lowest colour that no vertex sharing an ELEMENT with it has.
-/// Within a class the vertices keep that order. `free_vertices`: distinct vertex indices. The same for any pool (null: this thread alone).
-/// `followers`: by vertex another one that moves with it, which is not free itself, or kNoIndex; empty: none.
+/// Within a class the vertices keep that order. `free_vertices`: distinct vertex indices. `followers`: by vertex, another vertex that moves
+/// with it and is not free itself, or kNoIndex; empty: no followers. The result does not depend on the pool (null: this thread alone).
 [[nodiscard]] Colouring colour_vertices(const Mesh& mesh, const Topology& topology, std::span<const Index> free_vertices,
                                         ThreadPool* pool = nullptr, std::span<const Index> followers = {});
 
 /// Reorders every class, which changes no result since its members do not see each other: along a space-filling curve of `plane` (null: of
 /// space), so that neighbours in space are neighbours in memory, and in stretches of it by the size of their stars, so that vertices that
-/// are searched side by side need the same work. The same for any pool (null: this thread alone).
+/// are searched side by side need equal work. The result does not depend on the pool (null: this thread alone).
 void arrange_classes(Colouring& colouring, const Mesh& mesh, const Plane* plane, const Topology& topology, ThreadPool* pool = nullptr);
 
-/// The vertices in an order shuffled by `seed` with a generator of our own: the same on every platform.
+/// Shuffles the vertices by `seed` with a generator of the program's own, so that the order is equal on every platform.
 [[nodiscard]] std::vector<Index> shuffled(std::span<const Index> vertices, std::uint64_t seed);
 
 }  // namespace dmoscope

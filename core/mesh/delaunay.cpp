@@ -41,7 +41,7 @@ std::uint64_t morton(GridPoint p) {
   return spread(p.x) | (spread(p.y) << 1U);
 }
 
-/// Rounds of growing size (each point is in the last with probability 1/2, ...), along the Morton curve inside each.
+/// Order of insertion: rounds of growing size (each point is in the last with probability 1/2, ...), along the Morton curve inside each.
 std::vector<Index> insertion_order(std::span<const GridPoint> points) {
   struct Key {
     std::uint32_t round;
@@ -69,7 +69,7 @@ class Triangulation {
  public:
   explicit Triangulation(std::span<const GridPoint> points) : points_(points) { triangles_.reserve(points.size() * 2 + 8); }
 
-  /// First triangle and the three outside ones around it.
+  /// Begins with one triangle and the three outside ones around it.
   void begin(Index a, Index b, Index c) {
     if (orientation(points_[a], points_[b], points_[c]) < 0) std::swap(b, c);
     triangles_.push_back({{a, b, c}, {2, 3, 1}});
@@ -107,18 +107,18 @@ class Triangulation {
   [[nodiscard]] std::size_t outside_corner(Index t) const {
     return static_cast<std::size_t>(std::ranges::find(triangles_[t].corner, kOutside) - triangles_[t].corner.begin());
   }
-  /// The point has the very place of a corner.
+  /// Whether the point is exactly at a corner of the triangle.
   [[nodiscard]] bool has_corner(Index t, Index p) const {
     return std::ranges::any_of(triangles_[t].corner, [&](Index c) { return c != kOutside && points_[c] == points_[p]; });
   }
 
-  /// A triangle that p lies in or on, or an outside one whose hull edge p lies beyond. Walks from the last place.
+  /// A triangle that p lies in or on, or an outside one whose hull edge p lies beyond. Walks from the last triangle found.
   Index locate(Index p) {
     Index t = last_;
     if (const std::size_t o = outside_corner(t); o < 3) t = triangles_[t].neighbour[o];
     for (bool moved = true; moved;) {
       moved = false;
-      const std::size_t start = turn_++ % 3;  // begins at a changing edge, so that no walk goes round
+      const std::size_t start = turn_++ % 3;  // begins at a changing edge, so that no walk runs in circles
       for (std::size_t k = 0; k < 3 && !moved; ++k) {
         const std::size_t i = (start + k) % 3;
         const Index a = triangles_[t].corner[(i + 1) % 3];
@@ -142,7 +142,7 @@ class Triangulation {
     }
   }
 
-  /// One triangle becomes three around p; p is corner 0 of each.
+  /// Splits a triangle into three around p; p is corner 0 of each.
   void split(Index t, Index p) {
     const Triangle old = triangles_[t];
     const auto b = static_cast<Index>(triangles_.size());
@@ -156,7 +156,8 @@ class Triangulation {
     last_ = t;
   }
 
-  /// p breaks the triangle's empty circle; the circle of an outside triangle is the open half-plane beyond its edge and that edge.
+  /// Whether p violates the triangle's empty circle; the circle of an outside triangle is the open half-plane beyond its edge and that
+  /// edge.
   [[nodiscard]] bool conflicts(Index t, Index p) const {
     const auto& corner = triangles_[t].corner;
     const std::size_t o = outside_corner(t);
@@ -169,7 +170,7 @@ class Triangulation {
     return (std::int64_t{q.x} - a.x) * (std::int64_t{q.x} - b.x) + (std::int64_t{q.y} - a.y) * (std::int64_t{q.y} - b.y) < 0;
   }
 
-  /// Flips the edge opposite to p in t (p is its corner 0) where the triangle beyond conflicts.
+  /// Flips the edge opposite to p in t (p is its corner 0) if the triangle beyond conflicts.
   void legalise(Index t, Index p) {
     const Index n = triangles_[t].neighbour[0];
     if (!conflicts(n, p)) return;
@@ -177,7 +178,7 @@ class Triangulation {
     const Triangle outer = triangles_[n];
     const auto i = static_cast<std::size_t>(std::ranges::find(outer.neighbour, t) - outer.neighbour.begin());
     const Index far = outer.corner[i];
-    // inner = (p, a, b), outer = (far, b, a): they become (p, a, far) and (p, far, b).
+    // Turns inner = (p, a, b) and outer = (far, b, a) into (p, a, far) and (p, far, b).
     const Index a = inner.corner[1];
     const Index b = inner.corner[2];
     const Index beyond_b = outer.neighbour[(i + 2) % 3];  // across (far, b)
@@ -201,7 +202,7 @@ class Triangulation {
 
 std::vector<std::array<Index, 3>> delaunay(std::span<const GridPoint> points, Progress& progress) {
   std::vector<Index> order = insertion_order(points);
-  // The first three that span a triangle come first.
+  // Puts three points that span a triangle first.
   const auto differs = std::find_if(order.begin(), order.end(), [&](Index i) { return !(points[i] == points[order[0]]); });
   if (differs == order.end()) return {};
   std::iter_swap(order.begin() + 1, differs);

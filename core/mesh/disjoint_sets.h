@@ -1,5 +1,5 @@
 #pragma once
-// Sets of indices that grow together.
+// Disjoint sets of indices that can be joined.
 
 #include <algorithm>
 #include <numeric>
@@ -19,14 +19,14 @@ class DisjointSets {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
-  /// True when the two were apart.
+  /// Joins the sets of a and b. True if they were disjoint.
   bool join(Index a, Index b) noexcept {
     a = find(a);
     b = find(b);
     parent_[std::max(a, b)] = std::min(a, b);
     return a != b;
   }
-  /// For every index a parent in its set, never above it: an index is its own parent when it is its set's lowest.
+  /// Moves out the parents, one for each index and never above it: the lowest index of a set is its own parent.
   [[nodiscard]] std::vector<Index> take_parents() noexcept { return std::move(parent_); }
 
  private:

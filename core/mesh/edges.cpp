@@ -9,7 +9,7 @@
 namespace dmoscope {
 namespace {
 
-constexpr Index kCheckEvery = 1U << 16U;  // vertices between two looks for a cancel
+constexpr Index kCheckEvery = 1U << 16U;  // vertices between two checks for a cancel
 
 bool planar(const Mesh& mesh, Index e) { return info(mesh.elements.kind(e)).dimension == 2; }
 
@@ -22,7 +22,7 @@ CornerSet corner_set(const Mesh& mesh, Index e) {
   return set;
 }
 
-/// Elements with the corners of an earlier one. Two such elements share an edge, so only elements of one edge are compared.
+/// Finds elements with the corners of an earlier one. Two such elements share an edge, so only elements of one edge are compared.
 class Duplicates {
  public:
   explicit Duplicates(const Mesh& mesh) : mesh_(mesh) {}
@@ -47,11 +47,11 @@ class Duplicates {
   std::vector<std::pair<CornerSet, Index>> around_;
 };
 
-/// Numbers the sets in the order of their first elements.
+/// Numbers the components in the order of their first elements.
 void number_components(const Mesh& mesh, DisjointSets& sets, EdgeSurvey& survey) {
   survey.component = sets.take_parents();
   for (Index e = 0; e < mesh.elements.size(); ++e) {
-    Index& component = survey.component[e];  // a parent comes before its children: it has its number already
+    Index& component = survey.component[e];  // the parent comes before its children, so its component has a number already
     if (component != e) {
       component = survey.component[component];
     } else {
@@ -66,21 +66,20 @@ bool same_corners(const Mesh& mesh, Index a, Index b) {
   const auto of_a = mesh.elements.corners(a);
   const auto of_b = mesh.elements.corners(b);
   if (of_a.size() != of_b.size()) return false;
-  Index difference = 0;  // of the sums: nearly always tells them apart
+  Index difference = 0;  // difference of the sums of the vertex numbers, which nearly always tells the elements apart
   for (std::size_t i = 0; i < of_a.size(); ++i) difference += of_a[i] - of_b[i];
   return difference == 0 && std::ranges::is_permutation(of_a, of_b);
 }
 
 namespace {
 
-/// The edges from a vertex to higher ones where all is as it mostly is: a few elements, each edge with two, which run it in opposite
-/// directions. Finds them without sorting: what is compared with what does not depend on the vertices' numbers, which no
-/// processor foresees.
+/// The edges from a vertex to higher ones in the usual case: a few elements, and two on each edge, which run it in opposite directions.
+/// Finds them without sorting: the comparisons made do not depend on the vertices' numbers, which no processor predicts.
 class PlainStar {
  public:
   PlainStar(const Mesh& mesh, const Topology& topology) : elements_(mesh.elements), topology_(topology) {}
 
-  /// False if something may be otherwise.
+  /// Looks at a vertex. False if its star is not the usual case.
   bool look_at(Index vertex) {
     const auto star = topology_.star(vertex);
     if (star.size() >= kMost) return false;
@@ -111,7 +110,7 @@ class PlainStar {
     Index other, element, corner_sum;
   };
 
-  /// Does each leaving side have one arriving side of its own, of an element with other corners (judged by their sum)?
+  /// Whether each leaving side has one arriving side of its own, of an element with other corners (judged by their sum).
   bool match() {
     std::uint32_t taken = 0;
     bool plain = true;
@@ -122,7 +121,7 @@ class PlainStar {
       taken |= 1U << at;
       partner_[i] = arriving_[at].element;
     }
-    return plain && taken == (1U << count_) - 1U;  // as many as there are, none twice
+    return plain && taken == (1U << count_) - 1U;  // every side is taken exactly once
   }
 
   const ElementTable& elements_;
@@ -188,11 +187,11 @@ EdgeSurvey survey_edges(const Mesh& mesh, const Topology& topology, Progress* pr
 
 namespace {
 
-/// Boundary edges in a row, with what is needed to follow them through a vertex.
+/// Curves of boundary edges, joined at vertices.
 class BoundaryCurves {
  public:
   BoundaryCurves(const Mesh& mesh, const Topology& topology, const EdgeSurvey& survey) : survey_(survey) {
-    std::unordered_map<Index, Index> degree;  // boundary edges at each vertex
+    std::unordered_map<Index, Index> degree;  // number of boundary edges at each vertex
     for (const auto& [edge, element] : survey.boundary) {
       if (++degree[edge.low] == 3) split_fans(mesh, topology, edge.low);
       if (++degree[edge.high] == 3) split_fans(mesh, topology, edge.high);
@@ -219,7 +218,7 @@ class BoundaryCurves {
  private:
   static std::uint64_t corner_key(Index vertex, Index element) { return (static_cast<std::uint64_t>(vertex) << 32U) | element; }
 
-  /// At a vertex where more than two boundary edges meet: which elements hang together across edges through it.
+  /// Finds the fans of elements at a vertex where more than two boundary edges meet: those that are connected across edges through it.
   void split_fans(const Mesh& mesh, const Topology& topology, Index vertex) {
     const auto star = topology.star(vertex);
     const auto place = [star](Index element) {
@@ -235,7 +234,7 @@ class BoundaryCurves {
   }
 
   const EdgeSurvey& survey_;
-  std::unordered_map<std::uint64_t, Index> fans_;  // first element of the fan that an element is in, at the vertices that need it
+  std::unordered_map<std::uint64_t, Index> fans_;  // first element of an element's fan, at the vertices with more than two boundary edges
 };
 
 }  // namespace

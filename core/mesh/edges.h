@@ -18,14 +18,14 @@ struct Edge {
   Index high;
 };
 
-/// One element's way along an edge, seen from one of the edge's ends.
+/// One element's traversal of an edge, seen from one of the edge's ends.
 struct EdgeSide {
   Index element;
-  bool leaving;  // in the element's winding the way goes from that end to the other
+  bool leaving;  // whether the element's winding goes from that end to the other
 };
 
-/// Finds the edges at a vertex in its star. Three-dimensional elements are passed over, and so is the way between two corners
-/// of an element that are the same vertex (degenerate elements). Mesh and topology must outlive it.
+/// Finds the edges at a vertex in its star. Volume elements are skipped, and so are edges between two corners of an element that are one
+/// vertex (degenerate elements). Mesh and topology must outlive it.
 class EdgeFinder {
  public:
   EdgeFinder(const Mesh& mesh, const Topology& topology) : elements_(&mesh.elements), topology_(&topology) {}
@@ -71,7 +71,7 @@ class EdgeFinder {
 
   const ElementTable* elements_;
   const Topology* topology_;
-  std::vector<std::uint64_t> keys_;  // other end, then place in the star and 0 for leaving, 1 for arriving
+  std::vector<std::uint64_t> keys_;  // sort key of each side: other end, then place in the star, then 0 for leaving or 1 for arriving
   std::vector<EdgeSide> sides_;
 };
 
@@ -84,7 +84,7 @@ void for_each_edge(const Mesh& mesh, const Topology& topology, Visit&& visit) {
   }
 }
 
-/// What one walk over all edges finds.
+/// Results of one walk over all edges.
 struct EdgeSurvey {
   struct BoundaryEdge {
     Edge edge;
@@ -93,23 +93,23 @@ struct EdgeSurvey {
   Index edges = 0;
   std::vector<BoundaryEdge> boundary;  // edges with exactly one element, in ascending order
   std::vector<Edge> non_manifold;      // edges with more than two elements, in ascending order
-  /// Do any two elements on a manifold edge run it in opposite directions, and lie side by side (no duplicates)?
+  /// Whether any two elements on a manifold edge lie side by side (no duplicates) and run it in opposite directions.
   bool consistent = true;
-  std::vector<Index> duplicates;  // elements with the very corners (as a set) of an earlier one, ascending
-  /// Set of elements connected across manifold edges that an element belongs to, numbered in the order of their first elements;
-  /// kNoIndex for elements that are not planar.
+  std::vector<Index> duplicates;  // elements with exactly the corners (as a set) of an earlier one, ascending
+  /// By element, its edge-connected component (across manifold edges), numbered in the order of first elements; kNoIndex for volume
+  /// elements.
   std::vector<Index> component;
   Index components = 0;
 };
 
-/// Have the two elements the very same corners, in whatever order?
+/// Whether the two elements have exactly the same corners, in whatever order.
 [[nodiscard]] bool same_corners(const Mesh& mesh, Index a, Index b);
 
 /// Walks over all edges once. Linear time for bounded valence. Throws Cancelled if `progress` (may be null) says so.
 [[nodiscard]] EdgeSurvey survey_edges(const Mesh& mesh, const Topology& topology, Progress* progress);
 
-/// Number of closed boundary curves. Where several curves touch in one vertex, a curve goes on along the fan of elements it borders.
-/// Edges with more than two elements are no boundary here. A curve that is interrupted by such an edge counts once.
+/// Number of closed boundary curves. At a vertex where several curves touch, a curve continues along the fan of elements that it bounds.
+/// Edges with more than two elements do not belong to the boundary here; a curve that such an edge interrupts counts once.
 [[nodiscard]] Index count_boundary_loops(const Mesh& mesh, const Topology& topology, const EdgeSurvey& survey);
 
 }  // namespace dmoscope

@@ -1,5 +1,5 @@
 #pragma once
-// The corners of an element in the frame that it is judged in.
+// Corners of an element in the frame that it is judged in.
 
 #include <array>
 
@@ -14,20 +14,21 @@ namespace dmoscope {
   return l > 0.0 ? (1.0 / l) * n : fallback;
 }
 
-/// The unit normal of an element of a curved mesh, whose edges or diagonals span it. Where the frame's has a say, that of an element which
-/// looks away from it: so its areas, as they look from above, are negative, and go to 0 as it turns.
+/// The unit normal of an element of a curved mesh, from two of its edges or diagonals. With `against`, an element that looks away from
+/// `frame_normal` gets that one: its areas, seen from above, are negative and go to 0 as it turns.
 [[nodiscard]] inline Vec3 curved_normal(Vec3 a, Vec3 b, Vec3 frame_normal, bool against) {
   const Vec3 n = unit_normal(a, b, frame_normal);
   return against && dot(n, frame_normal) < 0.0 ? frame_normal : n;
 }
 
-/// What the elements of a mesh are judged in. A view: the geometry must outlive it.
+/// Frames in which the elements of a mesh are judged. A view: the geometry must outlive it.
 struct ElementFrames {
   const Geometry& geometry;
-  std::span<const Vec3> normals{};  // of a surface, by element: see InputMesh::surface_normals
+  std::span<const Vec3> normals{};  // unit normals of a surface's elements, see InputMesh::surface_normals
 
-  /// Corners as (x, y, z): of a planar element relative to its first in its plane (z = 0); of one of a surface likewise, in the plane of
-  /// the element; of a volume element where they stand. at(vertex): its position. Returns that plane.
+  /// Gathers the corners as (x, y, z): those of a planar element relative to its first, in the mesh's plane (z = 0); those of a surface
+  /// element relative to its first, in the element's own plane; those of a volume element as they are. at(vertex): its position. Returns
+  /// that plane.
   template <class At>
   Plane gather(std::span<const Index> corners, Index element, int dimension, const At& at, std::array<Vec3, 8>& out) const {
     if (dimension == 3) {

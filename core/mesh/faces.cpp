@@ -21,16 +21,16 @@ constexpr Index kFacesBetweenLooks = 1U << 16U;
 
 using Corners = std::array<Index, 4>;
 
-/// A face as a set of vertices; a triangle ends with kNoIndex.
+/// Sorts the vertices of a face, so that faces compare as sets; a triangle ends with kNoIndex.
 Corners sorted(Corners corners) {
   std::ranges::sort(corners);
   return corners;
 }
 
-/// A face, where it is.
+/// A face with its sorted vertices and its place.
 struct KeyedFace {
   Corners key;
-  std::uint32_t place;  // into across_
+  std::uint32_t place;  // index into across_
   Index element;
 };
 
@@ -70,7 +70,7 @@ FaceNeighbours::FaceNeighbours(const Mesh& mesh, Progress* progress) {
   across_ = large_vector<Index>(offsets_.back());
   std::ranges::fill(across_, kNoIndex);
 
-  // Faces in buckets by their lowest vertex: those of one bucket are few, and are sorted.
+  // Sorts faces into buckets by their lowest vertex, and then the few faces of each bucket.
   auto first = large_vector<std::uint32_t>(mesh.positions.size() + 2);
   const auto lowest = [&](ElementFace f) { return std::ranges::min(vertices_of(elements, f)); };
   const auto for_all = [&](auto&& visit) {
@@ -85,7 +85,7 @@ FaceNeighbours::FaceNeighbours(const Mesh& mesh, Progress* progress) {
   auto order = large_vector<ElementFace>(across_.size());
   for_all([&](ElementFace f) { order[first[lowest(f) + 1]++] = f; });
 
-  std::vector<std::uint8_t> shared_by_many;  // by place; only where there is one
+  std::vector<std::uint8_t> shared_by_many;  // by place in across_; empty unless there is such a face
   std::vector<KeyedFace> bucket;
   for (std::size_t v = 0; v + 1 < first.size(); ++v) {
     bucket.clear();
@@ -95,7 +95,7 @@ FaceNeighbours::FaceNeighbours(const Mesh& mesh, Progress* progress) {
     for (std::size_t i = 0, end = 0; i < bucket.size(); i = end) {
       while (end < bucket.size() && bucket[end].key == bucket[i].key) ++end;
       ++face_count_;
-      // An element and its duplicate lie on top of each other: neither is across the other's faces.
+      // Leaves out an element and its duplicate, which lie on top of each other: neither is across the other's faces.
       if (end - i == 2 && !same_corners(mesh, bucket[i].element, bucket[i + 1].element)) {
         across_[bucket[i].place] = bucket[i + 1].element;
         across_[bucket[i + 1].place] = bucket[i].element;

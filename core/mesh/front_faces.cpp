@@ -13,8 +13,8 @@
 namespace dmoscope {
 namespace {
 
-/// A way for a cell to stand between two sheets: the corners of one face, and across from each its partner, which is itself on an edge that
-/// both have in common. Seen from the cell's outside the first face runs clockwise: its normal points to the other.
+/// A way for a cell to stand between two sheets: the corners of one face, and each one's partner on the opposite face, which is the corner
+/// itself on an edge that both faces share. Seen from outside of the cell the first face runs clockwise: its normal points to the other.
 struct PairedFaces {
   std::array<std::uint8_t, 4> bottom, top;
   std::uint8_t count;  // 3 or 4
@@ -22,7 +22,7 @@ struct PairedFaces {
 
 constexpr std::array<PairedFaces, 3> kOfHexahedra{
     {{{0, 1, 2, 3}, {4, 5, 6, 7}, 4}, {{0, 3, 7, 4}, {1, 2, 6, 5}, 4}, {{0, 4, 5, 1}, {3, 7, 6, 2}, 4}}};
-/// A wedge stands upright, or lies with one of its three long edges on the axis.
+/// Ways of a wedge: upright, or lying with one of its three long edges on the axis.
 constexpr std::array<PairedFaces, 4> kOfWedges{
     {{{0, 1, 2, 0}, {3, 4, 5, 0}, 3}, {{0, 3, 4, 1}, {0, 3, 5, 2}, 4}, {{1, 4, 5, 2}, {1, 4, 3, 0}, 4}, {{2, 5, 3, 0}, {2, 5, 4, 1}, 4}}};
 
@@ -30,7 +30,7 @@ std::span<const PairedFaces> ways_of(ElementKind kind) {
   return kind == ElementKind::Wedge ? std::span<const PairedFaces>(kOfWedges) : std::span<const PairedFaces>(kOfHexahedra);
 }
 
-/// A way that a cell stands in; `turned`: its top is the front.
+/// A way chosen for a cell, as an index into ways_of(); `turned`: its top is the front.
 struct Way {
   std::uint8_t number = 0;
   bool turned = false;
@@ -100,7 +100,7 @@ class Finder {
     }
   }
 
-  /// Whether vertices that are known already are paired like this.
+  /// Whether the pairs of this way agree with those known already.
   [[nodiscard]] bool fits(Index e, Way way) const {
     bool fit = true;
     for_pairs(e, way, [&](Index front, Index back) {
@@ -111,7 +111,7 @@ class Finder {
     return fit;
   }
 
-  /// The one way for the cell to stand in which fits what is known.
+  /// The only way of the cell that agrees with the known pairs; none if there are several or none.
   [[nodiscard]] std::optional<Way> fitting(Index e) const {
     std::optional<Way> only;
     for (std::uint8_t w = 0; w < ways_of(mesh_.elements.kind(e)).size(); ++w) {
@@ -139,7 +139,7 @@ class Finder {
     return sum;
   }
 
-  /// The first cell's front is where the lowest number is; that of a further part lies on the same side.
+  /// Way of the first cell of a part: in the first part the front has the lowest vertex; further parts have their front on that side.
   [[nodiscard]] Way first_way(Index e) {
     Way way{static_cast<std::uint8_t>(std::countr_zero(possible_[e])), false};
     if (const Way other{way.number, true}; !fits(e, way) && fits(e, other)) return other;
@@ -157,7 +157,7 @@ class Finder {
     return way;
   }
 
-  /// From a cell to all that hang together with it. False: they contradict each other.
+  /// Follows the neighbours from a cell to all connected ones. False: they contradict each other.
   bool follow(Index first) {
     const Way way = first_way(first);
     if (!fits(first, way)) return contradicted(first);
@@ -182,11 +182,11 @@ class Finder {
     return false;
   }
 
-  /// See take_front().
+  /// Whether the thickness changes slowly enough, see take_front().
   bool keeps_its_thickness() {
     constexpr double kMost = 0.25;
     for (Index e = 0; e < size(); ++e) {
-      std::array<std::pair<Vec3, Vec3>, 4> corners;  // where, and how far the back is from there
+      std::array<std::pair<Vec3, Vec3>, 4> corners;  // position, and offset to the back
       std::size_t n = 0;
       for_pairs(e, *way_[e], [&](Index front, Index back) {
         corners[n++] = {mesh_.positions[front], mesh_.positions[back] - mesh_.positions[front]};
@@ -231,7 +231,8 @@ std::string why_not_prismatic(const Mesh& mesh) {
   const auto prismatic = [](ElementKind kind) { return kind == ElementKind::Wedge || kind == ElementKind::Hexahedron; };
   if (mesh.elements.size() == 0 || !std::ranges::all_of(mesh.elements.kinds(), prismatic))
     return "not all of its cells are hexahedra and wedges";
-  // Around a vertex of a triangulated sheet are six cells on average; more only where sheets have many handles.
+  // Bounds the number of ways at a vertex: around a vertex of a triangulated sheet are six cells on average, and more only if sheets have
+  // many handles.
   constexpr std::size_t kMost = 7;
   if (mesh.elements.all_corners().size() > kMost * mesh.positions.size()) return "its vertices have cells on all sides";
   return {};

@@ -1,5 +1,5 @@
 #pragma once
-// Which face of each cell is its front, in a mesh one cell thick.
+// Search for the front face of each cell, in a mesh one cell thick.
 
 #include <array>
 #include <cstdint>
@@ -12,16 +12,17 @@
 namespace dmoscope {
 
 struct FrontFaces {
-  std::vector<std::array<Index, 4>> corners;  // by cell; the normal points to the back
-  std::vector<std::uint8_t> counts;           // of them: 3 or 4
-  std::vector<Index> front, back;             // see ThinMesh
-  std::string why_not;                        // empty: these are they
+  std::vector<std::array<Index, 4>> corners;  // front face of each cell; the normal points to the back
+  std::vector<std::uint8_t> counts;           // number of corners of each front face: 3 or 4
+  std::vector<Index> front, back;             // partners of each vertex, see ThinMesh
+  std::string why_not;                        // reason why there is no front; empty: it was found
 };
 
-/// See take_front(). `faces`: of the mesh, whose elements are all volumes with their windings made one.
+/// Finds the front face of each cell, see take_front(). `faces`: those of `mesh`, whose elements are all volume elements of consistent
+/// winding.
 [[nodiscard]] FrontFaces find_front_faces(const Mesh& mesh, const FaceNeighbours& faces);
 
-/// Whether a mesh may be one cell thick: where it is not, this often tells it without a look at the faces. Empty, or why it is not.
+/// Cheap first test for a mesh one cell thick, which often fails without a look at the faces. Empty, or why it is not one.
 [[nodiscard]] std::string why_not_prismatic(const Mesh& mesh);
 
 }  // namespace dmoscope

@@ -13,7 +13,7 @@ namespace {
 
 struct Generator {
   Mesh (*make)(const generators::Request&);
-  std::size_t smallest, largest;  // range of size
+  std::size_t smallest, largest;  // valid range of the size
 };
 
 constexpr std::size_t kGenerators = 21;

@@ -1,5 +1,5 @@
 #pragma once
-// Sample meshes the program makes itself.
+// Sample meshes that the program generates itself.
 
 #include <cstdint>
 #include <span>
@@ -13,15 +13,14 @@ namespace dmoscope {
 struct GeneratorInfo {
   std::string_view name;     // "coast"
   std::string_view doc;      // one line
-  std::size_t default_size;  // about how many vertices without --size
+  std::size_t default_size;  // approximate number of vertices without --size
 };
-/// coast, block, annulus, random, quads, mixed, tangled, grid, wrapped, globe; tetrahedra, hexahedra, solids, tangled-solids, screw, elbow;
-/// can; nested, nested-solids; anisotropic; biased.
+/// Generators in the order of lists: coast, block, annulus, random, quads, mixed, tangled, grid, wrapped, globe; tetrahedra, hexahedra,
+/// solids, tangled-solids, screw, elbow; can; nested, nested-solids; anisotropic; biased.
 [[nodiscard]] std::span<const GeneratorInfo> generator_table();
 
-/// Makes a sample. `size`: about how many vertices (0: the generator's default; exact for `random`).
-/// The same name, size and seed give the same mesh on every machine. Throws UsageError for an unknown name or a size
-/// out of range, Cancelled.
+/// Generates a sample. `size`: approximate number of vertices (0: the generator's default; exact for `random`). Equal names, sizes and
+/// seeds give equal meshes on every machine. Throws UsageError for an unknown name or a size out of range, Cancelled.
 [[nodiscard]] Mesh generate_mesh(std::string_view name, std::size_t size, std::uint64_t seed, Progress& progress);
 
 }  // namespace dmoscope

@@ -1,4 +1,4 @@
-// anisotropic: a mesh that is stretched on purpose, with the metric field that says how.
+// Sample anisotropic: a mesh that is stretched on purpose, with the metric field that says how.
 
 #include <cmath>
 #include <utility>
@@ -11,7 +11,7 @@ namespace {
 
 /// Rows over the unit square, dense along a wave in its middle. x and s are parameters: s from -1 (below) to 1 (above).
 struct WavyRows {
-  /// How far from the wave towards the edge of the square, 0 to 1, and how fast that grows.
+  /// Distance from the wave as a share of that to the edge of the square, 0 to 1; growth() is its derivative.
   static double share(double s) { return std::abs(s) * (kDense + (1.0 - kDense) * s * s); }
   static double growth(double s) { return kDense + 3.0 * (1.0 - kDense) * s * s; }
   static double wave(double x) { return 0.5 + 0.15 * sin_turns(x); }
@@ -21,7 +21,7 @@ struct WavyRows {
     const double middle = wave(x);
     return {neat(x, 1e9), neat(s < 0.0 ? middle * (1.0 - share(s)) : middle + (1.0 - middle) * share(s), 1e9), 0.0};
   }
-  /// The parameter s of a place, by halving.
+  /// The parameter s of a place, by bisection.
   static double parameter(Vec3 place) {
     const double middle = wave(place.x), way = place.y - middle, wanted = way < 0.0 ? -way / middle : way / (1.0 - middle);
     double low = 0.0, high = 1.0;
@@ -45,7 +45,7 @@ struct WavyRows {
 }  // namespace
 
 Mesh anisotropic(const Request& request) {
-  constexpr double kReach = 0.4;  // of a cell
+  constexpr double kReach = 0.4;  // reach of the random offsets, in cells
   const double side = std::sqrt(static_cast<double>(request.size));
   const Index columns = std::max<Index>(4, static_cast<Index>(std::lround(0.6 * side)));
   const Index rows = std::max<Index>(4, static_cast<Index>(std::lround(static_cast<double>(request.size) / columns)));

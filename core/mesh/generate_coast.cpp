@@ -1,4 +1,4 @@
-// coast: an ocean mesh. Outlines first, then points of graded density between them, then Delaunay with the outlines as edges.
+// Sample coast: an ocean mesh. Outlines first, then points of graded density between them, then Delaunay with the outlines as edges.
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,7 @@ namespace dmoscope::generators {
 namespace {
 
 using Point = Vec2<double>;
-constexpr double kPerKilometre = 100'000.0;  // the integer grid: centimetres
+constexpr double kPerKilometre = 100'000.0;  // units of the integer grid in a kilometre: centimetres
 
 GridPoint to_grid(Point p) {
   return {static_cast<std::int32_t>(std::lround(p.x * kPerKilometre)), static_cast<std::int32_t>(std::lround(p.y * kPerKilometre))};
@@ -29,12 +29,12 @@ std::uint64_t pair_key(Index a, Index b) { return (static_cast<std::uint64_t>(a)
 /// Vertices of the sea and the loops that bound it.
 struct Outline {
   std::vector<GridPoint> points;
-  std::vector<std::vector<Index>> loops;  // the sea to the left; the first is the outer one
+  std::vector<std::vector<Index>> loops;  // loops with the sea to the left; the first is the outer one
 };
 
-/// Points along a curve at the wanted edge length, a little irregular as real shores are digitised.
+/// Points along a curve at the wanted edge length, slightly irregular like digitised shores.
 std::vector<Point> resample(const std::vector<Point>& curve, const CoastMap& map, Random& random) {
-  std::vector<double> edges{0.0};  // length so far, in wanted edges
+  std::vector<double> edges{0.0};  // length along the curve at each point, in wanted edges
   for (std::size_t i = 0; i < curve.size(); ++i) {
     const Point a = curve[i];
     const Point b = curve[(i + 1) % curve.size()];
@@ -69,7 +69,7 @@ Outline make_outline(const CoastMap& map, Random& random) {
   return outline;
 }
 
-/// Points so far in square bins, to find those near a place.
+/// Points in square bins, to find those near a place.
 class Bins {
  public:
   explicit Bins(double edge) : edge_(edge), columns_(bin(CoastMap::kEast - CoastMap::kWest) + 1) {
@@ -104,7 +104,7 @@ class Bins {
 /// Fills the sea with points that keep the wanted distance (Bridson 2007, with a radius that varies), beginning at the outlines.
 std::vector<GridPoint> fill_sea(const CoastMap& map, const Outline& outline, Random& random, Progress& progress) {
   constexpr int kTries = 24;
-  constexpr double kSpacing = 0.74;  // of the wanted edge length, as the nearest neighbour is nearer than most
+  constexpr double kSpacing = 0.74;  // spacing in wanted edge lengths, as the nearest neighbour is nearer than most
   Bins bins(1.5 * map.finest());
   std::vector<Point> active;
   for (const GridPoint g : outline.points) {
@@ -129,7 +129,7 @@ std::vector<GridPoint> fill_sea(const CoastMap& map, const Outline& outline, Ran
   return points;
 }
 
-/// Delaunay triangles of the sea. Adds midpoints to the loops until all their edges are there; false when that does not come to an end.
+/// Triangulates the sea by Delaunay. Adds midpoints to the loops until they consist of edges; false if that does not end.
 bool triangulate(Outline& outline, std::vector<GridPoint>& points, std::vector<std::array<Index, 3>>& triangles, Progress& progress) {
   for (int round = 0; round < 12; ++round) {
     triangles = delaunay(points, progress);
@@ -156,7 +156,7 @@ bool triangulate(Outline& outline, std::vector<GridPoint>& points, std::vector<s
   return false;
 }
 
-/// Keeps the triangles to the left of the loops and all that hang together with them.
+/// Keeps the triangles to the left of the loops and all that are connected with them.
 std::vector<std::array<Index, 3>> cut_out(const Outline& outline, const std::vector<std::array<Index, 3>>& triangles) {
   std::unordered_map<std::uint64_t, Index> triangle_of;
   for (Index t = 0; t < triangles.size(); ++t) {
@@ -190,7 +190,7 @@ std::vector<std::array<Index, 3>> cut_out(const Outline& outline, const std::vec
   return result;
 }
 
-/// The loops as boundary strings: open where they run along the arc, land elsewhere; a string of the outer loop shares its ends.
+/// Names the loops as boundary strings: open along the arc, land elsewhere; a string of the outer loop shares its ends with the next.
 void name_boundaries(Mesh& mesh, const Outline& outline, const std::vector<std::uint8_t>& open) {
   int opens = 0;
   int lands = 0;
@@ -201,7 +201,7 @@ void name_boundaries(Mesh& mesh, const Outline& outline, const std::vector<std::
   };
   const std::vector<Index>& outer = outline.loops.front();
   const std::size_t n = outer.size();
-  // An edge is open when both its ends lie on the arc. Begin where the kind changes.
+  // Finds the open edges, both of whose ends lie on the arc. Begins at a change of the kind.
   const auto edge_open = [&](std::size_t i) { return open[outer[i % n]] != 0 && open[outer[(i + 1) % n]] != 0; };
   std::size_t start = 0;
   while (start < n && edge_open(start) == edge_open(start + n - 1)) ++start;
@@ -219,7 +219,7 @@ void name_boundaries(Mesh& mesh, const Outline& outline, const std::vector<std::
   std::ranges::stable_sort(mesh.groups, {}, [](const Group& g) { return g.role != "open boundary"; });
 }
 
-/// Shallow at the shore, a shelf, then a slope; metres to the decimetre.
+/// Depth of the sea: shallow at the shore, a shelf, then a slope; metres to the decimetre.
 double depth_at(Point p, const CoastMap& map, std::uint64_t seed) {
   const double d = map.from_land(p);
   const double shelf = 2.0 + 3.2 * d + 0.12 * d * d;
@@ -228,7 +228,7 @@ double depth_at(Point p, const CoastMap& map, std::uint64_t seed) {
   return std::round((shelf + slope) * bumps * 10.0) / 10.0;
 }
 
-/// Moves the vertices off the outlines at random, in some regions more than in others, as a mesh is before anybody smoothed it.
+/// Moves the vertices off the outlines at random, in some regions more than in others, like a mesh before any smoothing.
 void roughen(Mesh& mesh, const Outline& outline, const CoastMap& map, const Request& request) {
   Random random(request.seed + 2);
   std::vector<Vec3> offsets;
@@ -245,7 +245,7 @@ void roughen(Mesh& mesh, const Outline& outline, const CoastMap& map, const Requ
   displace(mesh, offsets, 100.0, request.progress);
 }
 
-/// One try with a given finest edge; false when the outline could not be made edges of the triangulation of one sea.
+/// Generates a mesh with a given finest edge; false if the outline does not become edges of the triangulation of one sea.
 bool try_coast(const CoastMap& map, const Request& request, Mesh& mesh) {
   Random random(request.seed + 1);
   Outline outline = make_outline(map, random);
@@ -257,7 +257,7 @@ bool try_coast(const CoastMap& map, const Request& request, Mesh& mesh) {
   if (!triangulate(outline, points, triangles, request.progress)) return false;
   triangles = cut_out(outline, triangles);
 
-  // Vertices of no triangle (there are none unless a loop had to be left out) are dropped.
+  // Drops vertices of no triangle; there are none unless a loop had to be left out.
   std::vector<Index> renamed(points.size(), kNoIndex);
   for (const auto& t : triangles) {
     for (const Index v : t) renamed[v] = 0;
@@ -276,7 +276,7 @@ bool try_coast(const CoastMap& map, const Request& request, Mesh& mesh) {
   mesh.fields.push_back(std::move(depth));
   mesh.elements.reserve(triangles.size(), triangles.size() * 3);
   for (const auto& t : triangles) mesh.elements.add(ElementKind::Triangle, std::array{renamed[t[0]], renamed[t[1]], renamed[t[2]]});
-  // A strait that the edges of its two shores close falls apart into two seas.
+  // Detects a strait that the edges of its two shores close, so that the sea falls apart.
   EdgeSurvey edges;
   const Topology topology(mesh, edges, request.progress);
   if (edges.components != 1) return false;
@@ -291,7 +291,7 @@ bool try_coast(const CoastMap& map, const Request& request, Mesh& mesh) {
 }  // namespace
 
 Mesh coast(const Request& request) {
-  // The finest edge for which the number of vertices comes out about right, found on a coarser map of the same sea.
+  // Searches the finest edge that yields about the wanted number of vertices, on a coarser map of the same sea.
   const auto wanted = static_cast<double>(request.size);
   double finest = 0.8 * std::sqrt(4000.0 / wanted);
   const CoastMap sketch(std::max(finest, 1.0), request.seed, request.progress);

@@ -1,4 +1,4 @@
-// wrapped and globe: meshes in degrees of longitude and latitude, some of whose elements cross the meridian of 180.
+// Samples wrapped and globe: meshes in degrees of longitude and latitude, some of whose elements cross the meridian of 180.
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,9 @@
 namespace dmoscope::generators {
 namespace {
 
-constexpr double kPerDegree = 1e7;  // a centimetre
+constexpr double kPerDegree = 1e7;  // grid units in a degree: about a centimetre each
 
-/// A longitude of -180 to 180, as files have it.
+/// The longitude in -180 to 180, as files have it.
 double in_file(double longitude) {
   if (longitude >= 180.0) longitude -= 360.0;
   if (longitude < -180.0) longitude += 360.0;
@@ -27,11 +27,11 @@ Mesh wrapped(const Request& request) {
 }
 
 Mesh globe(const Request& request) {
-  // 120 degrees from south to north: three times as many cells around.
+  // Number of rows: the mesh is 120 degrees high, so there are three times as many cells around.
   const auto rows = std::max<Index>(3, static_cast<Index>(std::lround(std::sqrt(static_cast<double>(request.size) / 3.0))) - 1);
   const auto columns = std::max<Index>(9, static_cast<Index>(request.size / (rows + 1)));
   const double width = 360.0 / columns, height = 120.0 / rows;
-  // Below a quarter of a cell nothing can turn over.
+  // Reach of the random offsets, in cells: below a quarter of a cell nothing can turn over.
   constexpr double kReach = 0.24;
   Random random(request.seed);
   Mesh mesh;

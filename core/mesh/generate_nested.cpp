@@ -1,4 +1,4 @@
-// Two materials, one inside the other: what lies between them keeps its place when the rest is smoothed.
+// Samples of two materials, one inside the other: vertices between them keep their place when the mesh is smoothed.
 
 #include <algorithm>
 #include <array>
@@ -18,7 +18,7 @@ struct Inner {
   [[nodiscard]] bool ends(Index line) const { return line == low || line == high; }
 };
 
-/// Elements all of whose corners lie in the inner part are its own.
+/// Makes elements all of whose corners lie in the inner part a material of their own.
 template <class InInner>
 void add_materials(Mesh& mesh, const InInner& in_inner) {
   Group inner{.name = "inner", .role = "material", .code = 1, .dimension = 2};

@@ -1,4 +1,4 @@
-// grid and random: meshes whose positions are drawn vertex by vertex.
+// Samples grid and random: meshes whose positions are drawn vertex by vertex.
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,8 @@ namespace dmoscope::generators {
 Mesh grid(const Request& request) {
   const auto columns = std::max<Index>(3, static_cast<Index>(std::lround(std::sqrt(static_cast<double>(request.size)))));
   const Index rows = std::max<Index>(3, static_cast<Index>((request.size + columns / 2) / columns));
-  // Below a quarter of a cell no triangle can turn over, whatever its diagonal; most vertices go nearly that far.
+  // Reach of the random offsets, in cells: below a quarter no triangle can turn over, whatever its diagonal; most vertices go nearly that
+  // far.
   constexpr double kReach = 0.24;
   Random random(request.seed);
   const auto jitter = [&] {
@@ -44,7 +45,7 @@ Mesh grid(const Request& request) {
 }
 
 Mesh random_points(const Request& request) {
-  constexpr std::int32_t kUnit = 100'000'000;  // grid points across the unit square: eight digits
+  constexpr std::int32_t kUnit = 100'000'000;  // grid points along the unit square: eight digits
   Random random(request.seed);
   std::vector<GridPoint> points;
   points.reserve(request.size);

@@ -1,4 +1,4 @@
-// block, annulus, quads, mixed and tangled: lattices bent to a shape and then distorted.
+// Samples block, annulus, quads, mixed and tangled: lattices bent to a shape and then distorted.
 
 #include <algorithm>
 #include <array>
@@ -19,7 +19,7 @@ Vec3 jitter(Random& random, double reach) {
   return {x, random.between(-reach, reach), 0.0};
 }
 
-/// Vertices of all blocks, each made once however many blocks share it.
+/// Vertices of all blocks, each made once even if several blocks share it.
 class BlockVertices {
  public:
   explicit BlockVertices(Index cells) : cells_(cells) {}
@@ -57,7 +57,7 @@ class BlockVertices {
 
 }  // namespace
 
-// Five blocks around the middle (valence 5), ten around those; valence 3 at the five outer corners of the inner ones.
+// Sample block: five blocks around the middle (valence 5), ten around those; valence 3 at the five outer corners of the inner ones.
 Mesh block(const Request& request) {
   const Index n = at_least(std::sqrt(static_cast<double>(request.size) / 15.0), 2);
   std::vector<Vec3> macro{{0, 0, 0}};
@@ -93,7 +93,7 @@ Mesh block(const Request& request) {
   for (Vec3& p : mesh.positions) p = {neat(p.x), neat(p.y), 0.0};
   std::vector<Vec3> offsets;
   for (const Vec3& p : mesh.positions) {
-    const double fade = std::max(0.0, 1.0 - dot(p, p) / 4.0);  // the rim bends less than the middle
+    const double fade = std::max(0.0, 1.0 - dot(p, p) / 4.0);  // the rim is bent less than the middle
     offsets.push_back((0.35 + 0.6 * fade) * Vec3{fractal_noise(1.3 * p.x, 1.3 * p.y, 2, request.seed),
                                                  fractal_noise(1.3 * p.x + 40.0, 1.3 * p.y, 2, request.seed + 1), 0.0});
   }
@@ -102,7 +102,7 @@ Mesh block(const Request& request) {
 }
 
 Mesh annulus(const Request& request) {
-  // Radii 1 to 3: around the middle circle 6.28 times as many cells as across the ring.
+  // Number of rings: radii are 1 to 3, so there are 6.28 times as many cells around the middle circle as across the ring.
   const Index rings = at_least(std::sqrt(static_cast<double>(request.size) / 6.28) - 0.5, 2);
   const Index sectors = at_least(static_cast<double>(request.size) / (rings + 1), 6);
   Mesh mesh;
@@ -117,16 +117,16 @@ Mesh annulus(const Request& request) {
       const double turns = (i + 0.5 * (j % 2)) / sectors;
       const Vec3 p{radius * cos_turns(turns), radius * sin_turns(turns), 0.0};
       mesh.positions.push_back({neat(p.x), neat(p.y), 0.0});
-      // Sheared along the circles, most at a third and two thirds of the way, in opposite directions; the rims stay.
+      // Shears along the circles, most at a third and two thirds of the way, in opposite directions; the rims stay.
       const double sheared = turns + 0.06 * sin_turns(t) * (1.0 + 0.5 * noise(4.0 * p.x, 4.0 * p.y, request.seed));
       const Vec3 q{radius * cos_turns(sheared), radius * sin_turns(sheared), 0.0};
       const bool inside = j > 0 && j < rings;
       offsets.push_back(inside ? (q - p) + jitter(random, 0.22 * cell) : Vec3{});
     }
   }
-  // Rows are shifted by half a cell against each other, so diagonals alternate.
+  // Alternates the diagonals, since rows are shifted by half a cell against each other.
   add_cells(mesh.elements, sectors, rings, true, [](Index, Index j) { return j % 2 == 0 ? Cell::FallingDiagonal : Cell::RisingDiagonal; });
-  // Angles grow counter-clockwise and radii outwards: the lattice is mirrored.
+  // Reverses the elements: angles grow counter-clockwise and radii outwards, so the lattice is mirrored.
   for (Index e = 0; e < mesh.elements.size(); ++e) mesh.elements.flip(e);
   displace(mesh, offsets, 1e6, request.progress);
   return mesh;
@@ -139,7 +139,7 @@ Mesh quads(const Request& request) {
   std::vector<Vec3> offsets;
   Random random(request.seed);
   const auto arch = [](double s, double t) {
-    // From right to left along the arch, turned over so that s and t are a right-handed pair.
+    // Runs from right to left along the arch, so that s and t are a right-handed pair.
     const double turns = 0.5 - 0.5 * s;
     const double radius = 1.0 + t * (0.9 + 0.15 * cos_turns(2.0 * s));
     return Vec3{1.2 * radius * cos_turns(turns), radius * sin_turns(turns), 0.0};
@@ -166,7 +166,7 @@ Mesh quads(const Request& request) {
 Mesh mixed(const Request& request) {
   const Index ny = at_least(std::sqrt(static_cast<double>(request.size) / 2.2) - 1.0, 4);
   const Index nx = at_least(static_cast<double>(request.size) / (ny + 1) - 1.0, 4);
-  const Index layers = std::max<Index>(2, ny / 3);  // of quadrilaterals
+  const Index layers = std::max<Index>(2, ny / 3);  // layers of quadrilaterals
   Mesh mesh;
   std::vector<Vec3> offsets;
   Random random(request.seed);
@@ -177,8 +177,8 @@ Mesh mixed(const Request& request) {
       const double t = static_cast<double>(j) / ny;
       const double x = 3.0 * s;
       const double d = (x - 1.5) / 0.45;
-      const double wall = 0.28 / (1.0 + d * d * d * d);  // the bump
-      const double up = t * (0.55 + 0.45 * t);           // thin layers at the wall
+      const double wall = 0.28 / (1.0 + d * d * d * d);  // height of the bump
+      const double up = t * (0.55 + 0.45 * t);           // height above the wall, with thin layers at it
       mesh.positions.push_back({neat(x), neat(wall + (1.4 - wall) * up), 0.0});
       const double height = 1.4 * (0.55 + 0.9 * t) / ny;
       const double reach = j <= layers ? 0.3 : 0.42;
@@ -209,13 +209,13 @@ Mesh tangled(const Request& request) {
       offsets.push_back(inside ? jitter(random, 0.2) : Vec3{});
     }
   }
-  // Quadrilaterals in the lower left half, triangles in the upper right one.
+  // Uses quadrilaterals in the lower left half, triangles in the upper right one.
   add_cells(mesh.elements, n, n, false, [&](Index i, Index j) {
     if (i + j < n) return Cell::Quadrilateral;
     return random.below(2) == 0 ? Cell::RisingDiagonal : Cell::FallingDiagonal;
   });
   displace(mesh, offsets, 1e6, request.progress);
-  // Further than any star reaches, so that elements turn over; towards the middle, so that the mesh keeps its outline.
+  // Throws vertices beyond their stars, so that elements turn over, but towards the middle, so that the mesh keeps its outline.
   const std::size_t thrown = std::max<std::size_t>(1, interior.size() / 20);
   for (std::size_t k = 0; k < thrown; ++k) {
     std::swap(interior[k], interior[k + random.below(interior.size() - k)]);

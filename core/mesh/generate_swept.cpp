@@ -1,5 +1,5 @@
-// Rods of hexahedra that are swept along a curve: their worst elements touch the surface, where a round section has the corners of a
-// square. And the skin of one.
+// Samples screw and elbow: rods of hexahedra that are swept along a curve, whose worst elements touch the surface, since a round section
+// has the corners of a square. Sample can: the skin of such a rod.
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@ namespace dmoscope::generators {
 
 namespace {
 
-constexpr double kJitter = 0.15;  // of a cell
+constexpr double kJitter = 0.15;  // largest random offset, in cells
 
 /// A lattice of n x n cells across and m along.
 struct Rod {
@@ -22,17 +22,17 @@ struct Rod {
       : n(std::max<Index>(2, static_cast<Index>(std::lround(std::cbrt(static_cast<double>(vertices) / 3.0))) - 1)), m(3 * n) {}
 };
 
-/// The square from -1 to 1, made a disc: its corners lie on a smooth circle then.
+/// Maps the square from -1 to 1 to a disc; its corners then lie on a smooth circle.
 Vec2<double> on_disc(double u, double v) { return {u * std::sqrt(1.0 - 0.5 * v * v), v * std::sqrt(1.0 - 0.5 * u * u)}; }
 
-/// Vertices out of place, but those on a side on it, and those on an edge along this. place(section, along): where a point of the disc is,
-/// from 0 to 1 along the rod.
+/// Sweeps a rod and moves its vertices at random, those on a side within it, those on an edge along it. place(section, along): position of
+/// a point of the disc, at 0 to 1 along the rod.
 Mesh swept(const Request& request, const std::function<Vec3(Vec2<double>, double)>& place) {
   const Rod rod(request.size);
   Mesh mesh;
   Random random(request.seed);
   const auto jittered = [&random](Index at, Index last) {
-    const double way = kJitter * random.between(-1.0, 1.0);  // drawn for all, so that none depends on where others are
+    const double way = kJitter * random.between(-1.0, 1.0);  // drawn for every vertex, so that none depends on others
     return (at + (at > 0 && at < last ? way : 0.0)) / last;
   };
   for (Index k = 0; k <= rod.m; ++k) {
@@ -57,7 +57,7 @@ Mesh swept(const Request& request, const std::function<Vec3(Vec2<double>, double
 
 }  // namespace
 
-/// A rod with two threads: its section is longer one way than the other, and turns.
+/// Sample screw: a rod with two threads; its section is longer in one direction than in the other, and turns.
 Mesh screw(const Request& request) {
   return swept(request, [](Vec2<double> p, double along) {
     const double size = 1.0 + 0.25 * (p.x * p.x - p.y * p.y), c = cos_turns(along), s = sin_turns(along);
@@ -65,7 +65,7 @@ Mesh screw(const Request& request) {
   });
 }
 
-/// A quarter of a ring that gets thicker from one end to the other.
+/// Sample elbow: a quarter of a ring that gets thicker from one end to the other.
 Mesh elbow(const Request& request) {
   return swept(request, [](Vec2<double> p, double along) {
     const double size = 0.3 + 0.3 * along * along, c = cos_turns(0.25 * along), s = sin_turns(0.25 * along), across = 1.0 + size * p.x;
@@ -73,14 +73,14 @@ Mesh elbow(const Request& request) {
   });
 }
 
-/// The skin of a rod twice as long as it is wide. Each cell is split through its corner where one is a square's, which lies on a smooth
-/// curve, else at random.
+/// Sample can: the skin of a rod twice as long as it is wide. A cell at a corner of the square, which lies on a smooth curve, is split
+/// through that corner; the others are split at random.
 Mesh can(const Request& request) {
   const auto n = std::max<Index>(2, static_cast<Index>(std::lround(std::sqrt(static_cast<double>(request.size) / 10.0))));
   const Index m = 2 * n, row = n + 1;
   Mesh mesh;
   Random random(request.seed);
-  std::vector<Index> number(std::size_t{row} * row * (m + 1), kNoIndex);  // of a point of the lattice
+  std::vector<Index> number(std::size_t{row} * row * (m + 1), kNoIndex);  // vertex of each point of the lattice
   const auto jittered = [&random](Index at, Index last) {
     const double way = 2.0 * kJitter * random.between(-1.0, 1.0);
     return (at + (at > 0 && at < last ? way : 0.0)) / last;

@@ -1,5 +1,5 @@
-// Blocks of volume elements: a cube of cells, each cut into elements of the kinds that are wanted, its inner vertices out of place, or
-// thrown out of their stars.
+// Blocks of volume elements: a cube of cells, each cut into elements of the wanted kinds, with its inner vertices out of place, or thrown
+// out of their stars.
 
 #include <algorithm>
 #include <array>
@@ -24,8 +24,8 @@ class Block {
     return {vertex(i, j, k),     vertex(i + 1, j, k),     vertex(i + 1, j + 1, k),     vertex(i, j + 1, k),
             vertex(i, j, k + 1), vertex(i + 1, j, k + 1), vertex(i + 1, j + 1, k + 1), vertex(i, j + 1, k + 1)};
   }
-  /// Inner vertices up to `jitter` of a cell out of place, along each axis, and drawn towards the first corner: up to `bias` (below 1/3,
-  /// from where on corners turn over) of a cell beside the surface, and further towards the middle.
+  /// Positions with the inner vertices up to `jitter` of a cell out of place along each axis, and drawn towards the first corner: up to
+  /// `bias` (below 1/3, from where on corners turn over) of a cell beside the surface, and further towards the middle.
   [[nodiscard]] std::vector<Vec3> positions(double jitter, std::uint64_t seed, double bias = 0.0) const {
     std::vector<Vec3> positions;
     positions.reserve(static_cast<std::size_t>(n_ + 1) * (n_ + 1) * (n_ + 1));
@@ -58,13 +58,13 @@ class Block {
   Index n_;
 };
 
-/// What becomes of a column of cells, so that neighbours fit: prisms are cut along the z axis only, and whole quadrilaterals face the
-/// others.
+/// Whether a column of cells is cut into wedges, so that neighbours fit: prisms are cut along the z axis only, and whole quadrilaterals
+/// face the others.
 bool cut_into_wedges(Index i, Index j) { return (i / 2 + j / 2) % 3 == 1; }
 bool cut_into_pyramids(Index i, Index j, Index k) { return !cut_into_wedges(i, j) && (i / 2 + j / 2 + k / 2) % 2 == 1; }
 
-/// Adds a cell as six pyramids around its middle. Where the neighbour is such a cell, too, the pyramid is cut in two tetrahedra, on both
-/// sides along the same diagonal.
+/// Adds a cell as six pyramids around its middle. Towards a neighbour that is such a cell, too, the pyramid is cut in two tetrahedra, on
+/// both sides along the same diagonal.
 void add_pyramids(Mesh& mesh, const Block& block, Index i, Index j, Index k) {
   const std::array<Index, 8> c = block.cell(i, j, k);
   Vec3 middle;
@@ -77,17 +77,17 @@ void add_pyramids(Mesh& mesh, const Block& block, Index i, Index j, Index k) {
     const Index x = at(i, di), y = at(j, dj), z = at(k, dk);
     return x < n && y < n && z < n && cut_into_pyramids(x, y, z);
   };
-  // In the order of faces_of(): bottom, top, front, right, back, left.
+  // Neighbours that are such cells, in the order of faces_of(): bottom, top, front, right, back, left.
   const std::array<bool, 6> cut{same(0, 0, -1), same(0, 0, 1), same(0, -1, 0), same(1, 0, 0), same(0, 1, 0), same(-1, 0, 0)};
   for (std::size_t f = 0; f < 6; ++f) {
     std::array<Index, 4> face{};
     for (std::size_t m = 0; m < 4; ++m) face[m] = c[faces_of(ElementKind::Hexahedron)[f].corners[m]];
-    std::reverse(face.begin(), face.end());  // seen from the middle
+    std::reverse(face.begin(), face.end());  // counter-clockwise seen from the middle
     if (!cut[f]) {
       mesh.elements.add(ElementKind::Pyramid, std::array{face[0], face[1], face[2], face[3], tip});
       continue;
     }
-    std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());  // both sides cut at the lowest vertex
+    std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());  // cut at the lowest vertex on both sides
     mesh.elements.add(ElementKind::Tetrahedron, std::array{face[0], face[1], face[2], tip});
     mesh.elements.add(ElementKind::Tetrahedron, std::array{face[0], face[2], face[3], tip});
   }
@@ -107,7 +107,7 @@ Mesh tetrahedra(const Request& request) {
   const Block block(request.size);
   Mesh mesh;
   mesh.positions = block.positions(0.2, request.seed);
-  // Six around the diagonal from corner 0 to corner 6 (Kuhn): neighbours cut their common faces alike.
+  // Pairs of corners for six tetrahedra around the diagonal from corner 0 to corner 6 (Kuhn): neighbours cut their common faces alike.
   constexpr std::array<std::array<Index, 2>, 6> kAround{{{1, 2}, {2, 3}, {3, 7}, {7, 4}, {4, 5}, {5, 1}}};
   block.for_cells(request.progress, [&](Index i, Index j, Index k) {
     const std::array<Index, 8> c = block.cell(i, j, k);
@@ -146,14 +146,14 @@ Mesh tangled_volumes(const Request& request) {
   for (Index k = 1; k < n; ++k)
     for (Index j = 1; j < n; ++j)
       for (Index i = 1; i < n; ++i) inner.push_back(block.vertex(i, j, k));
-  const double middle = n / 2.0;  // of the cube, along each axis
+  const double middle = n / 2.0;  // middle of the cube, along each axis
   Random random(request.seed + 1);
-  // Further than any star reaches, so that elements turn over; towards the middle, so that none leaves the cube.
+  // Throws vertices beyond their stars, so that elements turn over, but towards the middle, so that none leaves the cube.
   const std::size_t thrown = std::max<std::size_t>(2, inner.size() / 20);
   for (std::size_t t = 0; t < thrown; ++t) {
     std::swap(inner[t], inner[t + random.below(inner.size() - t)]);
     Vec3& p = mesh.positions[inner[t]];
-    // A direction as likely as any other on the sphere: its height is even, and so is the turn about the axis.
+    // Draws a direction uniformly on the sphere: its height and its turn about the axis are uniform.
     const double height = random.between(-1.0, 1.0), across = std::sqrt(1.0 - height * height), turns = random.unit();
     Vec3 away = random.between(1.4, 1.8) * Vec3{across * cos_turns(turns), across * sin_turns(turns), height};
     const auto inwards = [middle](double way, double at) { return way * (at - middle) > 0.0 ? -way : way; };

@@ -23,7 +23,7 @@ double lattice_value(std::int64_t i, std::int64_t j, std::uint64_t seed) {
 
 double ease(double t) { return t * t * t * (t * (t * 6.0 - 15.0) + 10.0); }
 
-/// Smallest of twice the corner triangles' areas.
+/// Smallest of the corner triangles' areas, times two.
 double smallest_corner(const Mesh& mesh, std::span<const Vec3> positions, Index e) {
   const auto c = mesh.elements.corners(e);
   const std::size_t n = c.size();
@@ -38,7 +38,7 @@ double smallest_corner(const Mesh& mesh, std::span<const Vec3> positions, Index 
 }  // namespace
 
 double sin_turns(double turns) {
-  double r = turns - std::floor(turns + 0.5);  // -0.5 to 0.5
+  double r = turns - std::floor(turns + 0.5);  // turns reduced to -0.5 to 0.5
   if (r > 0.25) r = 0.5 - r;
   if (r < -0.25) r = -0.5 - r;
   return sine_series(6.283185307179586 * r);
@@ -63,7 +63,7 @@ double fractal_noise(double x, double y, int octaves, std::uint64_t seed) {
   double amplitude = 0.5;
   for (int k = 0; k < octaves; ++k, amplitude *= 0.5) {
     sum += amplitude * noise(x, y, seed + static_cast<std::uint64_t>(k) * 7919U);
-    // A turn by about 37 degrees hides the lattice: (0.8, 0.6) is exact enough a unit vector.
+    // Turns the lattice by about 37 degrees to hide it: (0.8, 0.6) is exact enough a unit vector.
     const double turned = 2.0 * (0.8 * x - 0.6 * y);
     y = 2.0 * (0.6 * x + 0.8 * y);
     x = turned;

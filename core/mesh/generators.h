@@ -11,7 +11,7 @@
 
 namespace dmoscope::generators {
 
-/// About how many vertices, which of the endless variants, and who watches.
+/// Request for a sample: approximate number of vertices, seed of its random numbers, and progress to report to.
 struct Request {
   std::size_t size;
   std::uint64_t seed;
@@ -44,22 +44,22 @@ struct Request {
 [[nodiscard]] double cos_turns(double turns);
 [[nodiscard]] double sin_turns(double turns);
 
-/// Smooth noise in (-1, 1) with features of size 1, the same everywhere.
+/// Smooth noise in (-1, 1) with features of size 1, equal on every machine.
 [[nodiscard]] double noise(double x, double y, std::uint64_t seed);
-/// `octaves` of it, each half as large and twice as fine as the one before.
+/// Sum of `octaves` of noise(), each half as large and twice as fine as the one before.
 [[nodiscard]] double fractal_noise(double x, double y, int octaves, std::uint64_t seed);
 
 /// Rounds to a multiple of 1 / per_unit (a power of ten), so that a text file shows short numbers.
 [[nodiscard]] double neat(double x, double per_unit = 1e6);
 
-/// Elements of a lattice of nx x ny cells whose vertex (i, j) has the index i + j * columns, columns = nx + 1, or nx where it closes to a
-/// ring. `cell(i, j)` says what becomes of a cell.
+/// Form of a lattice cell: one quadrilateral, or two triangles by the direction of the diagonal. add_cells() adds the elements of a lattice
+/// of nx x ny cells whose vertex (i, j) has the index i + j * columns, columns = nx + 1, or nx if it closes to a ring; `cell(i, j)` chooses
+/// the form.
 enum class Cell { Quadrilateral, RisingDiagonal, FallingDiagonal };
 void add_cells(ElementTable& elements, Index nx, Index ny, bool ring, const std::function<Cell(Index, Index)>& cell);
 
-/// Moves the vertices by `offsets`, each as far as all its elements keep a tenth of their smallest corner Jacobian; rounds with
-/// neat(x, per_unit).
-/// The mesh must have no inverted element before; z is left alone.
+/// Moves the vertices by `offsets`, each as far as all its elements keep a tenth of their smallest corner Jacobian; rounds with neat(x,
+/// per_unit). The mesh must have no inverted element before; z stays as it is.
 void displace(Mesh& mesh, std::span<const Vec3> offsets, double per_unit, Progress& progress);
 
 }  // namespace dmoscope::generators

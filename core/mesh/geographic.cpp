@@ -64,7 +64,7 @@ std::string why_not_geographic(const Mesh& mesh) {
 
 Likeness looks_geographic(const Mesh& mesh) {
   constexpr std::array<std::string_view, 5> kOceans{".14", ".grd", ".gr3", ".ll", ".2dm"};
-  constexpr double kAway = 5.0;  // from the equator
+  constexpr double kAway = 5.0;  // degrees from the equator
   std::string_view file = mesh.name;
   if (file.ends_with(".gz")) file.remove_suffix(3);
   if (std::ranges::none_of(kOceans, [&](std::string_view extension) { return file.ends_with(extension); })) return Likeness::None;
@@ -78,7 +78,7 @@ Likeness looks_geographic(const Mesh& mesh) {
 
 void map_to_mercator(Mesh& mesh) {
   mesh.degrees = std::make_shared<const std::vector<Vec3>>(mesh.positions);
-  mesh.single_precision = false;  // places on the map are double
+  mesh.single_precision = false;  // places on the map are in double precision
   for (Vec3& p : mesh.positions) p.y = mercator(p.y);
 }
 
@@ -88,7 +88,7 @@ Vec3 on_map(const Mesh& mesh, Vec3 place) { return mesh.degrees ? Vec3{place.x, 
 Vec3 place_in_file(const Mesh& mesh, Index vertex, Vec3 position) {
   if (!mesh.degrees) return position;
   const Vec3 before = (*mesh.degrees)[vertex];
-  // Along a parallel the latitude stays what it was.
+  // Keeps the latitude of a vertex that moved along a parallel.
   return {position.x, same_bits(position.y, mesh.positions[vertex].y) ? before.y : latitude(position.y), position.z};
 }
 

@@ -37,7 +37,7 @@ std::vector<Index> vertices_of(const Mesh& mesh, const Group& group) {
 
 std::vector<GroupFacts> facts_of_groups(const Mesh& mesh) {
   std::vector<GroupFacts> all;
-  std::vector<std::size_t> last_seen(mesh.groups.empty() ? 0 : mesh.positions.size(), mesh.groups.size());  // in which group
+  std::vector<std::size_t> last_seen(mesh.groups.empty() ? 0 : mesh.positions.size(), mesh.groups.size());  // group of each vertex
   for (std::size_t g = 0; g < mesh.groups.size(); ++g) {
     const Group& group = mesh.groups[g];
     GroupFacts facts{.kind = group.role.empty() ? "group" : group.role,

@@ -16,7 +16,7 @@ struct DoubleTraits : OpenMesh::DefaultTraits {
 };
 using PolyMesh = OpenMesh::PolyMesh_ArrayKernelT<DoubleTraits>;
 
-/// Keeps OpenMesh from writing "complex edge" and the like to standard error; we count the refusals instead.
+/// Keeps OpenMesh from writing "complex edge" and the like to standard error; refusals are counted instead.
 class SilentErrors {
  public:
   SilentErrors() : was_enabled_(omerr().is_enabled()) { omerr().disable(); }
@@ -36,8 +36,8 @@ Index index_of(PolyMesh::VertexHandle v) { return static_cast<Index>(v.idx()); }
 
 struct HalfEdges::Impl {
   PolyMesh mesh;
-  Index elements = 0;             // of the mesh
-  std::vector<Index> element_of;  // by face
+  Index elements = 0;             // elements of the mesh
+  std::vector<Index> element_of;  // element of each face
   Index refused = 0;
 };
 
@@ -73,8 +73,8 @@ std::vector<Index> HalfEdges::ring(Index vertex) const {
   const PolyMesh& mesh = impl_->mesh;
   const PolyMesh::VertexHandle v(static_cast<int>(vertex));
   std::vector<Index> ring;
-  // Turning left: across the element to the left of an outgoing half-edge, or across the gap where there is none.
-  // OpenMesh keeps the outgoing half-edge of a boundary vertex at its gap, so a boundary ring is begun behind that and ends with it.
+  // Turns left: across the element to the left of an outgoing half-edge, or across the gap. OpenMesh keeps the outgoing half-edge of a
+  // boundary vertex at its gap, so a boundary ring begins behind that and ends with it.
   const auto left = [&](PolyMesh::HalfedgeHandle h) { return mesh.opposite_halfedge_handle(mesh.prev_halfedge_handle(h)); };
   const PolyMesh::HalfedgeHandle out = mesh.halfedge_handle(v);
   if (!out.is_valid()) return ring;
@@ -101,7 +101,7 @@ std::vector<HalfEdges::Loop> HalfEdges::boundary_loops() const {
       loop.vertices.push_back(index_of(mesh.to_vertex_handle(h)));
       h = mesh.next_halfedge_handle(h);
     } while (h != start);
-    std::ranges::reverse(loop.vertices);  // boundary half-edges run with the mesh to the right
+    std::ranges::reverse(loop.vertices);  // boundary half-edges run with the mesh to their right
     loops.push_back(std::move(loop));
   }
   return loops;

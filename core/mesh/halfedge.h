@@ -1,7 +1,7 @@
 #pragma once
-// OpenMesh's half-edge structure in memory, for what needs order: rings, boundary loops and the parts that they bound (see outline.h).
-// It takes about a second per million vertices to build: make it when asked for. What every load needs (boundary, components, number
-// of boundary curves, odd edges) comes from edges.h; the tests compare the two.
+// OpenMesh's half-edge structure in memory, for whatever needs order: rings, boundary loops and the parts that they bound (see outline.h).
+// It takes about a second per million vertices to build, so it is made on demand. The boundary, components, boundary curves and odd edges
+// that every load needs come from edges.h; the tests compare the two.
 
 #include <memory>
 #include <vector>
@@ -12,24 +12,23 @@ namespace dmoscope {
 
 class HalfEdges {
  public:
-  /// Builds the half-edges of all planar elements; an element with a corner twice is one with a corner less. Elements that OpenMesh cannot
-  /// take (non-manifold) are left out and counted. Throws UsageError where the program was built without OpenMesh.
+  /// Builds the half-edges of all planar elements, without repeated corners. Elements that OpenMesh cannot take (non-manifold) are left out
+  /// and counted. Throws UsageError if the program was built without OpenMesh.
   explicit HalfEdges(const Mesh& mesh);
   ~HalfEdges();
   HalfEdges(HalfEdges&&) noexcept;
   HalfEdges& operator=(HalfEdges&&) noexcept;
-  /// Elements add_face refused; 0 for a manifold mesh.
+  /// Number of elements that OpenMesh refused; 0 for a manifold mesh.
   [[nodiscard]] Index refused_elements() const noexcept;
-  /// Edge neighbours of a vertex in counter-clockwise order; for a boundary vertex from one boundary edge to the other.
+  /// Edge neighbours of a vertex in counter-clockwise order; those of a boundary vertex from one boundary edge to the other.
   [[nodiscard]] std::vector<Index> ring(Index vertex) const;
   struct Loop {
     std::vector<Index> vertices;  // in order, the mesh to the left
-    Index element;                // one of those along it
+    Index element;                // one of the elements along the loop
   };
   /// Closed boundary loops.
   [[nodiscard]] std::vector<Loop> boundary_loops() const;
-  /// By element: the set of elements connected across edges that it belongs to, numbered in the order of their first elements; kNoIndex of
-  /// elements that were left out.
+  /// Edge-connected component of each element, numbered in the order of first elements; kNoIndex for elements that were left out.
   [[nodiscard]] std::vector<Index> parts() const;
 
  private:

@@ -7,12 +7,12 @@
 namespace dmoscope {
 namespace {
 
-/// Bits of each coordinate: together they fit in 64.
+/// Bits of each coordinate, by dimension: together they fit in 64.
 constexpr std::array<int, 4> kBits{0, 32, 31, 21};
 
 double coordinate(Vec3 p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
 
-/// Turns a cell's coordinates into the digits of its place on the curve, one bit of each digit in each of them.
+/// Turns a cell's coordinates into the digits of its place on the curve, one bit of each digit in each coordinate.
 /// J. Skilling, Programming the Hilbert curve, AIP Conference Proceedings 707 (2004).
 void to_curve(std::array<std::uint32_t, 3>& x, int bits, int n) {
   const auto at = [&x](int i) -> std::uint32_t& { return x[static_cast<std::size_t>(i)]; };

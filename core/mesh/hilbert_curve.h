@@ -1,5 +1,5 @@
 #pragma once
-// Where points lie along a Hilbert curve: pieces of it are compact in space, so it cuts a mesh into parts with little between them.
+// Places of points along a Hilbert curve: pieces of it are compact in space, so it cuts a mesh into parts with little between them.
 
 #include <cstdint>
 
@@ -11,19 +11,19 @@ namespace dmoscope {
 class HilbertCurve {
  public:
   HilbertCurve(Vec3 low, Vec3 high);
-  /// Ascending along the curve; of points outside the box that of a point on its side.
+  /// Place of a point along the curve, ascending; a point outside of the box counts as one on its side.
   [[nodiscard]] std::uint64_t key(Vec3 point) const;
 
  private:
   Vec3 low_;
-  double scale_ = 0.0;  // to cells of the finest grid
+  double scale_ = 0.0;  // scale from mesh units to cells of the finest grid
   int axes_[3] = {0, 1, 2};
-  int dimension_ = 3;  // axes with an extent
+  int dimension_ = 3;  // number of axes with an extent
 };
 
-/// Every second bit of the result is one of the 32 of `x`.
+/// Spreads the 32 bits of `x` over every second bit of the result.
 [[nodiscard]] std::uint64_t spread_by_two(std::uint64_t x) noexcept;
-/// Every third bit of the result is one of the 21 of `x`.
+/// Spreads the lowest 21 bits of `x` over every third bit of the result.
 [[nodiscard]] std::uint64_t spread_by_three(std::uint64_t x) noexcept;
 
 }  // namespace dmoscope

@@ -1,11 +1,11 @@
 #pragma once
-// What a vertex's star is made of.
+// Entries of a vertex's star.
 
 #include "core/base/vec.h"
 
 namespace dmoscope {
 
-/// One incident element of a vertex: which, and which of its corners the vertex is.
+/// One incident element of a vertex: its index, and the vertex's place among its corners.
 struct Incidence {
   Index element;
   Index corner;

@@ -19,17 +19,17 @@
 namespace dmoscope {
 namespace {
 
-/// Two kinds of material side by side, or more.
+/// Labels that meet at a vertex: two kinds of material, or more.
 using Labels = std::vector<Index>;
 
-/// "A", "A and B", "A, B and C".
+/// Enumeration of names in a sentence: "A", "A and B", "A, B and C".
 std::string listed(const std::vector<std::string>& names) {
   std::string text;
   for (std::size_t i = 0; i < names.size(); ++i) text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
   return text;
 }
 
-/// The same; of many the first few.
+/// Enumeration of the first few names in a sentence: "A, B, C and 4 more".
 std::string first_listed(std::vector<std::string> names) {
   constexpr std::size_t kMost = 4;
   if (names.size() > kMost) {
@@ -42,7 +42,7 @@ std::string first_listed(std::vector<std::string> names) {
 
 std::string quoted(const std::string& name) { return fmt::format("\"{}\"", name); }
 
-/// Does a group of elements tell them apart? Required ones are of the same material as others.
+/// Whether a group of elements tells materials apart; those that MEDIT calls required do not.
 bool is_material(const Group& group) { return group.of_elements() && !is_required(group); }
 
 /// The set of groups that each element belongs to, numbered.
@@ -53,7 +53,7 @@ class Memberships {
       if (is_material(mesh.groups[g])) add(g);
   }
   [[nodiscard]] const std::vector<Index>& sets() const noexcept { return set_of_; }
-  /// What tells these sets apart, one name for each: their groups but for those that all of them share.
+  /// Names that tell these sets apart, one for each: their groups without those that all sets share.
   [[nodiscard]] std::vector<std::string> names(const Labels& sets) const {
     std::vector<std::size_t> shared = groups_of_[sets.front()];
     for (const Index set : sets) {
@@ -74,7 +74,7 @@ class Memberships {
 
  private:
   void add(std::size_t group) {
-    std::map<Index, Index> grown;  // a set, and the one with this group besides
+    std::map<Index, Index> grown;  // number of a set, and that of the set with this group added
     for (const Index e : mesh_.groups[group].members) {
       const Index before = set_of_[e];
       if (!groups_of_[before].empty() && groups_of_[before].back() == group) continue;
@@ -88,14 +88,14 @@ class Memberships {
   }
 
   const Mesh& mesh_;
-  std::vector<Index> set_of_;                            // by element
-  std::vector<std::vector<std::size_t>> groups_of_{{}};  // by set, ascending
+  std::vector<Index> set_of_;                            // set of each element
+  std::vector<std::vector<std::size_t>> groups_of_{{}};  // groups of each set, ascending
 };
 
-/// Each element's value of a field, numbered.
+/// Number of each element's value of a field.
 struct NumberedValues {
   std::vector<Index> of_element;
-  std::vector<double> values;  // ascending
+  std::vector<double> values;  // distinct values, ascending
 
   explicit NumberedValues(const Field& field) : values(field.values) {
     std::ranges::sort(values);
@@ -175,7 +175,7 @@ class Interfaces::Finder {
     }
   }
 
-  /// Cell data that would hold more, if their name said materials.
+  /// Offers cell data that would hold more vertices if they named materials.
   void offer_others() {
     for (const Field& field : mesh_.fields) {
       const std::size_t values = possible_materials(field);
@@ -193,7 +193,7 @@ class Interfaces::Finder {
     return false;
   }
 
-  /// Elements of the same material have all labels in common.
+  /// Refines the materials: elements of one material have all labels in common.
   void add_material(const std::vector<Index>& label_of) {
     std::vector<Index>& material = found_.material_;
     material.resize(label_of.size(), 0);
@@ -202,7 +202,8 @@ class Interfaces::Finder {
       material[e] = known.try_emplace({material[e], label_of[e]}, static_cast<Index>(known.size())).first->second;
   }
 
-  /// Holds the vertices whose elements have different labels; returns how many pairs of labels meet along more than single points.
+  /// Holds the vertices whose elements have different labels; returns the number of pairs of labels that meet along more than single
+  /// points.
   template <class Names>
   Index between(HeldBy by, const std::vector<Index>& label_of, const Names& names) {
     add_material(label_of);
@@ -256,7 +257,7 @@ class Interfaces::Finder {
     }
   }
 
-  /// Holds the vertices of elements that shall stay as they are.
+  /// Holds the corners of elements that shall stay as they are.
   void hold_corners(const Group& group) {
     Index reason = kNoIndex;
     for (const Index e : group.members) {
@@ -268,7 +269,7 @@ class Interfaces::Finder {
     }
   }
 
-  /// Holds what groups of one kind name, but for lists of all that there is.
+  /// Holds the vertices that groups of one kind name, except by lists that enumerate everything.
   template <class Is>
   void named(HeldBy by, NamedKind kind, const Is& is) {
     std::vector<const Group*> groups;
@@ -291,8 +292,8 @@ class Interfaces::Finder {
   const Mesh& mesh_;
   const Topology& topology_;
   std::vector<Index> reason_;
-  std::vector<std::uint8_t> listed_;  // by vertex: named in a list of all there is; empty without any
-  bool told_apart_ = false;           // do groups or values tell elements apart?
+  std::vector<std::uint8_t> listed_;  // by vertex, whether a list that enumerates everything names it; empty if there is none
+  bool told_apart_ = false;           // whether groups or values tell elements apart
 };
 
 Interfaces::Interfaces(const Mesh& mesh, const Topology& topology) {

@@ -1,5 +1,5 @@
 #pragma once
-// Sets of kinds of elements.
+// Sets of element kinds.
 
 #include <cstdint>
 #include <string>
@@ -8,11 +8,11 @@
 
 namespace dmoscope {
 
-/// Bit k is ElementKind k.
+/// Set of element kinds: bit k stands for ElementKind k.
 using KindSet = std::uint8_t;
 [[nodiscard]] constexpr KindSet kind_set(ElementKind kind) { return static_cast<KindSet>(1U << static_cast<unsigned>(kind)); }
 [[nodiscard]] constexpr bool contains(KindSet kinds, ElementKind kind) { return (kinds & kind_set(kind)) != 0; }
-/// "triangles, quadrilaterals and tetrahedra".
+/// Names of the kinds in a sentence: "triangles, quadrilaterals and tetrahedra".
 [[nodiscard]] std::string words(KindSet kinds);
 
 }  // namespace dmoscope

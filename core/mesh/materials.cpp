@@ -15,7 +15,7 @@
 namespace dmoscope {
 namespace {
 
-// Letters and digits alone, in small letters. No "partition", "process" or "rank": those are a computer's parts.
+// Names of fields for materials, in lower-case letters and digits alone. "partition", "process" and "rank" are a computer's parts.
 constexpr auto kMaterials = std::to_array<std::string_view>(
     {"material",     "materials",   "materialid",  "materialids",  "materialnumber",  "materialindex",    "matid",      "matids",
      "mat",          "matnum",      "mtr",         "region",       "regions",         "regionid",         "regionids",  "zone",
@@ -28,7 +28,7 @@ constexpr auto kMaterials = std::to_array<std::string_view>(
 constexpr auto kGeometry =
     std::to_array<std::string_view>({"gmshgeometrical", "geometrical", "cellentityids", "cellentityid", "elementaryentities", "entityid",
                                      "entityids", "geometryid", "geometryids", "elementary"});
-// Whole numbers of cells that tell of the computer, or of the cells alone.
+// Names of fields that hold whole numbers for the computer's parts, or for the cells themselves.
 constexpr auto kOthers = std::to_array<std::string_view>(
     {"partition", "partitions", "partitionid", "gmshpartition", "process",         "processid", "processor",
      "procid",    "rank",       "mpirank",     "vtkghosttype",  "vtkghostlevels",  "celltype",  "celltypes",
@@ -50,13 +50,13 @@ bool among(const Names& names, const std::string& name) {
 
 bool is_of_cells(const Field& field) { return field.on == Field::On::Elements && field.components == 1; }
 
-/// How many different whole numbers there are, where each stands for two elements or more on average and there are `most` at most; else 0.
+/// Number of different whole numbers in a field, if each stands for two elements or more on average and there are `most` at most; else 0.
 std::size_t count_sorting(const Field& field, std::size_t most = std::numeric_limits<std::size_t>::max()) {
   std::set<double> different;
   double last = std::nan("");
   for (const double value : field.values) {
     if (value == last) continue;
-    if (value != std::floor(value) || std::abs(value) > 9e15) return 0;  // also what is not finite
+    if (value != std::floor(value) || std::abs(value) > 9e15) return 0;  // no whole number, or not finite
     last = value;
     different.insert(value);
     if (different.size() > most || (2 * different.size() > field.values.size() && different.size() > 2)) return 0;

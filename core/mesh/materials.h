@@ -1,5 +1,5 @@
 #pragma once
-// Which numbers that a file carried for its elements name materials (regions, parts, ...) and are no results.
+// Fields of a file whose numbers name materials (regions, parts, ...) of its elements and are no results.
 
 #include <span>
 #include <string>
@@ -10,28 +10,29 @@
 
 namespace dmoscope {
 
-/// What the numbers of a field say about its elements. Results such as pressure name nothing, and neither do numberings: whole numbers of
-/// which each stands for less than two elements on average.
+/// Meaning of a field's numbers for its elements. Results such as pressure name nothing, and neither do numberings: whole numbers that each
+/// stand for less than two elements on average.
 enum class Naming {
   Nothing,
-  Materials,  // said by a person; or one whole number per element, under a name that programs use for materials: "mat_id", "gmsh:physical",
-              // "MaterialIds"
-  Geometry,   // likewise for parts of the geometry that was meshed: "gmsh:geometrical", "CellEntityIds". Such parts may be there for the
-              // mesher's sake alone, so they count only where nothing else tells elements apart
+  Materials,  // named by the user; or one whole number per element, under a name that programs use for materials: "mat_id",
+              // "gmsh:physical", "MaterialIds"
+  Geometry,   // one whole number per element, under a name that programs use for parts of the geometry that was meshed: "gmsh:geometrical",
+              // "CellEntityIds". Such parts may be there for the mesher's sake alone, so they count only if nothing else tells elements
+              // apart
 };
 [[nodiscard]] Naming naming_of(const Field& field);
 
-/// The same by the name alone; cases, blanks and signs in it do not matter.
+/// Meaning of a field by its name alone; case, blanks and punctuation in it do not matter.
 [[nodiscard]] Naming naming_by_name(std::string_view field);
 
-/// Lets the cell data of these names, and no other by a person's word, name materials. Throws UsageError for a name that no cell data have,
-/// with those that there are, and for data of several numbers a cell or without some.
+/// Makes the cell data of these names, and no others by the user's word, name materials. Throws UsageError, with the names that there are,
+/// for a name that no cell data have, and for data with several numbers a cell or with missing ones.
 void name_materials(Mesh& mesh, std::span<const std::string> names);
 /// The names that name_materials() was given, each once.
 [[nodiscard]] std::vector<std::string> said_materials(const Mesh& mesh);
 
-/// Of data that name nothing how many different values they have, where they are such that a person may have meant materials: a few whole
-/// numbers, under no name of a computer's parts. Else 0.
+/// Number of different values of a field that names nothing but may mean materials: a few whole numbers, under no name of a computer's
+/// parts. Else 0.
 [[nodiscard]] std::size_t possible_materials(const Field& field);
 
 }  // namespace dmoscope

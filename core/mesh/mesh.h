@@ -17,7 +17,7 @@
 namespace dmoscope {
 
 struct ThinMesh;   // thin.h: the cells of a mesh of front faces
-class SourceFile;  // core/io/reading/source_file.h: the bytes a mesh was read from, with the place of every coordinate
+class SourceFile;  // core/io/reading/source_file.h: the bytes that a mesh was read from, with the place of every coordinate
 
 enum class ElementKind : std::uint8_t { Triangle, Quadrilateral, Tetrahedron, Hexahedron, Wedge, Pyramid };
 inline constexpr std::size_t kElementKindCount = 6;
@@ -36,8 +36,8 @@ inline constexpr std::array<ElementKindInfo, kElementKindCount> kElementKinds{{{
                                                                                {"pyramid", "pyramids", 5, 3}}};
 [[nodiscard]] constexpr const ElementKindInfo& info(ElementKind kind) { return kElementKinds[static_cast<std::size_t>(kind)]; }
 
-/// Turns an element inside out, keeping its first corner: reverses the winding of a triangle or quadrilateral, and that of every face of
-/// a volume element. Its own inverse. `c`: info(kind).corners of them.
+/// Turns an element inside out, keeping its first corner: reverses the winding of a triangle or quadrilateral, and that of every face of a
+/// volume element. Its own inverse. `c`: the info(kind).corners corners.
 constexpr void flip_corners(ElementKind kind, Index* c) noexcept {
   switch (kind) {
     case ElementKind::Triangle:
@@ -87,7 +87,7 @@ class ElementTable {
     corners_.insert(corners_.end(), other.corners_.begin(), other.corners_.end());
     for (std::size_t e = 1; e < other.offsets_.size(); ++e) offsets_.push_back(before + other.offsets_[e]);
   }
-  /// Takes all elements out; what was reserved stays.
+  /// Removes all elements, keeping the reserved memory.
   void clear() noexcept {
     kinds_.clear();
     corners_.clear();
@@ -109,32 +109,32 @@ struct Field {
   On on = On::Vertices;
   int components = 1;           // values.size() == components * (number of vertices or elements)
   std::string type = "double";  // the file's own word for its scalar ("float", "int", ...)
-  std::string role{};           // the file's own word for what it is ("SCALARS", "VECTORS", "depth", ...), may be empty
+  std::string role{};           // the file's own word for its kind ("SCALARS", "VECTORS", "depth", ...), may be empty
   std::vector<double> values{};
-  bool said_material = false;  // a person said that it names materials, see name_materials()
-  /// Where it stands in the file that it was read from: for errors that are found late, and to write it again.
+  bool said_material = false;  // the user said that it names materials, see name_materials()
+  /// Place in the file that the field was read from: for errors that are found late, and to write it again.
   struct Place {
-    std::uint64_t begin = 0;      // the byte of its first row; of an array that has a name, the number of its first number
-    std::uint32_t words = 0;      // text: from row to row; 0: not known
-    bool with_positions = false;  // each row at the place of its vertex
-    std::uint32_t at = 0;         // from where a row begins to its first number: words; bytes in a binary file
-    std::uint32_t bytes = 0;      // binary: from row to row; 0: it is text, or not known
-    std::string array{};          // of a file of named arrays
-    std::vector<Index> rows{};    // the vertex or element of each row; empty: they come in their order, and all of them
+    std::uint64_t begin = 0;      // byte of its first row; of a named array, the number of its first number
+    std::uint32_t words = 0;      // text: words from row to row; 0: not known
+    bool with_positions = false;  // each row is at the place of its vertex
+    std::uint32_t at = 0;         // from the begin of a row to its first number: words; in a binary file bytes
+    std::uint32_t bytes = 0;      // binary: bytes from row to row; 0: text, or not known
+    std::string array{};          // name of its array, in a file of named arrays
+    std::vector<Index> rows{};    // vertex or element of each row; empty: all, in their order
   } place{};
 };
 
 /// A named set that the file carried: boundary strings of fort.14, markers of SU2.
 struct Group {
   std::string name;
-  std::string role;              // "open boundary", "land boundary", "marker", ...
-  int code = 0;                  // the file's number for it (IBTYPE of fort.14), 0 if it has none
-  int dimension = 0;             // 0: members are vertices; 1: members are edges, two vertices each; 2: elements, or else `faces`
+  std::string role;   // "open boundary", "land boundary", "marker", ...
+  int code = 0;       // the file's number for it (IBTYPE of fort.14), 0 if it has none
+  int dimension = 0;  // 0: members are vertices; 1: members are edges, two vertices each; 2: members are elements, or else `faces` is used
   std::vector<Index> members{};  // 0-based
   ElementTable faces{};          // dimension 2, members empty: faces of a volume mesh by their corners, in the file's own winding
 
   [[nodiscard]] bool of_elements() const noexcept { return dimension == 2 && faces.size() == 0; }
-  /// The vertices of a group of vertices, edges or faces, some more than once; none of a group of elements.
+  /// The vertices of a group of vertices, edges or faces, some more than once; empty for a group of elements.
   [[nodiscard]] std::span<const Index> vertices() const noexcept {
     if (of_elements()) return {};
     return faces.size() > 0 ? faces.all_corners() : std::span<const Index>(members);
@@ -148,17 +148,18 @@ struct Mesh {
   ElementTable elements;
   std::vector<Field> fields;
   std::vector<Group> groups;
-  /// Vertices that the file says are one, a period apart.
+  /// Pairs of vertices that the file declares periodic: one vertex, a period apart.
   std::vector<std::array<Index, 2>> periodic{};
   /// Elements whose winding was reversed after reading (see orientation.h); empty if none, else one entry per element.
   std::vector<std::uint8_t> flipped;
-  /// The file holds 32-bit coordinates, or says so: moved vertices are put on such, so that what is judged is what will be read.
+  /// Whether the file holds 32-bit coordinates, or says so: moved vertices are rounded to such, so that the mesh judged is the mesh
+  /// written.
   bool single_precision = false;
-  /// Where the file has the vertices, in longitude and latitude, of a mesh that was mapped (geographic.h); null: where they are.
+  /// Positions in the file, in longitude and latitude, of a mesh that was mapped (geographic.h); null: `positions`.
   std::shared_ptr<const std::vector<Vec3>> degrees{};
-  /// The cells of a mesh that was taken for that of its front (thin.h); null: the elements are the file's own.
+  /// The cells of a mesh one cell thick that was replaced by its front (thin.h); null: the elements are the file's own.
   std::shared_ptr<const ThinMesh> thin{};
-  /// What the file was; writing the same format patches only the coordinates that changed. May be null.
+  /// The file as it was read; writing the same format patches only the coordinates that changed. May be null.
   std::shared_ptr<const SourceFile> source;
 
   [[nodiscard]] Index vertex_count() const noexcept { return static_cast<Index>(positions.size()); }

@@ -9,7 +9,8 @@
 
 namespace dmoscope {
 
-/// Wherever the arrays stand; their owner must outlive it. Frame: Plane of a planar mesh, Space of a volume.
+/// Pointers to a mesh's arrays, in the memory of host or device; their owner must outlive it. Frame: Plane of a planar mesh, Space of a
+/// volume mesh.
 template <class FrameT>
 struct MeshView {
   using Frame = FrameT;
@@ -20,7 +21,7 @@ struct MeshView {
   const double* reference_measure = nullptr;  // see InputMesh
   Frame frame;
 
-  /// What an element is judged in.
+  /// The frame that an element is judged in.
   [[nodiscard]] DMOSCOPE_ANYWHERE decltype(auto) frame_of([[maybe_unused]] Index element) const {
     if constexpr (requires { frame.of(element); })
       return frame.of(element);

@@ -17,8 +17,8 @@ bool is_required(const Group& group) {
 
 namespace {
 
-/// Calls visit(corners) for every edge or face of an element that has this vertex, edges of volumes more than once; stops when it returns
-/// false, and returns that.
+/// Calls visit(corners) for every edge or face of an element that has this vertex, edges of volume elements more than once; stops when it
+/// returns false, and returns that.
 template <class Visit>
 bool for_parts(const ElementTable& elements, Index element, Index vertex, NamedKind kind, const Visit& visit) {
   const auto corners = elements.corners(element);

@@ -11,24 +11,24 @@
 
 namespace dmoscope {
 
-/// A boundary string of a fort.14: vertices in order.
+/// Whether a group is a boundary string of a fort.14: vertices in order.
 [[nodiscard]] bool is_string(const Group& group);
-/// MEDIT's RequiredVertices, RequiredEdges, RequiredTriangles and RequiredQuadrilaterals, in whatever case.
+/// Whether a group is one of MEDIT's RequiredVertices, RequiredEdges, RequiredTriangles and RequiredQuadrilaterals, in whatever case.
 [[nodiscard]] bool is_required(const Group& group);
 
 enum class NamedKind : std::uint8_t { Faces, Lines, Points };
 
-/// All that groups of one kind name in a mesh, which must outlive it.
+/// All that groups of one kind name in a mesh. The mesh must outlive it.
 class NamedList {
  public:
-  /// `groups`: of vertices (Points), edges (Lines) or faces of a volume (Faces).
+  /// Gathers the names. `groups`: of vertices (Points), edges (Lines) or faces of a volume mesh (Faces).
   NamedList(NamedKind kind, std::span<const Group* const> groups, const Mesh& mesh, const Topology& topology);
-  /// Is everything of this kind at the vertex, and at all vertices of its elements, named? Where lines cross, all edges of a vertex may be
-  /// named, but not those of its neighbours.
+  /// Whether everything of this kind at the vertex, and at all vertices of its elements, is named. At a crossing of lines all edges of a
+  /// vertex may be named, but not those of its neighbours.
   [[nodiscard]] bool surrounds(Index vertex);
 
  private:
-  using Key = std::array<Index, 4>;  // ascending, the rest kNoIndex
+  using Key = std::array<Index, 4>;  // vertices in ascending order, the rest kNoIndex
   [[nodiscard]] bool full(Index vertex);
   [[nodiscard]] bool all_named_at(Index vertex) const;
   [[nodiscard]] bool named(std::span<const Index> corners) const;
@@ -39,9 +39,9 @@ class NamedList {
   NamedKind kind_;
   const Mesh& mesh_;
   const Topology& topology_;
-  std::vector<Key> keys_;              // of all that is named, ascending
-  std::vector<std::uint8_t> named_;    // points: by vertex
-  std::vector<std::uint8_t> is_full_;  // by vertex: 0 not asked yet, 1 no, 2 yes
+  std::vector<Key> keys_;              // all named edges or faces, ascending
+  std::vector<std::uint8_t> named_;    // points: whether each vertex is named
+  std::vector<std::uint8_t> is_full_;  // by vertex, whether all around it is named: 0 not asked yet, 1 no, 2 yes
 };
 
 }  // namespace dmoscope

@@ -8,7 +8,7 @@ namespace dmoscope {
 
 namespace {
 constexpr double kMostCellsAnAxis = 4096.0;
-constexpr std::size_t kMostCellsAnElement = 16;  // on the average, besides one for every cell
+constexpr std::size_t kMostCellsAnElement = 16;  // cells listed for an element on average, besides one for every cell
 }  // namespace
 
 NodalField::NodalField(const Mesh& mesh, const Topology& topology, const Plane& plane, std::vector<double> values)
@@ -40,7 +40,7 @@ NodalField::NodalField(const Mesh& mesh, const Topology& topology, const Plane& 
 
 NodalField::Point NodalField::flat(Index vertex) const { return plane_.project(mesh_.positions[vertex] - origin_); }
 
-/// The same, and on a mesh that wraps: the copy of the vertex that is nearest to `p`.
+/// Place of a vertex in the plane; on a mesh that wraps, its copy nearest to `p`.
 NodalField::Point NodalField::flat_near(Index vertex, Point p) const {
   Point at = flat(vertex);
   if (plane_.period > 0.0 && at.x - p.x > 0.5 * plane_.period) at.x -= plane_.period;
@@ -60,7 +60,7 @@ void NodalField::set_width(double width) {
   rows_ = static_cast<int>((high_.y - low_.y) / width_) + 1;
 }
 
-/// Whether the elements' boxes touch too many cells to list: long elements, such as those of a fan, fill most of the grid each.
+/// Whether the elements' boxes touch too many cells to list: each of many long elements, such as those of a fan, fills most of the grid.
 bool NodalField::is_crowded() const {
   const std::size_t cells = static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_);
   if (cells <= kMostCellsAnElement) return false;
@@ -70,7 +70,7 @@ bool NodalField::is_crowded() const {
   return count > most;
 }
 
-/// The element as its first corner sees it, moved by `shift` along x.
+/// Cells that an element's box touches, unwrapped from its first corner and moved by `shift` along x.
 NodalField::CellBox NodalField::cells_of(Index element, double shift) const {
   const auto corners = mesh_.elements.corners(element);
   const Point first = flat(corners[0]);
@@ -83,7 +83,7 @@ NodalField::CellBox NodalField::cells_of(Index element, double shift) const {
   return {column(low.x + shift), row(low.y), column(high.x + shift), row(high.y)};
 }
 
-/// Calls visit(cells) for the element and, where it lies across the seam, for what the other side sees of it.
+/// Calls visit(cells) for the element and, if it lies across the seam, for its image on the other side.
 template <class Visit>
 void NodalField::for_images(Index element, const Visit& visit) const {
   visit(cells_of(element));
@@ -96,7 +96,7 @@ void NodalField::for_images(Index element, const Visit& visit) const {
   }
 }
 
-/// for_members(put) calls put(cell, member) for every member in ascending order; it is asked twice.
+/// Builds lists of members by cell. for_members(put) calls put(cell, member) for every member in ascending order; it is called twice.
 template <class ForMembers>
 NodalField::Cells NodalField::fill(const ForMembers& for_members) const {
   Cells cells;
@@ -109,13 +109,13 @@ NodalField::Cells NodalField::fill(const ForMembers& for_members) const {
   return cells;
 }
 
-/// Nothing where `p` lies outside.
+/// Interpolated value in a triangle; none if `p` lies outside.
 std::optional<double> NodalField::in_triangle(Index a, Index b, Index c, Point p) const {
   const Point at_a = flat_near(a, p), ab = flat_near(b, p) - at_a, ac = flat_near(c, p) - at_a, ap = p - at_a;
   const double area = cross(ab, ac);
   if (area == 0.0) return std::nullopt;
   const double at_b = cross(ap, ac) / area, at_c = cross(ab, ap) / area;
-  constexpr double kRounding = 1e-12;  // so that no place falls between two elements
+  constexpr double kRounding = 1e-12;  // tolerance, so that no place falls between two elements
   if (!(at_b >= -kRounding && at_c >= -kRounding && at_b + at_c <= 1.0 + kRounding)) return std::nullopt;
   return values_[a] + at_b * (values_[b] - values_[a]) + at_c * (values_[c] - values_[a]);
 }
@@ -126,7 +126,7 @@ std::optional<double> NodalField::in_element(Index element, Point p) const {
   return corners.size() == 4 ? in_triangle(corners[0], corners[2], corners[3], p) : std::nullopt;
 }
 
-/// The vertex nearest to `p`, among equals the first.
+/// The vertex nearest to `p`; the first of several.
 Index NodalField::nearest(Point p) const {
   Index best = kNoIndex;
   double least = HUGE_VAL;
@@ -136,7 +136,7 @@ Index NodalField::nearest(Point p) const {
   return best;
 }
 
-/// Looks at rings of cells around `p` for a vertex nearer than `least`, until what is left is farther away.
+/// Searches rings of cells around `p` for a vertex nearer than `least`, until all remaining ones are farther away.
 void NodalField::look_around(Point p, Index& best, double& least) const {
   const int column_of_p = column(p.x), row_of_p = row(p.y);
   const auto look = [&](int i, int j) {
@@ -151,7 +151,7 @@ void NodalField::look_around(Point p, Index& best, double& least) const {
     }
   };
   for (int ring = 0; ring < std::max(columns_, rows_); ++ring) {
-    // Measured from the place in the grid that is nearest to p, nothing in ring r is nearer than r - 1 cells.
+    // Lower bound of distances: seen from the place in the grid that is nearest to p, nothing in ring r is nearer than r - 1 cells.
     const double reach = (ring - 1) * width_;
     if (best != kNoIndex && ring > 0 && reach * reach > least) break;
     for (int i = column_of_p - ring; i <= column_of_p + ring; ++i)

@@ -1,5 +1,5 @@
 #pragma once
-// A nodal field of a planar mesh as a function of the place.
+// A nodal field of a planar mesh, interpolated at any place.
 
 #include <cstddef>
 #include <optional>
@@ -13,22 +13,23 @@
 
 namespace dmoscope {
 
-/// Linear on triangles, and on the two triangles 0 1 2 and 0 2 3 of a quadrilateral; outside the mesh the value of the nearest vertex.
-/// The mesh is that of the positions given, wherever its vertices go later. Mesh and topology must outlive it.
+/// A nodal field that is linear on triangles, and on the two triangles 0 1 2 and 0 2 3 of a quadrilateral; outside of the mesh it has the
+/// value of the nearest vertex. The mesh is that of the positions given, wherever its vertices go later. Mesh and topology must outlive it.
 class NodalField {
  public:
-  /// `values`: one per vertex.
+  /// Prepares the interpolation. `values`: one for each vertex.
   NodalField(const Mesh& mesh, const Topology& topology, const Plane& plane, std::vector<double> values);
 
-  /// At a place. `near`: a vertex; where the place lies in its star, as it mostly does, nothing is searched. The same for every call.
+  /// Value at a place. `near`: a vertex; if the place lies in its star, as it mostly does, nothing is searched. The value does not depend
+  /// on it.
   [[nodiscard]] double at(Index near, Vec3 place) const;
   [[nodiscard]] std::span<const double> values() const noexcept { return values_; }
 
  private:
   /// Lists of things in the cells of a uniform grid.
   struct Cells {
-    std::vector<std::size_t> offsets;  // one more than cells
-    std::vector<Index> members;        // of each cell in ascending order
+    std::vector<std::size_t> offsets;  // offset of each cell's members, and their number at the end
+    std::vector<Index> members;        // members of all cells, one cell after the other, each in ascending order
     [[nodiscard]] std::span<const Index> of(std::size_t cell) const {
       return {members.data() + offsets[cell], members.data() + offsets[cell + 1]};
     }
@@ -64,7 +65,7 @@ class NodalField {
   std::vector<double> values_;
   Vec3 origin_{};
   Point low_{}, high_{};
-  double width_ = 1.0;  // of a cell
+  double width_ = 1.0;  // edge of a grid cell, in mesh units
   int columns_ = 1, rows_ = 1;
   Cells elements_, vertices_;
 };

@@ -19,9 +19,9 @@ std::vector<std::uint8_t> relate_windings(const Mesh& mesh, const Topology& topo
     if (sides.size() != 2) return;
     const Index a = sides[0].element;
     const Index b = sides[1].element;
-    if (a == b) return;  // an element that has a corner twice
-    // Two neighbours that run their edge in the same direction are wound against each other; an element and its duplicate, which lie
-    // on top of each other, are not.
+    if (a == b) return;  // an element with a repeated corner
+    // Relates two neighbours: those that run their edge in the same direction are wound against each other; an element and its duplicate,
+    // which lie on top of each other, are not.
     const bool same_direction = sides[0].leaving == sides[1].leaving;
     if (!sets.relate(a, b, same_direction != same_corners(mesh, a, b) ? 1 : 0)) ++contradictions;
   });
@@ -40,7 +40,7 @@ OrientationReport normalise_orientation(Mesh& mesh, const Plane& plane) {
 OrientationReport normalise_orientation(Mesh& mesh, const Plane& plane, const Topology& topology, const EdgeSurvey& edges) {
   const Index count = mesh.elements.size();
   OrientationReport report{.components = edges.components, .contradictions = static_cast<Index>(edges.non_manifold.size())};
-  std::vector<std::uint8_t> against;  // empty: none is
+  std::vector<std::uint8_t> against;  // whether each element is reversed; empty: none is
   if (!edges.consistent) against = relate_windings(mesh, topology, report.contradictions);
   const auto is_against = [&](Index e) { return !against.empty() && against[e] != 0; };
 

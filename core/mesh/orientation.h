@@ -1,5 +1,5 @@
 #pragma once
-// One winding for the whole mesh. Real files mix windings (SU2 above all).
+// One winding for the whole mesh; files, above all of SU2, mix windings.
 
 #include <cstdint>
 #include <vector>
@@ -18,7 +18,7 @@ struct OrientationReport {
   Index contradictions = 0;  // edges across which no consistent winding exists (non-orientable or non-manifold)
 };
 
-/// For every element whether it is wound against the first one of its component. Counts the edges where that is impossible.
+/// For every element, whether its winding is opposite to that of the first one of its component. Counts the edges where no winding fits.
 [[nodiscard]] std::vector<std::uint8_t> relate_windings(const Mesh& mesh, const Topology& topology, Index& contradictions);
 
 /// Makes the winding of planar elements consistent inside each edge-connected component (neighbours across a
@@ -26,8 +26,8 @@ struct OrientationReport {
 /// keeps its neighbours' winding and so stays visibly inverted. A component of one element has no neighbour to agree with and keeps
 /// the winding it has. Sets mesh.flipped. Idempotent.
 OrientationReport normalise_orientation(Mesh& mesh, const Plane& plane);
-/// The same with the mesh's edges at hand. What was found of them stays true but for EdgeSurvey::consistent; where elements were
-/// reversed the topology has to follow() them.
+/// Makes the winding consistent, given the mesh's topology and edges. `edges` stays true but for EdgeSurvey::consistent; if elements were
+/// reversed, the topology has to follow() them.
 OrientationReport normalise_orientation(Mesh& mesh, const Plane& plane, const Topology& topology, const EdgeSurvey& edges);
 
 }  // namespace dmoscope

@@ -18,7 +18,7 @@ bool has_volumes(const Mesh& mesh) {
   return std::ranges::any_of(mesh.elements.kinds(), [](ElementKind kind) { return info(kind).dimension == 3; });
 }
 
-/// Twice the area vector of a closed polygon, about its first corner: far from the origin nothing cancels.
+/// Area vector of a closed polygon, times two, about its first corner: far from the origin nothing cancels.
 Vec3 twice_area(std::span<const Vec3> places, std::span<const Index> polygon) {
   Vec3 sum;
   for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
@@ -32,7 +32,7 @@ double length_of(std::span<const Vec3> places, std::span<const Index> polygon) {
   return sum;
 }
 
-/// Which way the elements of each part look: the sum of their area vectors.
+/// Direction of the elements of each part: the sum of their area vectors.
 std::vector<Vec3> measure_parts(const Mesh& mesh, std::vector<MeshPart>& parts, std::span<const Vec3> places) {
   std::vector<Index> seen_in(places.size(), kNoIndex);
   std::vector<Vec3> towards;
@@ -54,7 +54,8 @@ std::vector<Vec3> measure_parts(const Mesh& mesh, std::vector<MeshPart>& parts, 
   return towards;
 }
 
-/// The outer loop of a planar part encloses it all: its area vector points where the elements' do, those of holes against it.
+/// Finds the outer loop of each planar part, which encloses it all: its area vector points where the elements' do, those of holes against
+/// it.
 void find_outer_loops(std::vector<BoundaryLoop>& loops, const std::vector<Vec3>& towards, std::span<const Vec3> places) {
   std::vector<BoundaryLoop*> largest(towards.size(), nullptr);
   std::vector<double> most(towards.size(), 0.0);
@@ -130,7 +131,7 @@ std::vector<Index> vertices_of_outline(const Mesh& mesh, std::string_view what, 
 }
 
 std::vector<Index> ordered_ring(const Mesh& mesh, const Topology& topology, Index vertex) {
-  // Half-edges of the star alone, whose vertices are numbered anew: the whole mesh would take a second.
+  // Half-edges of the star alone, with renumbered vertices: those of the whole mesh would take a second.
   std::vector<Index> whole;
   Mesh star;
   for (const Incidence& incidence : topology.star(vertex)) {

@@ -1,5 +1,5 @@
 #pragma once
-// The boundary loops and connected parts of a planar or surface mesh, by its half-edges: names for what most files name nothing of.
+// Boundary loops and connected parts of a planar or surface mesh, by its half-edges: names for parts that most files do not name.
 
 #include <optional>
 #include <span>
@@ -16,28 +16,29 @@ namespace dmoscope {
 struct BoundaryLoop {
   std::vector<Index> vertices;  // in order, with the mesh to the left
   double length = 0.0;          // mesh units
-  double area = 0.0;            // that it encloses; of a loop that is not planar: of its shadow where that is largest
-  Index part = 0;               // that it bounds, from 0
-  bool outer = false;           // of a planar mesh: the part lies inside of it
+  double area = 0.0;            // area that it encloses; of a loop that is not planar, that of its largest projection
+  Index part = 0;               // number of the part that it bounds, from 0
+  bool outer = false;           // whether it encloses its part, in a planar mesh
 };
 
-/// Elements that are connected across edges.
+/// A part of the mesh: elements that are connected across edges.
 struct MeshPart {
   std::vector<Index> elements;  // ascending
   Index vertices = 0;
-  Index loops = 0;    // that bound it
+  Index loops = 0;    // number of loops that bound it
   double area = 0.0;  // sum of the areas of its elements
 };
 
-/// Parts come in the order of their first elements; loops in that of their parts, the outer one first, then as their lowest vertices come.
+/// Parts and loops of a mesh. Parts come in the order of their first elements; loops in the order of their parts, the outer one first, then
+/// by their lowest vertices.
 struct Outline {
   std::vector<MeshPart> parts;
   std::vector<BoundaryLoop> loops;
-  Index left_out = 0;  // elements that no half-edges can have: a third one at an edge, or one wound against its neighbours
+  Index left_out = 0;  // number of elements without half-edges: a third one at an edge, or one wound against its neighbours
 
-  /// "loop 2", of the outer loop of a part "loop 1 (outer)"; `loop` from 0.
+  /// Name of a loop, numbered from 1: "loop 2", or "loop 1 (outer)" for the outer loop of a part. `loop`: its index from 0.
   [[nodiscard]] std::string name(Index loop) const;
-  /// The loop that a vertex is on, and where on it; none for a vertex inside. Where loops touch, the first.
+  /// Place of a vertex on a loop, as find() returns it; none for a vertex inside. If loops touch, the first.
   struct Place {
     Index loop;
     Index at;
@@ -45,16 +46,16 @@ struct Outline {
   [[nodiscard]] std::optional<Place> find(Index vertex) const;
 };
 
-/// Measured where the file has the vertices, or at `places`. Empty for a volume mesh. Takes about two seconds for a million vertices: make
-/// it when asked for. Throws UsageError where the program was built without OpenMesh.
+/// The outline of a mesh, measured at the file's positions or at `places`. Empty for a volume mesh. Takes about two seconds for a million
+/// vertices, so call it on demand. Throws UsageError if the program was built without OpenMesh.
 [[nodiscard]] Outline outline_of(const Mesh& mesh, std::span<const Vec3> places);
 [[nodiscard]] Outline outline_of(const Mesh& mesh);
 
-/// The vertices of "loop:2" or "part:1", without what stands before the colon; `what`: "loop" or "part". Throws UsageError.
+/// The vertices of "loop:2" or "part:1". `what`: "loop" or "part"; `number`: the text behind the colon. Throws UsageError.
 [[nodiscard]] std::vector<Index> vertices_of_outline(const Mesh& mesh, std::string_view what, std::string_view number);
 
-/// The neighbours of a vertex across edges, in order, counter-clockwise where its elements are; on the boundary from one of its edges to
-/// the other. Empty for a vertex of a volume mesh, or of no element.
+/// The neighbours of a vertex across edges, in order, counter-clockwise if its elements are; on the boundary from one of its edges to the
+/// other. Empty for a vertex of a volume mesh, or of no element.
 [[nodiscard]] std::vector<Index> ordered_ring(const Mesh& mesh, const Topology& topology, Index vertex);
 
 }  // namespace dmoscope

@@ -23,7 +23,7 @@ std::array<double, 3> components(Vec3 a) { return {a.x, a.y, a.z}; }
 
 int largest_component(Vec3 a) {
   const auto c = components(a);
-  // Ties, those within rounding too, go to z, then x: the order in which exact planes are tried.
+  // Factor within which components tie: ties go to z, then x, the order in which exact planes are tried.
   constexpr double kTie = 1.0 + 1e-9;
   int best = 2;
   for (const int i : {0, 1}) {
@@ -71,7 +71,7 @@ Vec3 smallest_eigenvector(Matrix3 a) {
   return {vectors[0][k], vectors[1][k], vectors[2][k]};
 }
 
-/// tangent_plane(); the largest component of the normal, of any length, is made positive.
+/// The frame of tangent_plane(), for a normal of any length whose largest component is made positive.
 Plane frame(Vec3 normal) {
   normal = (1.0 / length(normal)) * normal;
   if (components(normal)[static_cast<std::size_t>(largest_component(normal))] < 0) normal = -1.0 * normal;
@@ -84,7 +84,7 @@ Vec3 mean_area_vector(const Mesh& mesh) {
   return sum;
 }
 
-/// Are most elements parallel to the plane?
+/// Whether most elements are parallel to the plane.
 bool mostly_parallel(const Mesh& mesh, const Plane& plane) {
   Index parallel = 0;
   for (Index e = 0; e < mesh.elements.size(); ++e) {
@@ -97,7 +97,7 @@ bool mostly_parallel(const Mesh& mesh, const Plane& plane) {
 
 /// Best plane of the used vertices; sets deviation and plane.
 void fit(const Mesh& mesh, const std::vector<std::uint8_t>& used, const PointBox& box, Geometry& geometry) {
-  // Offsets from the middle of the box and scaled by its size: no digits are lost far from the origin, nothing over- or underflows.
+  // Scales offsets from the middle of the box by its size: no digits are lost far from the origin, nothing over- or underflows.
   const Vec3 middle = box.low + 0.5 * (box.high - box.low);
   const double scale = 1.0 / geometry.size;
   Vec3 mean;

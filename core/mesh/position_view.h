@@ -1,5 +1,5 @@
 #pragma once
-// Positions of a mesh's vertices, wherever and in whatever order they stand.
+// Positions of a mesh's vertices, in whatever memory and order they are stored.
 
 #include <span>
 #include <vector>
@@ -14,7 +14,7 @@ class PositionView {
   DMOSCOPE_ANYWHERE PositionView(std::span<const Vec3> positions) : at_(positions.data()) {}  // NOLINT(google-explicit-constructor): a view
   PositionView(const std::vector<Vec3>& positions) : at_(positions.data()) {}                 // NOLINT(google-explicit-constructor)
   PositionView(std::span<Vec3> positions) : at_(positions.data()) {}                          // NOLINT(google-explicit-constructor)
-  /// The position of vertex v is ranked[rank_of_vertex[v]].
+  /// Views positions in the order of ranks: that of vertex v is ranked[rank_of_vertex[v]].
   DMOSCOPE_ANYWHERE PositionView(std::span<const Vec3> ranked, std::span<const Index> rank_of_vertex)
       : at_(ranked.data()), rank_(rank_of_vertex.data()) {}
   DMOSCOPE_ANYWHERE PositionView(const Vec3* ranked, const Index* rank_of_vertex) : at_(ranked), rank_(rank_of_vertex) {}

@@ -1,11 +1,11 @@
 #pragma once
-// Random numbers that are the same on every machine (std distributions are not).
+// Random numbers that are equal on every machine (those of std distributions are not).
 
 #include <cstdint>
 
 namespace dmoscope {
 
-/// splitmix64 (Steele, Lea, Flood 2014): 64 bits of state, full period, any seed is fine.
+/// The splitmix64 generator (Steele, Lea, Flood 2014): 64 bits of state, full period, any seed is fine.
 class Random {
  public:
   explicit constexpr Random(std::uint64_t seed) noexcept : state_(seed) {}

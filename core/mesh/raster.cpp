@@ -109,7 +109,7 @@ Distances signed_distance(const Mask& mask) {
   const Distances inside = distance_to(complement(mask));
   Distances field = outside;
   for (std::size_t k = 0; k < field.values.size(); ++k) field.values[k] -= inside.values[k];
-  // Binomial smoothing takes the pixels' stairs out of the outline.
+  // Smooths binomially, which takes the pixels' stairs out of the outline.
   for (int pass = 0; pass < 4; ++pass) {
     const Distances old = field;
     for (Index j = 1; j + 1 < field.height; ++j) {
@@ -120,7 +120,7 @@ Distances signed_distance(const Mask& mask) {
       }
     }
   }
-  // No pixel lies exactly on a curve, so that every crossing has a side.
+  // Moves the values of pixels exactly on a curve, so that every crossing has a side.
   for (double& value : field.values) {
     if (value == 0.0) value = 1e-9;
   }
@@ -138,7 +138,7 @@ double interpolate(const Distances& field, double x, double y) {
 }
 
 std::vector<std::vector<Vec2<double>>> zero_curves(const Distances& field) {
-  // Crossings are named by the raster edge they lie on: 2 * pixel for the edge to the right of it, + 1 for the edge above.
+  // Number of a crossing by its raster edge: 2 * pixel for the edge to the right of it, + 1 for the edge above.
   const auto name = [&](Index i, Index j, bool up) { return 2 * (std::size_t{j} * field.width + i) + (up ? 1 : 0); };
   const auto place = [&](std::size_t edge) {
     const auto pixel = static_cast<Index>(edge / 2);
@@ -157,8 +157,8 @@ std::vector<std::vector<Vec2<double>>> zero_curves(const Distances& field) {
       const std::array<double, 4> value{field.at(i, j), field.at(i + 1, j), field.at(i + 1, j + 1), field.at(i, j + 1)};
       const std::array<std::size_t, 4> edge{name(i, j, false), name(i + 1, j, true), name(i, j + 1, false), name(i, j, true)};
       for (std::size_t k = 0; k < 4; ++k) {
-        if (!(value[k] < 0 && value[(k + 1) % 4] > 0)) continue;  // leaves the region going round the cell
-        // Comes back across the side behind, where the cell's middle is outside or only one run of corners is inside.
+        if (!(value[k] < 0 && value[(k + 1) % 4] > 0)) continue;  // leaves the region, going round the cell
+        // Returns across the side behind, if the cell's middle is outside or only one run of corners is inside.
         const bool saddle = value[(k + 2) % 4] < 0 && value[(k + 3) % 4] > 0;
         const bool joined = saddle && value[0] + value[1] + value[2] + value[3] < 0;
         std::size_t back = (k + 3) % 4;

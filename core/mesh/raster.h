@@ -1,5 +1,5 @@
 #pragma once
-// A picture of a region on square pixels: distances, opening and closing, outlines.
+// Binary pictures of a region on square pixels: distances, opening and closing, outlines.
 
 #include <cstdint>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace dmoscope {
 
-/// One value a pixel, row after row; pixel (i, j) has its centre at (i, j).
+/// Values of pixels, row after row; pixel (i, j) has its centre at (i, j).
 template <class T>
 struct Raster {
   Index width = 0;
@@ -21,17 +21,17 @@ struct Raster {
 using Mask = Raster<std::uint8_t>;
 using Distances = Raster<double>;
 
-/// Exact Euclidean distance of every pixel to the nearest set one, in pixels (Felzenszwalb, Huttenlocher 2012). Large where none is set.
+/// Exact Euclidean distance of every pixel to the nearest set one, in pixels (Felzenszwalb, Huttenlocher 2012). Large if none is set.
 [[nodiscard]] Distances distance_to(const Mask& mask);
-/// Fills what is narrower than twice `radius` between set pixels.
+/// Fills gaps between set pixels that are narrower than twice `radius`.
 [[nodiscard]] Mask closed(const Mask& mask, double radius);
-/// Removes what is narrower than twice `radius` of the set pixels.
+/// Removes parts of the set pixels that are narrower than twice `radius`.
 [[nodiscard]] Mask opened(const Mask& mask, double radius);
-/// The set pixels that hang together with (i, j) across pixel edges.
+/// The set pixels that are connected with (i, j) across pixel edges.
 [[nodiscard]] Mask connected(const Mask& mask, Index i, Index j);
 /// Distance to the rim of the set pixels, negative inside, smoothed a little.
 [[nodiscard]] Distances signed_distance(const Mask& mask);
-/// Bilinear interpolation; outside the raster the value of its rim.
+/// Bilinear interpolation; a place outside of the raster has the value of the nearest place on its rim.
 [[nodiscard]] double interpolate(const Distances& field, double x, double y);
 /// Closed curves along which the field is 0, with the negative side to the left (marching squares). The raster's rim must be positive.
 [[nodiscard]] std::vector<std::vector<Vec2<double>>> zero_curves(const Distances& field);

@@ -5,7 +5,7 @@
 namespace dmoscope {
 namespace {
 
-/// "1 vertex belongs to no element (17)", "2 vertices belong to no element (first: 17)".
+/// Adds a sentence with the first id: "1 vertex belongs to no element (17)", "2 vertices belong to no element (first: 17)".
 void add(std::vector<std::string>& sentences, const std::vector<Index>& ids, const char* one, const char* many) {
   if (ids.size() == 1) sentences.push_back(fmt::format("1 {} ({})", one, ids.front()));
   if (ids.size() > 1) sentences.push_back(fmt::format("{} {} (first: {})", ids.size(), many, ids.front()));

@@ -17,10 +17,10 @@ namespace dmoscope {
 namespace {
 
 constexpr double kCircle = 360.0, kHalf = 180.0, kPole = 90.0;
-constexpr double kFarthest = 720.0;  // no longitude is written with more
-constexpr double kRounding = 1e-9;   // degrees by which a file's numbers may lie beyond
-constexpr double kFarMore = 2.0;     // see find_seam()
-constexpr double kWidest = 90.0;     // degrees that an element on the Earth may have, unwrapped
+constexpr double kFarthest = 720.0;  // largest absolute longitude that files have
+constexpr double kRounding = 1e-9;   // degrees by which a file's numbers may exceed their range
+constexpr double kFarMore = 2.0;     // ratio of mended to broken elements, see find_seam()
+constexpr double kWidest = 90.0;     // largest width of an element on the Earth, unwrapped, in degrees
 
 struct Range {
   double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
@@ -34,7 +34,7 @@ struct Range {
 
 struct Degrees {
   Range x, y;
-  /// Looks no further once something lies beyond the poles, as it does in most meshes.
+  /// Ranges of the positions. Stops once something lies beyond the poles, as it does in most meshes.
   explicit Degrees(const Mesh& mesh) {
     for (const Index v : mesh.elements.all_corners()) {
       const Vec3 p = mesh.degrees ? (*mesh.degrees)[v] : mesh.positions[v];
@@ -45,7 +45,7 @@ struct Degrees {
   }
 };
 
-/// Where x shows a point: `shown(x)`.
+/// Whether an element is wider than half the circle; `shown(x)`: the longitude that is shown for x.
 template <class Shown>
 bool is_wide(const Mesh& mesh, Index e, const Shown& shown) {
   Range x;
@@ -65,7 +65,7 @@ double west_of(const Range& x) {
   return x.low;
 }
 
-/// Is every corner positive, in the winding `sign`, and the element not too wide? Differences as `plane` takes them.
+/// Whether every corner is positive, in the winding `sign`, and the element not too wide. `plane` takes the differences.
 bool is_sound(const Mesh& mesh, Index e, const Plane& plane, double sign) {
   const auto c = mesh.elements.corners(e);
   const std::size_t n = c.size();
@@ -81,7 +81,7 @@ bool is_sound(const Mesh& mesh, Index e, const Plane& plane, double sign) {
   return true;
 }
 
-/// Which winding is positive for each element: that of the majority of the narrow ones of its component.
+/// Positive winding of each element: that of the majority of the narrow elements of its component.
 class Windings {
  public:
   Windings(const Mesh& mesh, const Topology& topology, const EdgeSurvey& edges, std::span<const Index> wide)
@@ -106,11 +106,11 @@ class Windings {
  private:
   [[nodiscard]] bool is_against(Index e) const { return !against_.empty() && against_[e] != 0; }
   const EdgeSurvey& edges_;
-  std::vector<std::uint8_t> against_;  // empty: none is
+  std::vector<std::uint8_t> against_;  // whether each element is wound against the first; empty: none is
   std::vector<WindingVote> votes_;
 };
 
-/// The east end of the widest stretch of longitudes in which nothing lies; `plain` unless no element lies across it.
+/// The east end of the widest stretch of longitudes without elements; `plain` unless an element lies across that.
 double find_cut(const Mesh& mesh, double plain, double& width) {
   std::vector<double> all;
   all.reserve(mesh.elements.all_corners().size());

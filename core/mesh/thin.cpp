@@ -18,8 +18,8 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kThinWords{"off", "on", "auto"};
 
-/// The front faces as elements. Where the normals, which point to the back, look down a coordinate axis, all are wound the other way:
-/// planar meshes are wound so.
+/// The front faces as elements. If the normals, which point to the back, look down a coordinate axis, all are reversed, as planar meshes
+/// are wound so.
 ElementTable as_elements(const FrontFaces& found, std::span<const Vec3> positions) {
   Vec3 normal;
   for (std::size_t e = 0; e < found.corners.size(); ++e) {
@@ -41,7 +41,7 @@ ElementTable as_elements(const FrontFaces& found, std::span<const Vec3> position
   return elements;
 }
 
-/// What groups of the cells' vertices, edges and faces are on the front.
+/// Groups of the cells' vertices, edges and faces, carried over to the front.
 class FrontGroups {
  public:
   FrontGroups(const Mesh& mesh, const FrontFaces& found) : mesh_(mesh), found_(found) {}
@@ -61,14 +61,14 @@ class FrontGroups {
     std::vector<std::array<Index, 2>> seen;
     for (std::size_t i = 0; i + step <= group.members.size(); i += step) {
       const Index a = found_.front[group.members[i]], b = found_.front[group.members[i + step - 1]];
-      if (step == 2 && a == b) continue;  // from front to back
+      if (step == 2 && a == b) continue;  // an edge from front to back
       seen.push_back({a, b});
     }
     add_each_once(seen, step, one.members);
     return one;
   }
 
-  /// Each in the order in which it came first; edges whichever way they run.
+  /// Appends each vertex or edge once, in the order in which it came first; edges in either direction are the same.
   static void add_each_once(const std::vector<std::array<Index, 2>>& seen, std::size_t step, std::vector<Index>& members) {
     std::map<std::array<Index, 2>, bool> there;
     for (const auto& [a, b] : seen) {
@@ -78,7 +78,8 @@ class FrontGroups {
     }
   }
 
-  /// Faces between front and back are edges, faces of front or back the elements there; where a group has both, it is one of vertices.
+  /// Group of faces on the front: faces between front and back become edges, faces of front or back elements; with both it becomes one of
+  /// vertices.
   [[nodiscard]] Group of_faces(const Group& group) {
     std::vector<std::array<Index, 2>> edges, vertices;
     std::vector<Index> elements;

@@ -14,7 +14,7 @@ bool share_an_element(const Mesh& mesh, const Topology& topology, Index a, Index
   });
 }
 
-/// Calls take(a, b), a < b, with vertices of the boundary at the same place that no element has both of: of three there, with two pairs.
+/// Calls take(a, b), a < b, for vertices of the boundary at one place of which no element has both: of three there, with two pairs.
 template <class Take>
 void for_doubles(const Mesh& mesh, const Topology& topology, const Take& take) {
   std::vector<Index> order;
@@ -58,7 +58,7 @@ bool is_one_cell_thick(const Mesh& mesh, const Topology& topology, const FaceNei
 }
 
 std::vector<Partners> find_partners(const Mesh& mesh, const Topology& topology) {
-  std::vector<Index> ties(mesh.vertex_count(), 0);  // by vertex: to how many others
+  std::vector<Index> ties(mesh.vertex_count(), 0);  // number of ties of each vertex
   for (const auto& pair : mesh.periodic)
     for (const Index v : pair) ++ties[v];
   std::vector<Partners> partners;

@@ -1,5 +1,5 @@
 #pragma once
-// Vertices that belong to others: what moves one alone parts them.
+// Ties between vertices: a tied vertex that moves alone parts from its partner.
 
 #include <cstdint>
 #include <vector>
@@ -17,19 +17,19 @@ enum class Tie : std::uint8_t {
   Pair       // the mesh is one cell thick: it has a partner on the other side
 };
 
-/// Two vertices of the boundary that stand for one: the second is where the first is, moved by `shift`.
+/// Two vertices of the boundary that stand for one: the second is at the place of the first plus `shift`.
 struct Partners {
   Index first, second;
   Vec3 shift{};
 };
-/// The doubles of which only two stand at a place, in the order of the first, which has the lower number; none that the file pairs with
-/// others.
+/// Pairs of vertices at one place, ordered by the first, which has the lower number. Places with more than two vertices and vertices that
+/// the file declares periodic are left out.
 [[nodiscard]] std::vector<Partners> find_partners(const Mesh& mesh, const Topology& topology);
 
-/// By vertex. `faces`: of a volume mesh.
+/// The tie of each vertex. `faces`: those of a volume mesh.
 [[nodiscard]] std::vector<Tie> find_ties(const Mesh& mesh, const Topology& topology, const FaceNeighbours& faces);
 
-/// Whether each wedge or hexahedron of a volume mesh has two opposite faces on its boundary, and there is nothing else.
+/// Whether a volume mesh consists of wedges and hexahedra that each have two opposite faces on its boundary.
 [[nodiscard]] bool is_one_cell_thick(const Mesh& mesh, const Topology& topology, const FaceNeighbours& faces);
 
 }  // namespace dmoscope

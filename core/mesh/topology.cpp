@@ -21,7 +21,7 @@ Topology::Topology(const Mesh& mesh, const FaceNeighbours& faces) : boundary_(me
 
 void Topology::follow(const Mesh& mesh) {
   const ElementTable& elements = mesh.elements;
-  // Counting sort, shifted by one so that the fill pass leaves the offsets in place.
+  // Counts stars for a counting sort, shifted by one so that the fill pass leaves the offsets in place.
   reserve_large(offsets_, mesh.positions.size() + 2);
   offsets_.assign(mesh.positions.size() + 2, 0);
   for (const Index v : elements.all_corners()) ++offsets_[v + 2];

@@ -19,11 +19,11 @@ struct EdgeSurvey;
 class Topology {
  public:
   explicit Topology(const Mesh& mesh);
-  /// The same, and what was found on the way. Throws Cancelled.
+  /// Builds the topology of a planar or surface mesh, and returns the edges found on the way. Throws Cancelled.
   Topology(const Mesh& mesh, EdgeSurvey& found, Progress& progress);
-  /// Topology of a volume mesh.
+  /// Builds the topology of a volume mesh.
   Topology(const Mesh& mesh, const FaceNeighbours& faces);
-  /// The winding of elements was reversed since: their corners have other places now. Edges and boundary stay.
+  /// Updates the places of corners after the winding of elements was reversed. Edges and boundary stay.
   void follow(const Mesh& mesh);
   [[nodiscard]] Index vertex_count() const noexcept { return static_cast<Index>(offsets_.size() - 1); }
   [[nodiscard]] std::span<const Incidence> star(Index vertex) const noexcept {
@@ -35,7 +35,7 @@ class Topology {
   /// 1 for vertices on the boundary: an end of an edge, a corner of a volume's face, that has exactly one element, or more than two
   /// (non-manifold).
   [[nodiscard]] std::span<const std::uint8_t> boundary() const noexcept { return boundary_; }
-  /// Of a share of a mesh, where others know more of it (see MeshShare): one entry a vertex.
+  /// Sets the boundary of a share of a mesh, if other ranks know more of it (see MeshShare): one entry for each vertex.
   void set_boundary(std::vector<std::uint8_t> boundary) { boundary_ = std::move(boundary); }
   [[nodiscard]] Index edge_count() const noexcept { return edge_count_; }
 

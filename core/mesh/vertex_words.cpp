@@ -25,7 +25,7 @@ std::vector<std::string_view> split(std::string_view text) {
   }
 }
 
-/// "inlet, wall and 7 more".
+/// Enumeration of names that ends with a count: "inlet, wall and 7 more".
 std::string some_of(const std::vector<std::string>& names) {
   constexpr std::size_t kMost = 12;
   const std::vector<std::string> first(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(std::min(kMost, names.size())));
@@ -33,7 +33,7 @@ std::string some_of(const std::vector<std::string>& names) {
   return fmt::format("{}{}", fmt::join(first, ", "), more);
 }
 
-/// One word, looked up in one mesh.
+/// Finds the vertices that one word names in one mesh.
 class VertexWord {
  public:
   VertexWord(const Mesh& mesh, std::string_view word) : mesh_(mesh), word_(word) {}
@@ -76,7 +76,7 @@ class VertexWord {
     fail(fmt::format("this can mean more than one thing; write '{}'", fmt::join(choices, "' or '")));
   }
 
-  // --- By number ---
+  // --- Names by number ---
 
   static bool looks_like_list(std::string_view text) {
     return !text.empty() && text.find_first_not_of("0123456789,-") == std::string_view::npos;
@@ -100,9 +100,9 @@ class VertexWord {
     }
   }
 
-  // --- By group ---
+  // --- Names by group ---
 
-  /// Groups of this name, or else of this number; of one kind of members where `of` says so.
+  /// Groups with this name, or else with this number; of one kind of members if `of` says so.
   [[nodiscard]] std::vector<const Group*> groups_called(std::string_view name, std::string_view of) const {
     std::vector<const Group*> called, numbered;
     const auto number = number_in<int>(name);
@@ -114,7 +114,7 @@ class VertexWord {
     return called.empty() ? numbered : called;
   }
 
-  /// "group:wall", or with the kind of members where groups of several kinds are called so.
+  /// Unambiguous words for groups: "group:wall", or with the kind of members if groups of several kinds have that name.
   [[nodiscard]] static std::vector<std::string> ways_to_say(const std::vector<const Group*>& groups) {
     std::vector<std::string> precise, short_ones;
     for (const Group* group : groups) {
@@ -147,7 +147,7 @@ class VertexWord {
     }
   }
 
-  // --- By data ---
+  // --- Names by data ---
 
   [[nodiscard]] std::vector<const Field*> fields_called(std::string_view name, std::string_view head) const {
     std::vector<const Field*> called;
@@ -197,7 +197,7 @@ class VertexWord {
     fail(fmt::format("{} is nowhere {}; it is {}", field.name, text, some_of(there)));
   }
 
-  // --- By place ---
+  // --- Names by place ---
 
   void box(std::string_view text) {
     std::vector<double> limits;
@@ -220,7 +220,7 @@ class VertexWord {
     if (found_.empty()) fail("no vertex lies in this box");
   }
 
-  // --- Whatever it can mean ---
+  // --- Names of any kind ---
 
   void bare() {
     const std::size_t equals = word_.rfind('=');

@@ -39,7 +39,7 @@ OrientationReport normalise_orientation(Mesh& mesh, const FaceNeighbours& neighb
   }
   report.contradictions += static_cast<Index>(neighbours.non_manifold().size());
 
-  std::vector<WindingVote> votes(count);  // by the root
+  std::vector<WindingVote> votes(count);  // vote of each component, at its root
   std::vector<std::uint8_t> against(count);
   std::vector<Index> root(count);
   for (Index e = 0; e < count; ++e) {

@@ -1,5 +1,5 @@
 #pragma once
-// Volume elements' sizes and turns.
+// Volumes and orientations of volume elements.
 
 #include <span>
 
@@ -8,15 +8,15 @@
 
 namespace dmoscope {
 
-/// What the faces of a volume element enclose, in cubic mesh units; negative where it is inside out. Each face is a fan around the mean of
-/// its corners, which is exact for a trilinear hexahedron.
+/// Volume that the faces of a volume element enclose, in cubic mesh units; negative if it is inside out. Each face is a fan around the mean
+/// of its corners, which is exact for a trilinear hexahedron.
 [[nodiscard]] double signed_volume(const Mesh& mesh, Index element);
-/// The same with the vertices elsewhere.
+/// Volume of a volume element, in cubic mesh units, with the vertices at `positions`.
 [[nodiscard]] double signed_volume(const ElementTable& elements, std::span<const Vec3> positions, Index element);
 
-/// Turns volume elements so that neighbours across a face run it in opposite directions, and then so that the most of each component have
-/// positive volume, as normalise_orientation() does for planar ones. Where elements were turned, topology and neighbours have to be made
-/// anew. `neighbours`: of the mesh.
+/// Turns volume elements so that neighbours across a face run it in opposite directions, and then so that most of each component have
+/// positive volume, as normalise_orientation() does for planar ones. If elements were turned, topology and neighbours have to be rebuilt.
+/// `neighbours`: those of the mesh.
 OrientationReport normalise_orientation(Mesh& mesh, const FaceNeighbours& neighbours);
 
 }  // namespace dmoscope

@@ -1,5 +1,5 @@
 #pragma once
-// Which elements are wound against each other, and which winding a component should get. Used to normalise orientation.
+// Relative windings of elements, and the winding that a component should get. Used to normalise orientation.
 
 #include <algorithm>
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace dmoscope {
 
-/// Disjoint sets of elements that know for each element whether its winding agrees with that of its set's root.
+/// Disjoint sets of elements that store for each element whether its winding agrees with that of its set's root.
 class WindingSets {
  public:
   explicit WindingSets(Index count) : parent_(count), against_(count, 0) { std::iota(parent_.begin(), parent_.end(), Index{0}); }
@@ -30,7 +30,7 @@ class WindingSets {
     }
     return {e, against};
   }
-  /// Says that a and b must be wound alike (0) or against each other (1). False where that contradicts what was said before.
+  /// Records that a and b must be wound alike (0) or against each other (1). False if that contradicts an earlier relation.
   bool relate(Index a, Index b, std::uint8_t against) {
     const Place pa = find(a);
     const Place pb = find(b);
@@ -47,7 +47,7 @@ class WindingSets {
   std::vector<std::uint8_t> against_;
 };
 
-/// What a component's elements vote for when its first element keeps its winding.
+/// Vote of a component's elements on their winding, as long as its first element keeps its own.
 struct WindingVote {
   Index members = 0;
   std::int64_t balance = 0;        // positive minus negative elements
@@ -58,18 +58,18 @@ struct WindingVote {
     least = std::min(least, signed_measure);
     most = std::max(most, signed_measure);
   }
-  /// What others voted; `against`: were their first element wound against this one's.
+  /// Adds the votes of other elements; `against`: if their first element is wound against this one's.
   void add(const WindingVote& other, bool against) {
     members += other.members;
     balance += against ? -other.balance : other.balance;
     least = std::min(least, against ? -other.most : other.least);
     most = std::max(most, against ? -other.least : other.most);
   }
-  /// By the majority; where there is none, by the largest element.
+  /// Whether to reverse the component: decided by the majority or, in a tie, by the largest element.
   [[nodiscard]] bool reverse() const { return members > 1 && (balance < 0 || (balance == 0 && -least > most)); }
 };
 
-/// Reverses an element, and notes that in the mesh.
+/// Reverses an element, and records that in the mesh.
 inline void turn_over(Mesh& mesh, Index element) {
   mesh.elements.flip(element);
   if (mesh.flipped.empty()) mesh.flipped.assign(mesh.elements.size(), 0);

@@ -17,7 +17,7 @@ struct Candidate {
   Real objective{};
 };
 
-/// Coordinate by coordinate.
+/// Product of each coordinate with `s`.
 template <class Real>
 [[nodiscard]] DMOSCOPE_ANYWHERE Vec2<Real> times(Vec2<Real> a, Real s) {
   return {a.x * s, a.y * s};
@@ -39,7 +39,7 @@ struct CandidateGrid {
   [[nodiscard]] DMOSCOPE_ANYWHERE Point at(int i, int j, int k) const requires std::is_same_v<Point, Vec3Of<Real>> {
     return {coordinate(centre.x, size.x, i), coordinate(centre.y, size.y, j), coordinate(centre.z, size.z, k)};
   }
-  /// Calls f(index, candidate) for all of one i, in the order of their indices.
+  /// Calls f(index, candidate) for all candidates of one i, in the order of their indices.
   template <class F>
   DMOSCOPE_INLINE DMOSCOPE_ANYWHERE void for_slice(int i, F f) const {
     for (int j = 0; j < points; ++j) {
@@ -57,7 +57,7 @@ struct CandidateGrid {
   }
 };
 
-/// The best of a team's lanes; among equals the one of lowest index.
+/// The best candidate of a team's lanes; of several equal ones that of lowest index.
 template <class Real, class Point, class Team>
 [[nodiscard]] DMOSCOPE_ANYWHERE Candidate<Real, Point> best_of_team(const Team& team, const Candidate<Real, Point>& mine, int index) {
   struct Found {

@@ -1,5 +1,5 @@
 #pragma once
-// The star of a vertex for the plain search by a metric that is defined by a formula or a target: its elements know their quality.
+// The star of a vertex for the plain search by a defined metric (a formula or a target): its elements know their quality.
 
 #include <algorithm>
 #include <array>
@@ -16,25 +16,25 @@
 
 namespace dmoscope {
 
-/// Stands for the metric in templates whose metric judges itself: see formulas::metric_around().
+/// Placeholder for the metric in templates whose elements judge themselves: see formulas::metric_around().
 inline constexpr Metric kDefinedMetric = static_cast<Metric>(0xffffffffU);
 
 namespace formulas {
-/// What it says of inverted elements is the formula's affair.
+/// Placeholder of a defined metric, which itself decides about inverted elements.
 template <>
 struct Formula<kDefinedMetric> {
   static constexpr bool kSeesInversion = false;
   template <class V>
-  static RealOf<V> quadrilateral(const Quadrilateral<V>& q);  // has no body: it says that there are such elements
+  static RealOf<V> quadrilateral(const Quadrilateral<V>& q);  // has no body: it declares that such elements exist
 };
 template <>
 struct SolidFormula<kDefinedMetric> {
   template <class Ideal, class V>
-  static RealOf<V> corner(V u, V v, V w, RealOf<V> jacobian);  // likewise
+  static RealOf<V> corner(V u, V v, V w, RealOf<V> jacobian);  // has no body: it declares that such elements exist
 };
 }  // namespace formulas
 
-/// What judges the elements around a vertex. A view.
+/// Judges the elements around a vertex. A view.
 template <class Frame>
 class DefinedStarJudge {
  public:
@@ -46,13 +46,13 @@ class DefinedStarJudge {
   std::span<const ElementKind> kinds;
   MeshView<Frame> mesh;
 
-  /// Of all elements of the star, in its order, each as quality() has it.
+  /// Writes the quality of each element of the star, in its order, as quality() returns it.
   void qualities(PositionView positions, Index vertex, Vec3 place, std::vector<double>& out) const {
     const auto star = mesh.star(vertex);
     const auto at = [&](Index v) { return v == vertex ? place : positions[v]; };
     out.resize(star.size());
     std::array<DefinedJudge::Placed, kMostAtOnce> placed;
-    for (std::size_t i = 0; i < star.size();) {  // stretches that one program judges
+    for (std::size_t i = 0; i < star.size();) {  // stretches of elements that one program judges
       const FormulaProgram& program = judge.program_for(star[i].element, kinds[star[i].element], star[i].corner);
       std::size_t n = 0;
       for (; i + n < star.size() && n < placed.size(); ++n) {
@@ -67,7 +67,7 @@ class DefinedStarJudge {
       i += n;
     }
   }
-  /// Of one element of the star with its vertex at each of some places; only what the vertex changes.
+  /// Writes the quality of one element of the star with its vertex at each of some places; only corners that the vertex changes count.
   void qualities(const Incidence& at, PositionView positions, Index vertex, std::span<const Vec3> places, double* out) const {
     const ElementKind kind = kinds[at.element];
     const FormulaProgram& program = judge.program_for(at.element, kind, at.corner);
@@ -84,7 +84,7 @@ class DefinedStarJudge {
       judge.qualities(program, std::span(placed).first(n), out + first);
     }
   }
-  /// Of one element of the star with its vertex at `place`; only what the vertex changes.
+  /// Quality of one element of the star with its vertex at `place`; only corners that the vertex changes count.
   [[nodiscard]] double quality(const Incidence& at, PositionView positions, Index vertex, Vec3 place) const {
     return defined_quality_at(
         judge, frames, kinds[at.element], mesh.corners_of(at.element), at.element,
@@ -95,13 +95,13 @@ class DefinedStarJudge {
   static constexpr std::size_t kMostAtOnce = 16;
 };
 
-/// The elements of a star, in the lists' order: simplices first. Owns what its views look at.
+/// The elements of a star, in the order of its lists: simplices first. Owns the data of its views.
 template <class Frame>
 class DefinedStar {
  public:
   using Offset = OffsetIn<Frame, double>;
 
-  /// `follower`: a vertex that moves by the same way, whose elements come after the other one's; kNoIndex: none.
+  /// Gathers the star. `follower`: a vertex that moves by the same offset, whose elements come after those of `vertex`; kNoIndex: none.
   DefinedStar(const DefinedStarJudge<Frame>& judge, PositionView positions, Index vertex, Index follower = kNoIndex)
       : judge_(judge), positions_(positions), vertex_(vertex), follower_(follower), here_(positions[vertex]) {
     gather();
@@ -118,9 +118,9 @@ class DefinedStar {
   template <class E>
   struct Element : E {
     const DefinedStar* owner;
-    std::size_t number;  // in the lists' order
+    std::size_t number;  // number in the order of the lists
 
-    /// With the star's vertex somewhere.
+    /// The element's shape with the star's vertex at an offset.
     template <class S>
     struct Shape : S {
       const Element* element;
@@ -135,7 +135,7 @@ class DefinedStar {
     }
   };
 
-  /// As StarView and its like. Valid while its star is.
+  /// A view of the star with the interface of StarView. Valid while the star exists.
   class View {
    public:
     explicit View(const DefinedStar& star) : star_(&star) {}
@@ -153,8 +153,8 @@ class DefinedStar {
   };
   [[nodiscard]] View view() const { return View(*this); }
 
-  /// A trace for grid_search() (see NoTrace) that tells the star which candidates come, so that it judges an element at all of a level's
-  /// when it is first asked for one of them.
+  /// A trace for grid_search() (see NoTrace) that tells the star the candidates of a level in advance, so that it judges an element at all
+  /// of them when its quality is first asked for.
   class Levels : public NoTrace {
    public:
     explicit Levels(const DefinedStar& star) : star_(star) {}
@@ -169,8 +169,8 @@ class DefinedStar {
     const DefinedStar& star_;
   };
 
-  /// While it exists the star is asked for these places alone, in any order, each after take(): it then judges an element at all of them
-  /// when it is first asked for one.
+  /// Announces to the star, while it exists, that only these places will be asked for, in any order, each after take(): the star then
+  /// judges an element at all of them when its quality is first asked for.
   class Listed {
    public:
     Listed(const DefinedStar& star, std::span<const Offset> offsets) : star_(star) {
@@ -186,7 +186,7 @@ class DefinedStar {
     const DefinedStar& star_;
   };
 
-  /// Of an element with the vertex at an offset, in units of scale(); during a level of Levels at the candidate that comes.
+  /// Quality of an element with the vertex at an offset, in units of scale(); during a level of Levels at its next candidate.
   [[nodiscard]] double quality(std::size_t number, Offset p) const {
     if (level_.places.empty()) return quality_at(order_[number], place(p));
     std::vector<double>& known = level_.qualities[number];
@@ -196,7 +196,7 @@ class DefinedStar {
     }
     return known[level_.candidate];
   }
-  /// kInverted where an element is inverted there: no metric goes below that.
+  /// Least quality of the star at an offset; kInverted if an element is inverted there, which is below any metric.
   [[nodiscard]] double least(Offset p) const {
     const Vec3 there = place(p);
     double least = std::numeric_limits<double>::max();
@@ -206,9 +206,9 @@ class DefinedStar {
     }
     return std::max(least, kInverted);
   }
-  /// At each of some offsets; what is no more than `enough` may come out greater than it is, but never above that.
+  /// Least qualities of the star at some offsets; one that is at most `enough` may come out greater than it is, but never above `enough`.
   void least(std::span<const Offset> offsets, double enough, double* out) const {
-    thread_local std::vector<Vec3> places;  // kept: a visit allocates nothing
+    thread_local std::vector<Vec3> places;  // static, so that a visit allocates nothing
     thread_local std::vector<std::size_t> left;
     thread_local std::vector<double> qualities;
     left.resize(offsets.size());
@@ -244,9 +244,9 @@ class DefinedStar {
     for (const Around& one : order_) mean.add(quality_at(one, place(p)));
     return mean.value(static_cast<double>(order_.size()));
   }
-  /// As mean() at each of some offsets, for those where the least is neither inverted nor below `least`; -infinity for the others.
+  /// Means of the star at some offsets, if the least there is neither inverted nor below `least`; else -infinity.
   void means(std::span<const Offset> offsets, MeanKind kind, double least, double* out) const {
-    thread_local std::vector<Vec3> places;  // kept: a visit allocates nothing
+    thread_local std::vector<Vec3> places;  // static, so that a visit allocates nothing
     thread_local std::vector<std::size_t> left;
     thread_local std::vector<double> qualities;
     thread_local std::vector<PowerMean<double>> means;
@@ -269,7 +269,7 @@ class DefinedStar {
   }
 
  private:
-  /// The candidates of a level, and what is known of them by element; no places: none comes.
+  /// The candidates of a level, and the qualities known there by element; no places: no level is announced.
   struct Level {
     std::vector<Vec3> places;
     std::size_t candidate = 0;
@@ -285,7 +285,7 @@ class DefinedStar {
     level_.qualities.resize(order_.size());
     for (auto& known : level_.qualities) known.clear();
   }
-  /// An element, and the vertex of it that moves.
+  /// An element, and which of its vertices moves.
   struct Around {
     Incidence at;
     Index vertex;
@@ -299,12 +299,12 @@ class DefinedStar {
   }
   void qualities_at(const Around& one, std::span<const Vec3> places, double* out) const {
     if (one.vertex == vertex_) return judge_.qualities(one.at, positions_, vertex_, places, out);
-    thread_local std::vector<Vec3> followed;  // kept: a visit allocates nothing
+    thread_local std::vector<Vec3> followed;  // static, so that a visit allocates nothing
     followed.clear();
     for (const Vec3& there : places) followed.push_back(place_of(one, there));
     judge_.qualities(one.at, positions_, one.vertex, followed, out);
   }
-  /// The least of an element's corners that change with the vertex.
+  /// The least Jacobian of an element's corners that change with the vertex.
   [[nodiscard]] double jacobian(const Around& one, Vec3 there) const {
     const Vec3 moved = place_of(one, there);
     const auto at = [&](Index v) { return v == one.vertex ? moved : positions_[v]; };
@@ -341,7 +341,7 @@ class DefinedStar {
   Index vertex_, follower_;
   Vec3 here_;
   Gathered star_;
-  std::vector<Around> order_;  // of the elements, as the lists have them
+  std::vector<Around> order_;  // elements in the order of the lists
   mutable Level level_;
 };
 

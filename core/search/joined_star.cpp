@@ -11,7 +11,7 @@ namespace dmoscope {
 
 namespace {
 
-/// Calls f with each corner of an element but the star's vertex.
+/// Calls f with each corner of an element except the star's vertex.
 template <class Element, class F>
 void for_corners(Element& element, const F& f) {
   if constexpr (requires { element.others; }) {
@@ -29,7 +29,7 @@ auto lists_in(Star<double>& star) { return std::tie(star.triangles, star.quadril
 auto lists_in(SurfaceStar& star) { return std::tie(star.triangles, star.quadrilaterals); }
 auto lists_in(VolumeStar<double>& star) { return std::tie(star.tetrahedra, star.hexahedra, star.wedges, star.pyramids, star.tips); }
 
-/// Brings a star to another unit.
+/// Converts a star to another unit.
 template <class S>
 void rescale_star(S& star, double scale) {
   const double factor = star.scale / scale, area = factor * factor;
@@ -44,7 +44,7 @@ void rescale_star(S& star, double scale) {
   star.scale = scale;
 }
 
-/// In the larger unit of both.
+/// Appends a star, both in the larger unit of the two.
 template <class S>
 void append_star(S theirs, S& out) {
   const double scale = std::max(out.scale, theirs.scale);

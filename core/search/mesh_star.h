@@ -1,5 +1,5 @@
 #pragma once
-// The star of one vertex straight from the mesh.
+// The star of one vertex, read directly from the mesh.
 
 #include <cmath>
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace dmoscope {
 
 namespace turned {
 
-/// The corners of a volume element, turned so that corner `c` is the first and it stays positive; a pyramid's tip stays the last.
+/// Corner i of a volume element that is turned so that corner `c` is the first and it stays positive; a pyramid's apex stays the last.
 [[nodiscard]] DMOSCOPE_ANYWHERE Index tetrahedron(Index c, Index i) { return c ^ i; }
 [[nodiscard]] DMOSCOPE_ANYWHERE Index pyramid(Index c, Index i) { return i < 4 ? (c + i) % 4 : 4; }
 [[nodiscard]] DMOSCOPE_ANYWHERE Index wedge(Index c, Index i) {
@@ -57,8 +57,8 @@ class StarBox {
   bool empty_ = true;
 };
 
-/// The unit of a star whose largest offset is `extent`. In the plane a power of two, so that scaling rounds nothing. In space the extent
-/// itself: the fast search's floats are then the same whatever the unit of length. (In the plane that search has units of its own:
+/// The unit of a star whose largest offset is `extent`. In the plane it is a power of two, so that scaling rounds nothing. In space it is
+/// the extent itself: the fast search's floats then do not depend on the unit of length. (In the plane that search has units of its own:
 /// SearchFrame.)
 template <class Frame>
 [[nodiscard]] DMOSCOPE_ANYWHERE double star_scale(double extent) {
@@ -67,8 +67,8 @@ template <class Frame>
   return std::is_same_v<Frame, Plane> || !(power >= std::numeric_limits<double>::min()) ? power : extent;
 }
 
-/// Reads the mesh whenever it is used, so that it needs no memory, whatever the star's size: for a GPU's lanes. gather_star() makes a copy
-/// for code that reads a star often. Frame: Plane or Space.
+/// A star that reads the mesh whenever it is used, so that it needs no memory, whatever its size: for a GPU's lanes. gather_star() makes a
+/// copy for code that reads a star often. Frame: Plane or Space.
 template <class Frame>
 class MeshStar {
  public:
@@ -89,10 +89,10 @@ class MeshStar {
 
   /// The bounding box of the other vertices, in units of scale().
   [[nodiscard]] DMOSCOPE_ANYWHERE Offset box() const { return box_; }
-  /// In mesh units: the largest offset lies in [1, 2) of it.
+  /// The star's unit, in mesh units: the largest offset lies in [1, 2) of it.
   [[nodiscard]] DMOSCOPE_ANYWHERE double scale() const { return scale_; }
 
-  /// See StarView; in the order of the elements. Others: also elements that are no simplices.
+  /// Calls f with each element in the order of the mesh, see StarView. Others: also with elements that are no simplices.
   template <bool Others, class F>
   DMOSCOPE_ANYWHERE void for_each(F f) const {
     for (const Incidence& at : mesh_.star(vertex_)) visit<Others>(at, f);
@@ -113,7 +113,7 @@ class MeshStar {
   }
 
  private:
-  /// The factor of areas or volumes where lengths grow by the factor `length`.
+  /// The factor of areas or volumes if lengths grow by the factor `length`.
   static DMOSCOPE_ANYWHERE double measure_of(double length) {
     return std::is_same_v<Frame, Plane> ? length * length : length * length * length;
   }
@@ -166,7 +166,7 @@ class MeshStar {
   double scale_ = 1.0, inverse_ = 1.0;
 };
 
-/// Fills `out` (its vectors are reused). A star shrunk to a point has an empty box.
+/// Gathers the star into `out`, whose vectors are reused. A star shrunk to a point has an empty box.
 void gather_star(const MeshStar<Plane>& star, Star<double>& out);
 void gather_star(const MeshStar<Space>& star, VolumeStar<double>& out);
 

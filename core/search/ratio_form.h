@@ -12,9 +12,9 @@ template <class R>
 struct RatioForm {
   static constexpr bool kCrossed = false, kShifted = false;  // see TargetForm
   R n0, nx, ny;
-  R s0, sx, sy, s2;  // all 0 for a condition: N must be positive and counts no further
+  R s0, sx, sy, s2;  // coefficients of S; all 0 for a condition: N must be positive and does not count otherwise
 
-  /// The part of S that is of second order; `squared`: |p|^2.
+  /// Second-order part of S; `squared`: |p|^2.
   [[nodiscard]] DMOSCOPE_ANYWHERE R second_order(Vec2<R> /*p*/, R squared) const { return s2 * squared; }
   [[nodiscard]] DMOSCOPE_ANYWHERE R along_x() const { return s2; }
   [[nodiscard]] DMOSCOPE_ANYWHERE R along_y() const { return s2; }
@@ -23,22 +23,22 @@ struct RatioForm {
     sx = sx + R(2) * s2 * centre.x;
     sy = sy + R(2) * s2 * centre.y;
   }
-  /// The metric where N / S is `ratio`; and what N / S must exceed for a metric above t.
+  /// The metric at N / S = `ratio`; the other function is the ratio that N / S must exceed for a metric above t.
   [[nodiscard]] DMOSCOPE_ANYWHERE R quality(R ratio) const { return ratio; }
   [[nodiscard]] DMOSCOPE_ANYWHERE R threshold(R t) const { return t; }
 };
 
-/// Can the fast search use threshold rounds for this metric?
+/// Whether the fast search can use threshold rounds for this metric.
 template <Metric M>
 inline constexpr bool kIsRatio = M == Metric::MeanRatio || M == Metric::MeanRatioArea;
 
-/// How many forms an element gives.
+/// Number of forms of a quadrilateral.
 template <Metric M>
 inline constexpr int kQuadrilateralForms = M == Metric::MeanRatio ? 3 : 4;
 
 namespace ratio_form {
 
-/// Twice the area of the triangle p, b, c: b x c + p x (b - c).
+/// Sets N to twice the area of the triangle p, b, c, times `factor`: b x c + p x (b - c).
 template <class R>
 DMOSCOPE_ANYWHERE void set_area(RatioForm<R>& form, Vec2<R> b, Vec2<R> c, R factor) {
   form.n0 = factor * cross(b, c);
@@ -46,7 +46,7 @@ DMOSCOPE_ANYWHERE void set_area(RatioForm<R>& form, Vec2<R> b, Vec2<R> c, R fact
   form.ny = factor * (c.x - b.x);
 }
 
-/// |p - b|^2 + |p - c|^2 + rest.
+/// Sets S to |p - b|^2 + |p - c|^2 + rest.
 template <class R>
 DMOSCOPE_ANYWHERE void set_two_edges(RatioForm<R>& form, Vec2<R> b, Vec2<R> c, R rest) {
   form.s0 = dot(b, b) + dot(c, c) + rest;
@@ -55,7 +55,7 @@ DMOSCOPE_ANYWHERE void set_two_edges(RatioForm<R>& form, Vec2<R> b, Vec2<R> c, R
   form.s2 = R(2);
 }
 
-/// |p - b|^2 + rest.
+/// Sets S to |p - b|^2 + rest.
 template <class R>
 DMOSCOPE_ANYWHERE void set_one_edge(RatioForm<R>& form, Vec2<R> b, R rest) {
   form.s0 = dot(b, b) + rest;
@@ -74,14 +74,14 @@ DMOSCOPE_ANYWHERE void triangle_form(const StarTriangle<R>& t, RatioForm<R>& for
   ratio_form::set_two_edges(form, t.b, t.c, dot(e, e));
 }
 
-/// The forms of a quadrilateral with the vertex and b, c, d. Returns what no candidate can exceed: the metric of the corner opposite to the
-/// vertex, where it is judged by itself.
+/// The forms of a quadrilateral with the vertex and b, c, d. Returns an upper bound for all candidates: the metric of the corner opposite
+/// to the vertex, if that corner is judged by itself.
 template <Metric M, class R>
 [[nodiscard]] DMOSCOPE_ANYWHERE R quadrilateral_forms(const StarQuadrilateral<R>& q, RatioForm<R>* forms) {
   using namespace ratio_form;
   const Vec2<R> bc = q.c - q.b, cd = q.d - q.c;
   const R bc2 = dot(bc, bc), cd2 = dot(cd, cd), factor(2);
-  if constexpr (M == Metric::MeanRatio) {  // corner by corner: 2 J / (the squares of its two edges)
+  if constexpr (M == Metric::MeanRatio) {  // per corner: 2 J / (sum of the squares of its two edges)
     set_area(forms[0], q.b, q.d, factor);
     set_two_edges(forms[0], q.b, q.d, R(0));
     set_area(forms[1], q.b, q.c, factor);
@@ -89,7 +89,7 @@ template <Metric M, class R>
     set_area(forms[2], q.c, q.d, factor);
     set_one_edge(forms[2], q.d, cd2);
     return factor * cross(bc, cd) / (bc2 + cd2);
-  } else {  // 2 (J_b + J_d) / (the squares of all edges), and every corner of the vertex's elements the right way round
+  } else {  // 2 (J_b + J_d) / (sum of the squares of all edges), and a positive Jacobian at every corner of the vertex's elements
     set_area(forms[1], q.b, q.c, factor);
     set_area(forms[2], q.c, q.d, factor);
     set_area(forms[3], q.b, q.d, factor);
@@ -97,7 +97,7 @@ template <Metric M, class R>
     forms[0].nx = forms[1].nx + forms[2].nx;
     forms[0].ny = forms[1].ny + forms[2].ny;
     set_two_edges(forms[0], q.b, q.d, bc2 + cd2);
-    // The scale only keeps a condition from being the least form where it holds.
+    // Scales the condition, so that it is not the least form as long as it holds.
     const R scale = scalar::constant<R>(1e6) / forms[0].s0;
     for (int i = 1; i < 4; ++i) forms[i] = {scale * forms[i].n0, scale * forms[i].nx, scale * forms[i].ny, R(0), R(0), R(0), R(0)};
     return scalar::constant<R>(1e30);

@@ -2,14 +2,14 @@
 // The grid search for metrics of ratio form, by threshold rounds: it finds the candidate that grid_search() finds, without a division
 // a candidate.
 //
-// With threshold t > 0, min_k N_k / S_k > t exactly where every margin (N_k - t S_k) w_k is positive, for any weights w_k > 0. A margin is
-// a function of x plus a function of y, so a candidate costs one addition and one minimum an element. A round evaluates all margins at
-// t, takes the candidate with the largest least margin, raises t to that candidate's quality, and so on until no margin is positive. With
-// w_k = 1 / S_k(centre) a margin is nearly the gain in quality itself, so the first candidate is mostly the best; and as S_k varies
-// little over the finer grids, the second largest margin mostly proves it without another round.
+// With threshold t > 0, min_k N_k / S_k > t exactly if every margin (N_k - t S_k) w_k is positive, for any weights w_k > 0. A margin is a
+// function of x plus a function of y, so a candidate costs one addition and one minimum an element. A round evaluates all margins at t,
+// takes the candidate with the largest least margin, raises t to that candidate's quality, and so on until no margin is positive. With w_k
+// = 1 / S_k(centre) a margin is nearly the gain in quality itself, so the first candidate is mostly the best; and as S_k varies little over
+// the finer grids, the second largest margin mostly proves it without another round.
 //
-// Rounds after the first need to look only at columns of candidates whose largest margin was not too small before. A lane of a GPU leaves
-// the others out (RoundColumns).
+// Rounds after the first need only columns of candidates whose largest margin was not too small before. A lane of a GPU skips the others
+// (RoundColumns).
 
 #include <array>
 #include <cstdint>
@@ -23,12 +23,12 @@
 
 namespace dmoscope {
 
-/// The least margins of a column's eight candidates. Eight variables, because an array of them would live in memory.
+/// The least margins of a column's eight candidates, in eight variables, because an array of them would live in memory.
 template <class R>
 struct LeastMargins {
   R m0, m1, m2, m3, m4, m5, m6, m7;
 
-  /// Margins of the first element: its part of each row plus its part of the column.
+  /// Initialises with the margins of the first element: its part of each row plus its part of the column.
   DMOSCOPE_ANYWHERE LeastMargins(const std::array<R, 8>& row, R column)
       : m0(sum(row[0], column)),
         m1(sum(row[1], column)),
@@ -39,7 +39,8 @@ struct LeastMargins {
         m6(sum(row[6], column)),
         m7(sum(row[7], column)) {}
 
-  /// Likewise, and what grows with both: `slope` times the row's place, of which the upper half is given.
+  /// Initialises with the margins of an element whose form is crossed: the term `slope` times the row's place is added, of which the upper
+  /// half is given.
   DMOSCOPE_ANYWHERE LeastMargins(const std::array<R, 8>& row, R column, R slope, const std::array<R, 8>& y) {
     const R y4 = slope * y[4], y5 = slope * y[5], y6 = slope * y[6], y7 = slope * y[7];
     m0 = sum(row[0], column) - y7;
@@ -52,7 +53,7 @@ struct LeastMargins {
     m7 = sum(row[7], column) + y7;
   }
 
-  /// And of a further one.
+  /// Takes the margins of a further element.
   DMOSCOPE_ANYWHERE void take(const std::array<R, 8>& row, R column) {
     using scalar::min;
     m0 = min(m0, sum(row[0], column));
@@ -65,7 +66,7 @@ struct LeastMargins {
     m7 = min(m7, sum(row[7], column));
   }
 
-  /// Likewise; two rows at a time, that what grows with both stands in one register.
+  /// Takes the margins of a further element whose form is crossed; two rows at a time, so that the mixed term stays in one register.
   DMOSCOPE_ANYWHERE void take(const std::array<R, 8>& row, R column, R slope, const std::array<R, 8>& y) {
     take_two(m0, m7, row[0], row[7], column, slope * y[7]);
     take_two(m1, m6, row[1], row[6], column, slope * y[6]);
@@ -78,7 +79,7 @@ struct LeastMargins {
     return max(max(max(m0, m1), max(m2, m3)), max(max(m4, m5), max(m6, m7)));
   }
 
-  /// f(margin, row), from the last row to the first.
+  /// Calls f(margin, row) from the last row to the first.
   template <class F>
   DMOSCOPE_ANYWHERE void backwards(F f) const {
     f(m7, 7U), f(m6, 6U), f(m5, 5U), f(m4, 4U), f(m3, 3U), f(m2, 2U), f(m1, 1U), f(m0, 0U);
@@ -93,25 +94,25 @@ struct LeastMargins {
   }
 };
 
-/// What is kept between the candidates of a round. A processor keeps both parts of every margin in its cache; a GPU, whose lanes have few
-/// registers and little cache, computes the columns' parts again, and the rows' too where the number of elements is not known beforehand.
+/// Tables kept between the candidates of a round. A processor keeps both parts of every margin in its cache; a GPU, whose lanes have few
+/// registers and little cache, recomputes the columns' parts, and the rows' too if the number of elements is unknown at compile time.
 enum class Tables { Full, Rows, None };
 
-/// Searches one star, or one per slot where R is a pack. Large: keep one and use it again. Forms: their number where it is known
-/// beforehand, else 0. What it finds does not depend on Tables and Team. Form: RatioForm or TargetForm.
+/// Searches one star, or one per slot if R is a pack. It is large: keep one and use it again. Forms: their number if it is known at compile
+/// time, else 0. The result does not depend on Tables and Team. Form: RatioForm or TargetForm.
 template <class R, std::size_t Forms = 0, Tables Kept = Tables::Full, class Team = Solo, class Form = RatioForm<R>>
 class RatioSearch {
  public:
-  static constexpr std::size_t kPoints = 8;  // candidates per axis: the one size this search is made for
+  static constexpr std::size_t kPoints = 8;  // candidates per axis: the only size that this search supports
   static constexpr std::size_t kMaxForms = Forms == 0 ? 48 : Forms;
   using FormSpan = std::span<Form, Forms == 0 ? std::dynamic_extent : Forms>;
 
   DMOSCOPE_ANYWHERE explicit RatioSearch(Team team = {}) : team_(team) {}
 
-  /// Searches all levels. `forms`: 1 to kMaxForms, of which it uses the memory. `cap`: what no candidate's quality can exceed; none reaches
-  /// it where Forms is not 0. `box`: of the star's other vertices. In every slot all N at the origin must be positive. Returns the offset
-  /// and its quality, as grid_search does. A trace gets what quality() makes of each candidate; of those that differ by less than its
-  /// rounding another one than the first of the best may have won.
+  /// Searches all levels. `forms`: 1 to kMaxForms, whose memory it uses. `cap`: upper bound of every candidate's quality; none reaches it
+  /// if Forms is not 0. `box`: of the star's other vertices. In every slot all N at the origin must be positive. Returns the offset and its
+  /// quality, as grid_search does. A trace gets the quality() of each candidate; among those that differ by less than its rounding, the
+  /// winner need not be the first of the best.
   template <class Trace = NoTrace>
   DMOSCOPE_ANYWHERE Candidate<R> search(FormSpan forms, R cap, Vec2<R> box, int levels, double omega, Trace&& trace = {}) {
     forms_ = forms.data();
@@ -135,18 +136,18 @@ class RatioSearch {
   static_assert(kPoints == 8, "LeastMargins has eight");
   static_assert(Team::kSize == 1 || Team::kSize == kPoints, "a column each");
   static constexpr bool kCrossed = Form::kCrossed;
-  /// May a candidate reach the cap? A fan of triangles, whose number alone is known beforehand, has none.
+  /// Whether a candidate may reach the cap. A fan of triangles, the only star whose number of forms is known at compile time, has none.
   static constexpr bool kCapped = Forms == 0;
-  /// Does a round after a level's first look only at the columns that RoundColumns leaves? In the other cases lanes go together.
+  /// Whether a round after a level's first skips columns by RoundColumns. Otherwise lanes go together.
   static constexpr bool kPrunes = Team::kSize == 1 && Kept == Tables::Rows;
   static_assert(!kPrunes || std::is_same_v<Form, RatioForm<float>>, "the bound of rounding is that of float and of a quality of at most 1");
-  /// N_k - t S_k, times w_k: a + b x + c y - d (x^2 + y^2).
+  /// The margin (N_k - t S_k) w_k as a polynomial: a + b x + c y - d (x^2 + y^2).
   struct EvenMargin {
     R a, b, c, d;
     [[nodiscard]] DMOSCOPE_ANYWHERE R along_x() const { return d; }
     [[nodiscard]] DMOSCOPE_ANYWHERE R along_y() const { return d; }
   };
-  /// Of a form that is crossed: a + b x + c y - dx x^2 - dy y^2 - e x y.
+  /// The margin of a form that is crossed: a + b x + c y - dx x^2 - dy y^2 - e x y.
   struct CrossedMargin {
     R a, b, c, dx, dy, e;
     [[nodiscard]] DMOSCOPE_ANYWHERE R along_x() const { return dx; }
@@ -155,7 +156,7 @@ class RatioSearch {
   using Margin = std::conditional_t<kCrossed, CrossedMargin, EvenMargin>;
   struct Best {
     R margin, second;  // the largest least margin and the next
-    Vec2<R> at;        // candidate of the former
+    Vec2<R> at;        // candidate of the largest margin
   };
 
   static DMOSCOPE_ANYWHERE R huge() { return scalar::constant<R>(1e30); }
@@ -166,7 +167,7 @@ class RatioSearch {
       return Forms;
   }
 
-  /// Least N / S at `p`.
+  /// Least N / S of all forms at `p`.
   [[nodiscard]] DMOSCOPE_ANYWHERE R quality(Vec2<R> p) const {
     using scalar::min, scalar::select;
     R least = cap_;
@@ -193,8 +194,7 @@ class RatioSearch {
     }
   }
 
-  /// Sets the weights; returns a bound of S_k(centre) / S_k(p) over the grid of this size and all elements, where the quality at the centre
-  /// is t.
+  /// Sets the weights; returns a bound of S_k(centre) / S_k(p) over the grid of this size and all elements, for quality t at the centre.
   DMOSCOPE_ANYWHERE R weigh(Vec2<R> size, [[maybe_unused]] R t) {
     using scalar::abs, scalar::max, scalar::min, scalar::select;
     const R half(0.5F), hx = half * size.x, hy = half * size.y;
@@ -205,13 +205,13 @@ class RatioSearch {
       const Form& f = forms_[k];
       const auto counts = f.s0 > R(0);
       weight_[k] = R(1) / select(counts, f.s0, R(1));
-      // S falls from the centre by at most |sx| hx - s2 hx^2, or half of |sx| hx where its minimum lies within; likewise along y.
+      // Bounds S: it falls from the centre by at most |sx| hx - s2 hx^2, or half of |sx| hx if its minimum lies within; along y likewise.
       const R x = abs(f.sx) * hx, y = abs(f.sy) * hy;
       R fall = (x - min(half * x, f.along_x() * hx * hx)) + (y - min(half * y, f.along_y() * hy * hy));
       if constexpr (kPrunes) greatest_ = max(greatest_, R(1) + ((x + f.along_x() * hx * hx) + (y + f.along_y() * hy * hy)) * weight_[k]);
       if constexpr (kCrossed) fall = fall + abs(f.sxy) * hx * hy;
       least = min(least, select(counts, R(1) - fall * weight_[k], R(1)));
-      // Where the threshold is held, a margin is no gain.
+      // At the least threshold a margin is no gain.
       if constexpr (Form::kShifted) least = select(t + f.shift < scalar::constant<R>(kLeastTargetRatio), R(0), least);
     }
     const R smallest = scalar::constant<R>(0.05);
@@ -227,7 +227,7 @@ class RatioSearch {
     if constexpr (kTraced<Trace>) show_level(CandidateGrid<R>{best.offset, size, static_cast<int>(kPoints)}, trace);
     R t = best.objective;
     Vec2<R> offset{R(0), R(0)};
-    R floor = select(t < cap_, R(0), huge());  // what a margin must exceed: huge in slots that are done
+    R floor = select(t < cap_, R(0), huge());  // lower bound of useful margins: huge in slots that are done
     [[maybe_unused]] RoundColumns columns;
     for (;;) {
       fill_tables(t);
@@ -236,7 +236,7 @@ class RatioSearch {
       if (!any(positive)) break;
       const R q = quality(found.at);
       const auto better = positive & (q > t);
-      // Whatever else is left gains at most found.second * bound over the old t.
+      // Every other candidate gains at most found.second * bound over the old t.
       const auto open = better & (found.second * bound > q - t) & (q < cap_);
       t = select(better, q, t);
       offset = {select(better, found.at.x, offset.x), select(better, found.at.y, offset.y)};
@@ -256,9 +256,9 @@ class RatioSearch {
     moved_by_ = offset;
   }
 
-  /// A candidate whose least margin in a level's first round is no larger has none that is positive once the threshold is higher by `gain`.
-  /// For its margin falls by at least gain / bound, and what rounding adds to two margins is less than the last term: each is of eight
-  /// operations on terms that are, as N is at most S, no larger than 6 greatest_.
+  /// The margin in a level's first round up to which a candidate has no positive margin once the threshold is higher by `gain`: its margin
+  /// falls by at least gain / bound. The last term exceeds the rounding of two margins: each is of eight operations on terms that are, as N
+  /// is at most S, no larger than 6 greatest_.
   [[nodiscard]] DMOSCOPE_ANYWHERE R least_that_may_gain(R gain, R bound) const {
     return gain / bound * scalar::constant<R>(1.0 - 1e-4) - scalar::constant<R>(12 * 8 * 0x1p-24) * greatest_;
   }
@@ -273,7 +273,7 @@ class RatioSearch {
       }
   }
 
-  /// An axis' offsets from the centre, as parts of the grid's size: those of the second half; the first half are their negatives.
+  /// Offset of a row or column from the centre, as a part of the grid's size: index i of the second half; the first half are the negatives.
   static DMOSCOPE_ANYWHERE R part(std::size_t i) { return scalar::constant<R>(static_cast<double>(kHalf + i) / (kPoints - 1) - 0.5); }
 
   DMOSCOPE_ANYWHERE void set_grid(Vec2<R> size) {
@@ -288,7 +288,8 @@ class RatioSearch {
     }
   }
 
-  /// The offset of a column's candidates. On a GPU computed: an index that is known only at run time would put the table into local memory.
+  /// The offset of a column's candidates. A GPU computes it: indexing by a value known only at run time would put the table into local
+  /// memory.
   [[nodiscard]] DMOSCOPE_ANYWHERE R column_offset(std::size_t i) const {
     if constexpr (Kept == Tables::Full) {
       return x_[i];
@@ -302,7 +303,7 @@ class RatioSearch {
     }
   }
 
-  /// column_offset(i) of 1 << i.
+  /// The column_offset(i) of `bit` = 1 << i.
   [[nodiscard]] DMOSCOPE_ANYWHERE R offset_of_bit(std::uint32_t bit) const {
     R s = part(0);
     DMOSCOPE_UNROLL
@@ -356,7 +357,7 @@ class RatioSearch {
     }
   }
 
-  /// Many candidates may reach the cap alike: the one of lowest index, as grid_search would take. `p`: one that does.
+  /// The candidate of lowest index among those that reach the cap, as grid_search would take it. `p`: one that does.
   DMOSCOPE_ANYWHERE Vec2<R> first_at_cap(Vec2<R> p) {
     using scalar::select;
     fill_tables(cap_);
@@ -370,7 +371,8 @@ class RatioSearch {
     return p;
   }
 
-  /// The candidate with the largest least margin above `floor`; among equals the one of lowest index. Where kPrunes, of these columns only.
+  /// The candidate with the largest least margin above `floor`; of several equal ones that of lowest index. If kPrunes, only of these
+  /// columns.
   [[nodiscard]] DMOSCOPE_ANYWHERE Best largest_margin(R floor, [[maybe_unused]] RoundColumns& columns) const {
     using scalar::max, scalar::min, scalar::select;
     Best best{floor, R(0) - huge(), {column_offset(0), y_[0]}};
@@ -384,7 +386,7 @@ class RatioSearch {
       std::uint32_t left = columns.bits();
       DMOSCOPE_NO_UNROLL
       while (left != 0) {
-        const std::uint32_t next = left & (0U - left);  // its lowest bit
+        const std::uint32_t next = left & (0U - left);  // lowest bit of `left`
         left ^= next;
         const R x = offset_of_bit(next), high = least_margins_at(x).largest();
         if constexpr (kPrunes) columns.keep(high);
@@ -406,7 +408,7 @@ class RatioSearch {
       });
       take(all.margin, all.second, all.at.x);
     }
-    // The winning column again, for the row and for the next best beside it.
+    // Computes the winning column again, for the row and for the next best beside it.
     R high = R(0) - huge();
     least_margins_at(best.at.x).backwards([&](R margin, std::size_t j) {
       best.at.y = select(margin == best.margin, y_[j], best.at.y);
@@ -416,7 +418,7 @@ class RatioSearch {
     return best;
   }
 
-  /// `x`: column_offset(i).
+  /// The least margin of every candidate of column i. `x`: column_offset(i).
   [[nodiscard]] DMOSCOPE_ANYWHERE LeastMargins<R> least_margins_of_column(std::size_t i, R x) const {
     if constexpr (Kept == Tables::Full) {
       return least_margins(x, [&](std::size_t k) { return column_[k][i]; });
@@ -466,13 +468,13 @@ class RatioSearch {
   Form* forms_;
   std::size_t count_;
   R cap_;
-  Vec2<R> moved_by_;  // from the last level's centre
-  R width_;           // of the grid
-  R greatest_;        // where kPrunes: bound of S_k(p) / S_k(centre) over the grid and all elements
-  Line y_, yy_;       // the rows' offsets from the centre, and the squares of their second half
+  Vec2<R> moved_by_;  // offset from the last level's centre
+  R width_;           // size of the grid
+  R greatest_;        // if kPrunes: bound of S_k(p) / S_k(centre) over the grid and all elements
+  Line y_, yy_;       // rows' offsets from the centre, and the squares of their second half
   std::array<R, kMaxForms> weight_;
   std::array<Margin, kMaxForms> margin_;
-  std::array<R, Kept == Tables::Full ? kPoints : 0> x_;  // the columns' offsets
+  std::array<R, Kept == Tables::Full ? kPoints : 0> x_;  // offsets of the columns
   std::array<Line, Kept == Tables::Full ? kMaxForms : 0> column_;
   std::array<Line, Kept == Tables::None ? 0 : kMaxForms> row_;
 };

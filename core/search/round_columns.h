@@ -1,5 +1,5 @@
 #pragma once
-// Which columns of a grid of candidates a round of the search by thresholds (core/search/ratio_search.h) looks at.
+// Columns of a candidate grid that a round of the threshold search (core/search/ratio_search.h) looks at.
 
 #include <array>
 #include <bit>
@@ -12,20 +12,20 @@
 namespace dmoscope {
 
 /// The columns of a grid that a round looks at. In a level's first round it is all eight, and upper bounds of their largest margins are
-/// kept: rounded up to 16 bits, two in a register, for registers are what a lane is short of.
+/// kept, rounded up to 16 bits, two in a register, because a lane has few registers.
 class RoundColumns {
  public:
   [[nodiscard]] DMOSCOPE_ANYWHERE std::uint32_t bits() const { return bits_; }
-  /// Keeps a bound of the largest margin of the next column, in the order of the columns; after the first round does nothing.
+  /// Keeps a bound of the largest margin of the next column, in the order of the columns; does nothing after the first round.
   DMOSCOPE_ANYWHERE void keep(float largest) {
     if (!is_first_) return;
-    // The first 16 of a float's bits order floats that are not negative.
+    // Rounds up to the upper 16 bits, which order floats that are not negative.
     const std::uint32_t bound = (std::bit_cast<std::uint32_t>(scalar::max(largest, 0.0F)) + 0xffffU) >> 16U;
     DMOSCOPE_UNROLL
     for (std::size_t i = 0; i < 3; ++i) bounds_[i] = bounds_[i] >> 16U | bounds_[i + 1] << 16U;
     bounds_[3] = bounds_[3] >> 16U | bound << 16U;
   }
-  /// Leaves to the next round the columns whose largest margin in the first may have been above `least`.
+  /// Restricts the next round to the columns whose largest margin in the first may have been above `least`.
   DMOSCOPE_ANYWHERE void take_those_above(float least) {
     is_first_ = false;
     const std::uint32_t most_dropped = least < 0.0F ? 0U : std::bit_cast<std::uint32_t>(least) >> 16U;

@@ -1,6 +1,6 @@
 #pragma once
-// The star of one vertex as the search sees it: offsets from the vertex in the mesh's plane or in space, scaled so that
-// the largest is about 1.
+// The star of one vertex in the form that the search uses: offsets from the vertex in the mesh's plane or in space, scaled so that the
+// largest is about 1.
 
 #include <array>
 #include <cstddef>
@@ -15,7 +15,7 @@
 
 namespace dmoscope {
 
-/// The same point in every slot of a pack; or as it is.
+/// The same point in every slot if R is a pack; else the point itself.
 template <class R, class Real>
 [[nodiscard]] DMOSCOPE_ANYWHERE Vec2<R> point_of(Vec2<Real> p) {
   return {R(p.x), R(p.y)};
@@ -28,11 +28,11 @@ template <class R, class Real>
 /// An incident triangle: its other two corners in the element's order, and its reference measure for untangling.
 template <class Real>
 struct StarTriangle {
-  static constexpr Index kMoving = 0;  // the corner that the vertex is
+  static constexpr Index kMoving = 0;  // place of the vertex among the corners
   static constexpr bool kIsTriangle = true;
   Vec2<Real> b, c;
   Real reference;
-  /// The element with the star's vertex at `p`: a point, or a pack of points where the element is one of plain numbers.
+  /// The element with the star's vertex at `p`: a point, or a pack of points if the element consists of plain numbers.
   template <class R>
   [[nodiscard]] DMOSCOPE_ANYWHERE auto with(Vec2<R> p) const {
     return formulas::Triangle<Vec2<R>>(p, point_of<R>(b), point_of<R>(c));
@@ -50,16 +50,17 @@ struct StarQuadrilateral {
   }
 };
 
-/// Everything is in units of `scale` (a power of two, so that scaling rounds nothing): the largest offset lies in [1, 2).
+/// The star of a vertex of a planar mesh, in units of `scale` (a power of two, so that scaling rounds nothing): the largest offset lies in
+/// [1, 2).
 template <class Real>
 struct Star {
   std::vector<StarTriangle<Real>> triangles;
   std::vector<StarQuadrilateral<Real>> quadrilaterals;
   Vec2<Real> box;      // width and height of the bounding box of the other vertices
-  double scale = 1.0;  // mesh units
+  double scale = 1.0;  // the star's unit, in mesh units
 };
 
-/// The elements of a star, wherever they stand.
+/// A view of a star's elements, in any memory.
 template <class Real>
 class StarView {
  public:
@@ -70,7 +71,7 @@ class StarView {
       : triangles_(triangles, triangle_count), quadrilaterals_(quadrilaterals, quadrilateral_count) {}
   [[nodiscard]] DMOSCOPE_ANYWHERE std::span<const StarTriangle<Real>> triangles() const { return triangles_; }
   [[nodiscard]] DMOSCOPE_ANYWHERE std::span<const StarQuadrilateral<Real>> quadrilaterals() const { return quadrilaterals_; }
-  /// Calls f with each triangle, then, unless told that f does not take them, with each quadrilateral.
+  /// Calls f with each triangle and, if Quadrilaterals is set, then with each quadrilateral.
   template <bool Quadrilaterals, class F>
   DMOSCOPE_ANYWHERE void for_each(F f) const {
     for (const StarTriangle<Real>& t : triangles_) f(t);
@@ -83,7 +84,7 @@ class StarView {
   std::span<const StarQuadrilateral<Real>> quadrilaterals_;
 };
 
-/// An incident tetrahedron: its other three corners, so that it is positive with the vertex as its first.
+/// An incident tetrahedron: its other three corners, in an order that makes it positive with the vertex as its first.
 template <class Real>
 struct StarTetrahedron {
   static constexpr Index kMoving = 0;
@@ -95,7 +96,7 @@ struct StarTetrahedron {
   }
 };
 /// Any other incident volume element (formulas::Hexahedron and so on), turned so that the vertex is its first corner, or the last of a
-/// pyramid: its other corners in order.
+/// pyramid. Its other corners come in order.
 template <template <class> class SolidT, std::size_t N, class Real>
 struct StarSolid {
   static constexpr Index kMoving = 0;
@@ -114,10 +115,10 @@ template <class Real>
 using StarHexahedron = StarSolid<formulas::Hexahedron, 7, Real>;
 template <class Real>
 using StarWedge = StarSolid<formulas::Wedge, 5, Real>;
-/// The vertex is a corner of its base.
+/// An incident pyramid of whose base the vertex is a corner.
 template <class Real>
 using StarPyramid = StarSolid<formulas::Pyramid, 4, Real>;
-/// The vertex is its tip.
+/// An incident pyramid whose apex is the vertex.
 template <class Real>
 struct StarTip {
   static constexpr Index kMoving = 4;
@@ -129,7 +130,7 @@ struct StarTip {
   }
 };
 
-/// The star of a vertex of a volume, in units of `scale`, its largest offset.
+/// The star of a vertex of a volume mesh, in units of `scale`, its largest offset.
 template <class Real>
 struct VolumeStar {
   std::vector<StarTetrahedron<Real>> tetrahedra;
@@ -147,14 +148,14 @@ struct VolumeStar {
   }
 };
 
-/// A list of a star's elements, wherever it stands: plain data.
+/// A list of a star's elements in any memory: plain data.
 template <class T>
 struct ListView {
   const T* data = nullptr;
   std::size_t size = 0;
 };
 
-/// The lists of a star, as plain data: what kernels for different processors take. Real: float or double.
+/// The lists of a star as plain data, for kernels of different processors. Real: float or double.
 template <class Real>
 struct PlanarLists {
   ListView<StarTriangle<Real>> simplices;
@@ -185,7 +186,7 @@ template <class Real>
 class VolumeStarView {
  public:
   VolumeStarView(const VolumeStar<Real>& star) : star_(&star) {}  // NOLINT(google-explicit-constructor): a view of it
-  /// Calls f with each tetrahedron and, unless told that f does not take them, with each other element.
+  /// Calls f with each tetrahedron and, if Others is set, then with each other element.
   template <bool Others, class F>
   void for_each(F f) const {
     for (const auto& t : star_->tetrahedra) f(t);
@@ -214,7 +215,7 @@ template <class Real>
   return {list_of(star.tetrahedra), list_of(star.hexahedra), list_of(star.wedges), list_of(star.pyramids), list_of(star.tips)};
 }
 
-/// What a star is in a frame, Plane or Space.
+/// The star's type in a frame, Plane or Space.
 template <class Frame, class Real>
 using StarIn = std::conditional_t<std::is_same_v<Frame, Plane>, Star<Real>, VolumeStar<Real>>;
 template <class Frame, class Real>

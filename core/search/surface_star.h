@@ -10,7 +10,7 @@
 
 namespace dmoscope {
 
-/// The unit vector of a x b, or `fallback` where that is none. Real: double, or a pack of it whose slots get the bits that a double gets.
+/// The unit vector of a x b, or `fallback` if that is 0. Real: double, or a pack of it whose slots get the bits that a double gets.
 template <class Real>
 [[nodiscard]] Vec3Of<Real> unit_normal_of(Vec3Of<Real> a, Vec3Of<Real> b, Vec3 fallback) {
   using scalar::select, scalar::sqrt;
@@ -21,7 +21,7 @@ template <class Real>
   return {select(has_one, unit.x, other.x), select(has_one, unit.y, other.y), select(has_one, unit.z, other.z)};
 }
 
-/// See curved_normal().
+/// The normal of curved_normal(), for double or packs of it.
 template <class Real>
 [[nodiscard]] Vec3Of<Real> curved_normal_of(Vec3Of<Real> a, Vec3Of<Real> b, Vec3 frame_normal, bool against) {
   using scalar::select;
@@ -37,7 +37,7 @@ struct SurfaceTriangle {
   static constexpr Index kMoving = 0;
   Vec3 b, c;
   double reference;
-  Vec3 fallback;         // the normal of one that is shrunk to a line
+  Vec3 fallback;         // normal of an element that is shrunk to a line
   bool against = false;  // see Curved
   template <class Real>
   [[nodiscard, gnu::always_inline]] formulas::Triangle<SurfaceVectorOf<Real>> with(SurfaceVectorOf<Real> p) const {
@@ -52,7 +52,7 @@ struct SurfaceQuadrilateral {
   Vec3 b, c, d;
   double reference;
   Vec3 fallback;
-  bool is_fixed;         // the normal, whatever the shape: see Curved
+  bool is_fixed;         // whether the normal is `normal` for any shape: see Curved
   bool against = false;  // see Curved
   template <class Real>
   [[nodiscard]] formulas::Quadrilateral<SurfaceVectorOf<Real>> with(SurfaceVectorOf<Real> p) const {
@@ -62,14 +62,14 @@ struct SurfaceQuadrilateral {
   }
 };
 
-/// In units of `scale`, its largest offset.
+/// The star of a vertex of a surface, in units of `scale`, its largest offset.
 struct SurfaceStar {
   std::vector<SurfaceTriangle> triangles;
   std::vector<SurfaceQuadrilateral> quadrilaterals;
   double scale = 1.0;
 };
 
-/// A view of one: see StarView.
+/// A view of a SurfaceStar, see StarView.
 class SurfaceStarView {
  public:
   SurfaceStarView(const SurfaceStar& star) : star_(&star) {}  // NOLINT(google-explicit-constructor): a view of it
@@ -84,7 +84,7 @@ class SurfaceStarView {
   const SurfaceStar* star_;
 };
 
-/// The lists of one: see PlanarLists.
+/// The lists of a SurfaceStar, see PlanarLists.
 struct SurfaceLists {
   ListView<SurfaceTriangle> simplices;
   ListView<SurfaceQuadrilateral> quadrilaterals;
@@ -95,7 +95,7 @@ struct SurfaceLists {
 };
 [[nodiscard]] inline SurfaceLists lists_of(const SurfaceStar& star) { return {list_of(star.triangles), list_of(star.quadrilaterals)}; }
 
-/// Fills `out`, whose vectors are reused.
+/// Gathers the star into `out`, whose vectors are reused.
 void gather_star(const MeshView<Curved>& mesh, PositionView positions, Index vertex, SurfaceStar& out);
 
 }  // namespace dmoscope

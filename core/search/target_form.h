@@ -1,8 +1,8 @@
 #pragma once
-// The mean ratio of corners that have a target, in the plane: a fraction N(p) / S(p) of the place p of a star's vertex, as RatioForm.
+// The mean ratio of corners that have a target, in the plane: a fraction N(p) / S(p) of the place p of a star's vertex, like RatioForm.
 //
 // A corner whose edges are the columns of A has the mean ratio 2 det J / |J|^2, J = K A W^-1 (FormulaSpace). Turning J or W^-1 changes
-// nothing, so W^-1 may be lower triangular and K upper triangular; and neither does their size, so that their determinants are 1.
+// nothing, so W^-1 may be lower triangular and K upper triangular; scaling changes nothing either, so their determinants are 1.
 
 #include "core/base/host_device.h"
 #include "core/quality/formulas.h"
@@ -10,7 +10,7 @@
 
 namespace dmoscope {
 
-/// What one corner is wished to be.
+/// Target of one corner.
 template <class R>
 struct CornerTarget {
   R l11, l21, l22;  // W^-1
@@ -18,10 +18,10 @@ struct CornerTarget {
   R k11, k12, k22;  // K
 };
 
-/// How many numbers a CornerTarget has in memory: where none is crossed K is left out.
+/// Number of scalars that a CornerTarget occupies in memory: K is left out if no form is crossed.
 [[nodiscard]] DMOSCOPE_ANYWHERE std::size_t target_numbers(bool crossed) { return crossed ? 7 : 4; }
 
-/// number(k): number k in memory.
+/// Reads a CornerTarget from memory. number(k): its k-th scalar.
 template <bool Crossed, class R, class Number>
 [[nodiscard]] DMOSCOPE_ANYWHERE CornerTarget<R> corner_target(Number number) {
   CornerTarget<R> t{number(0), number(1), number(2), number(3), R(1), R(0), R(1)};
@@ -33,10 +33,10 @@ template <bool Crossed, class R, class Number>
   return t;
 }
 
-/// Below this mean ratio of a corner nothing is looked for, however little its metric counts beside that of a steep one.
+/// Mean ratio of a corner below which the search stops, however little the corner's metric counts beside that of a steep one.
 inline constexpr double kLeastTargetRatio = 1e-6;
 
-/// Crossed: K is not the same along x and y, so that S has three terms of second order.
+/// Form of a corner with a target. Crossed: K differs along x and y, so that S has three terms of second order.
 template <class R, bool Crossed>
 struct TargetForm;
 
@@ -77,7 +77,7 @@ struct TargetForm<R, true> {
 
 namespace target_form {
 
-/// J of a corner whose edges are a, towards the next corner, and b, towards the previous one.
+/// Columns of J of a corner whose edges are a, towards the next corner, and b, towards the previous one.
 template <bool Crossed, class R>
 struct Columns {
   Vec2<R> first, second;
@@ -92,7 +92,7 @@ struct Columns {
   }
 };
 
-/// The mean ratio of a corner.
+/// The mean ratio of a corner, from its edges a and b.
 template <bool Crossed, class R>
 [[nodiscard]] DMOSCOPE_ANYWHERE R ratio(Vec2<R> a, Vec2<R> b, const CornerTarget<R>& t) {
   using scalar::select;
@@ -100,20 +100,20 @@ template <bool Crossed, class R>
   const R squares = dot(j.first, j.first) + dot(j.second, j.second);
   return R(2) * cross(a, b) / select(squares > R(0), squares, R(1));
 }
-/// And the metric that it makes.
+/// The metric of a corner with this mean ratio.
 template <class R>
 [[nodiscard]] DMOSCOPE_ANYWHERE R quality(R ratio, const CornerTarget<R>& t) {
   return R(1) - (R(1) - ratio) * t.steepness;
 }
 
-/// The form of a corner whose edges are a and b while the vertex is at the origin. `with_a`, `with_b`: by what factor each follows the
-/// vertex: 1 if it leads to the vertex, -1 if it comes from it, else 0. Twice the area of from, to and the vertex is the corner's
-/// determinant.
+/// The form of a corner whose edges are a and b while the vertex is at the origin. `with_a`, `with_b`: the factor by which each edge
+/// follows the vertex: 1 if it leads to the vertex, -1 if it comes from it, else 0. Twice the area of from, to and the vertex is the
+/// corner's determinant.
 template <bool Crossed, class R>
 [[nodiscard]] DMOSCOPE_ANYWHERE TargetForm<R, Crossed> form(Vec2<R> a, Vec2<R> b, R with_a, R with_b, Vec2<R> from, Vec2<R> to,
                                                             const CornerTarget<R>& t) {
   const Columns<Crossed, R> j(a, b, t);
-  const R first = t.l11 * with_a + t.l21 * with_b, second = t.l22 * with_b;  // shares of the vertex's place
+  const R first = t.l11 * with_a + t.l21 * with_b, second = t.l22 * with_b;  // factors of the vertex's place
   const R squares = first * first + second * second;
   RatioForm<R> area;
   ratio_form::set_area(area, from, to, R(2) * t.steepness);
@@ -146,11 +146,11 @@ template <bool Crossed, class R>
   return target_form::form<Crossed>(e.b, e.c, R(-1), R(-1), e.b, e.c, target);
 }
 
-/// How many corners of a quadrilateral have targets, and how many of these change with the vertex.
+/// Number of a quadrilateral's corners that have targets, and number of those that change with the vertex.
 inline constexpr std::size_t kQuadrilateralTargets = 4, kQuadrilateralTargetForms = 3;
 
-/// The forms of a quadrilateral with the vertex and b, c, d: of the corner at the vertex, at b and at d. `targets`: of these and of the
-/// corner at c.
+/// The forms of a quadrilateral with the vertex and b, c, d: of the corners at the vertex, at b and at d. `targets`: those of these three
+/// corners and of the corner at c.
 template <bool Crossed, class R>
 DMOSCOPE_ANYWHERE void target_forms_of_quadrilateral(const StarQuadrilateral<R>& q, const CornerTarget<R>* targets,
                                                      TargetForm<R, Crossed>* forms) {

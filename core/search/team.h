@@ -1,14 +1,14 @@
 #pragma once
 // A team searches a star together: one lane alone, or lanes that share the columns of the candidate grid. All lanes of a team run the same
-// code on the same values and differ only in the columns they look at, so that a team finds, bit for bit, what one lane alone finds.
+// code on the same values and differ only in the columns they look at, so that a team finds the same bits as one lane alone.
 
 #include "core/base/host_device.h"
 
 namespace dmoscope {
 
-/// One lane alone. Another team (a GPU has one of eight, for meshes too small to fill it) brings as much: kSize, a power of two; lane(), 0
-/// to kSize - 1; and exchange(value, mask), which gives each lane the value of the lane whose number differs from its own by the bits of
-/// `mask`.
+/// A team of one lane. Another team (a GPU has one of eight, for meshes too small to fill it) has the same members: kSize, a power of two;
+/// lane(), 0 to kSize - 1; and exchange(value, mask), which gives each lane the value of the lane whose number differs from its own by the
+/// bits of `mask`.
 struct Solo {
   static constexpr unsigned kSize = 1;
   [[nodiscard]] static DMOSCOPE_ANYWHERE unsigned lane() { return 0; }

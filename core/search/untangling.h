@@ -1,12 +1,12 @@
 #pragma once
-// What is maximised in a star that has inverted elements, and what such a star must keep (promise 1).
+// The objective for a star that has inverted elements, and the conditions that a place must meet in it (promise 1).
 //
-// The least Jacobian alone is not enough: it stalls where several corners hold each other, and in a hexahedron that is not far from
-// everywhere (a cube of 125, 36 of them inverted, ended with 3). So it must not fall, and what rises is a mean over all corners, in which
-// a corner that is good enough gains nothing more. Nor may the number of inverted elements rise, or a metric fall below the worst of the
-// whole mesh: where a fixed vertex makes untangling impossible, neighbours would pass the damage on for ever. For the same reason attempts
-// are limited in time: between them the sound elements of a star are raised as if the inverted ones were not there. Before all this a
-// repair brings back vertices that are far from their star: their neighbours must not follow them.
+// The least Jacobian alone is not enough: it stalls where several corners hold each other, and in a hexahedron that is nearly everywhere (a
+// cube of 125, 36 of them inverted, ended with 3). So it must not fall, and a mean over all corners rises, in which a corner that is good
+// enough gains nothing more. Nor may the number of inverted elements rise, or a metric fall below the worst of the whole mesh: otherwise,
+// if a fixed vertex makes untangling impossible, neighbours would pass the damage on for ever. For the same reason attempts are limited in
+// time: between them the sound elements of a star are raised as if the inverted ones were not there. Before all this a repair brings back
+// vertices that are far from their star: their neighbours must not follow them.
 
 #include <cstdint>
 #include <limits>
@@ -20,16 +20,17 @@ namespace dmoscope {
 
 /// How the visits of an iteration treat stars with inverted elements.
 struct Untangling {
-  /// Whether nothing moves but vertices of inverted elements that make all of their star sound, its least metric at least kRepaired.
+  /// Whether only vertices of inverted elements move, and only if that makes all of their star sound, with a least metric of at least
+  /// kRepaired.
   bool repair = false;
   /// Whether sound elements of such a star may get worse, though no more of them inverted, for the sake of the inverted ones; else the
   /// sound ones are raised and no inverted one may get worse.
   bool attempt = true;
-  /// The least metric of the elements that can move when the iteration began: no element may fall below it, or below what its star had.
+  /// The least metric of the movable elements at the begin of the iteration: no element may fall below it, or below the least of its star.
   double floor = -std::numeric_limits<double>::infinity();
   static constexpr double kRepaired = 0.2;
-  /// Whether an element that is inverted inside alone (see validity.h) is turned for the sake of it: in an attempt, and none is looked for
-  /// in a mesh without inverted elements.
+  /// Whether elements that are inverted inside alone (see validity.h) count as inverted: in an attempt. A mesh without inverted elements is
+  /// not searched for such.
   [[nodiscard]] DMOSCOPE_ANYWHERE bool looks_inside() const noexcept {
     return attempt && !repair && floor > -std::numeric_limits<double>::infinity();
   }
@@ -46,7 +47,7 @@ class UntanglingMean {
     sum_ += scalar::min(jacobian / reference, kEnough);
     ++count_;
   }
-  /// `other`: of other elements.
+  /// Adds the corners of other elements.
   DMOSCOPE_ANYWHERE void add(const UntanglingMean& other) {
     sum_ += other.sum_;
     count_ += other.count_;
@@ -58,8 +59,8 @@ class UntanglingMean {
   int count_ = 0;
 };
 
-/// A planar star may come in the order of the mesh's elements or triangles first: what is summed over its elements is summed for triangles
-/// and for quadrilaterals apart, so that it has the same bits. Which of the two.
+/// Part of a star's sums that an element belongs to: 0 for triangles, 1 for quadrilaterals. A planar star may come in the order of the
+/// mesh's elements or triangles first; sums over triangles and quadrilaterals apart have the same bits in both.
 template <class Element>
 inline constexpr unsigned kPartOfSum = requires {
   Element::kIsTriangle;
@@ -67,7 +68,7 @@ inline constexpr unsigned kPartOfSum = requires {
 ? 0 : 1;
 
 /// Smallest corner Jacobians of an element: of all its corners, and of those that change with corner `moving`. Calls take(J) with each of
-/// the latter (a planar element's least, as one).
+/// the latter (with the least of a planar element).
 template <class V, class Take>
 [[nodiscard]] DMOSCOPE_ANYWHERE formulas::WholeAndAround<double> corner_jacobians(const formulas::Triangle<V>& t, Index /*moving*/,
                                                                                   Take take) {
@@ -97,8 +98,7 @@ template <class V, class Ideal, std::size_t N, class Corners, class Take>
   return s.least_whole_and_around(moving, [](V, V, V, double jacobian) { return jacobian; });
 }
 
-/// The mean of the other corners of a star's elements: a vertex that lies far from its star finds back there, where no grid around it
-/// reaches.
+/// The mean of the other corners of a star's elements: a place for a vertex that lies far from its star, which no grid around it reaches.
 template <class Point>
 class MeanOfCorners {
  public:
@@ -126,7 +126,7 @@ class MeanOfCorners {
     for (const Point& p : element.base) add(p);
   }
   [[nodiscard]] DMOSCOPE_ANYWHERE Point value() const { return count_ > 0.0 ? times(sum_, 1.0 / count_) : Point{}; }
-  /// `other`: of other elements.
+  /// Adds the corners of other elements.
   DMOSCOPE_ANYWHERE void add(const MeanOfCorners& other) {
     sum_ = sum_ + other.sum_;
     count_ += other.count_;
@@ -141,7 +141,7 @@ class MeanOfCorners {
   double count_ = 0.0;
 };
 
-/// Where a search for a better place of a tangled star's vertex looks first.
+/// Start of the search for a better place of a tangled star's vertex.
 template <class Point, class StarT>
 [[nodiscard]] DMOSCOPE_ANYWHERE Point middle_of(const StarT& star) {
   MeanOfCorners<Point> parts[2];
@@ -150,7 +150,7 @@ template <class Point, class StarT>
   return parts[0].value();
 }
 
-/// Which elements of a star are inverted where its vertex stands: the first 64 are remembered, others looked at again.
+/// Inverted elements of a star with its vertex in the present place: the first 64 are remembered, others are evaluated again.
 class InvertedSet {
  public:
   DMOSCOPE_ANYWHERE void add(int element, bool inverted) {
@@ -164,14 +164,13 @@ class InvertedSet {
   std::uint64_t bits_ = 0;
 };
 
-/// The worth of a star with its vertex at a place. Where no corner that changes with the vertex is inverted: the least metric, positive.
-/// Else in a repair: the least Jacobian, mapped into (-1, 0]; for simplices it has a single maximum. Else at an allowed place: in an
-/// attempt the mean, mapped into (-1, 0]; without one (least metric of the sound elements - 1) / 2, less the number of inverted ones.
-/// Elsewhere: kForbidden.
-///   allowed in an attempt: no more inverted elements, the least Jacobian not below that of the own place, no metric below the floor;
-///   without one: what is sound stays sound, and the least metric of all does not fall.
-/// Where corners tell of nothing but elements are inverted inside alone, and the rule looks there: the least metric, less 2 for each of
-/// them; allowed where no corner is inverted and no metric is below the floor.
+/// The worth of a star with its vertex at a place. If no corner that changes with the vertex is inverted, it is the least metric, which is
+/// positive. Else in a repair: the least Jacobian, mapped into (-1, 0]; for simplices it has a single maximum. Else at an allowed place: in
+/// an attempt the mean, mapped into (-1, 0]; without one (least metric of the sound elements - 1) / 2, less the number of inverted ones. At
+/// other places: kForbidden. Allowed in an attempt are places with no more inverted elements, no lesser least Jacobian and no metric below
+/// the floor; without one, places that leave sound elements sound and do not lower the least metric of all. If elements are inverted only
+/// inside, and the rule looks there: the least metric, less 2 for each of them; allowed are places without inverted corners and without a
+/// metric below the floor.
 template <Metric M, class StarT, class Point>
 class UntanglingObjective {
  public:
@@ -194,7 +193,8 @@ class UntanglingObjective {
     floor_ = rule_.attempt ? scalar::min(quality_, rule_.floor) : quality_;
   }
 
-  /// Is an element inverted where the vertex stands now, by a corner that changes with it, or inside where the rule looks there?
+  /// Whether an element is inverted with the vertex in its present place: by a corner that changes with it, or inside if the rule looks
+  /// there.
   [[nodiscard]] DMOSCOPE_ANYWHERE bool tangled() const { return inside_ || is_tangled_at_corners(); }
 
   [[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE double operator()(Point p) const {
@@ -214,7 +214,7 @@ class UntanglingObjective {
  private:
   static constexpr bool kOthers = formulas::kDefinedForOthers<M, Point>;
   static constexpr double kMost = std::numeric_limits<double>::max();
-  /// From (-infinity, 0] to (-1, 0].
+  /// Maps (-infinity, 0] to (-1, 0].
   static DMOSCOPE_ANYWHERE double bounded(double a) { return a / (1.0 - a); }
 
   [[nodiscard]] DMOSCOPE_ANYWHERE bool is_tangled_at_corners() const { return !(jacobian_ > 0.0 && quality_ > 0.0); }
@@ -234,11 +234,11 @@ class UntanglingObjective {
     return allowed ? least - 2.0 * inverted : kForbidden;
   }
 
-  /// What the star's Jacobians say of a place.
+  /// Findings from the Jacobians of a star with its vertex at a place.
   struct Jacobians {
-    double least = kMost, mean = 0.0;  // over their references
-    int count = 0;                     // of inverted elements
-    bool allowed = true;               // as far as these tell; where not, no more is known
+    double least = kMost, mean = 0.0;  // relative to their references
+    int count = 0;                     // number of inverted elements
+    bool allowed = true;               // whether the Jacobians allow the place; if not, nothing else is known
   };
   [[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE Jacobians jacobians(Point p) const {
     Jacobians found;
@@ -262,17 +262,17 @@ class UntanglingObjective {
     return found;
   }
 
-  /// And what the metrics say. They cost most: in an attempt those of sound elements are needed only where all are sound, or where the
-  /// metric does not tell which are.
+  /// Findings from the metrics. They cost most: in an attempt those of sound elements are needed only if all are sound, or if the metric's
+  /// sign does not tell which are.
   struct Metrics {
-    double least = kMost, sound = kMost;  // of all that were needed, and of the sound elements
+    double least = kMost, sound = kMost;  // least of all that were needed, and of the sound elements
     bool allowed = true;
   };
   [[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE Metrics judge(Point p, bool all) const {
     Metrics found;
     constexpr bool kTells = formulas::kSignTellsInversion<M, Point>;
     const bool of_all = all || !rule_.attempt || !kTells;
-    const bool known = all && rule_.attempt && kTells;  // no corner around is inverted, and who asks needs no more
+    const bool known = all && rule_.attempt && kTells;  // no corner around is inverted, and the caller needs no more
     star_.template for_each<kOthers>([&](const auto& each) {
       if (!found.allowed) return;
       const auto shape = each.with(p);
@@ -298,7 +298,7 @@ class UntanglingObjective {
   Untangling rule_;
   InvertedSet inverted_;
   int count_ = 0;
-  double jacobian_ = kMost, quality_ = kMost;  // least, where the vertex stands: the former over its reference
+  double jacobian_ = kMost, quality_ = kMost;  // least values with the vertex in its present place, the Jacobian over its reference
   double floor_ = 0.0;
   bool inside_ = false;
 };

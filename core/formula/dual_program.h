@@ -1,6 +1,6 @@
 #pragma once
-// Runs a formula's program on numbers that carry derivatives (core/numeric/dual.h, second_dual.h), one element at a time, and on plain
-// numbers with the same bits.
+// Evaluation of a formula's program on numbers that carry derivatives (core/numeric/dual.h, second_dual.h), one element at a time, and on
+// plain numbers with the same bits.
 
 #include <span>
 #include <type_traits>
@@ -15,7 +15,7 @@ namespace dmoscope {
 
 namespace dual_program {
 
-/// f(a), with its first and second derivative there.
+/// Applies a function to a by the chain rule: `f`, `slope` and `bend` are its value, first and second derivative there.
 template <class Gradient>
 [[nodiscard]] DualOf<Gradient> through(const DualOf<Gradient>& a, double f, double slope, double /*bend*/) {
   return a.through(f, slope);
@@ -25,13 +25,13 @@ template <std::size_t N>
   return a.through(f, slope, bend);
 }
 
-/// The logarithm of what is above 0.
+/// The logarithm of a positive number.
 template <class R>
 [[nodiscard]] R logarithm(const R& a) {
   return through(a, elementary::logarithm(a.value), 1.0 / a.value, -1.0 / (a.value * a.value));
 }
 
-/// An operation on numbers with derivatives. Where an operation has a kink, the derivatives are those of the branch that it takes.
+/// An operation on numbers with derivatives. At a kink, the derivatives are those of the branch that it takes.
 template <Operation O, class R>
 [[nodiscard]] R apply(const R& a, [[maybe_unused]] const R& b, [[maybe_unused]] const R& c) {
   [[maybe_unused]] const double x = a.value;
@@ -54,8 +54,8 @@ template <Operation O, class R>
 
 }  // namespace dual_program
 
-/// The result of a program of FormulaUse::Elements. R: double, DualOf or SecondDual. given(input): its number, as R. `room`: what it works
-/// in, kept from one call to the next.
+/// The result of a program of FormulaUse::Elements. R: double, DualOf or SecondDual. given(input): its number, as R. `room`: working
+/// memory, kept from one call to the next.
 template <class R, class Given>
 [[nodiscard]] R run_program(const FormulaProgram& program, const Given& given, std::vector<R>& room) {
   const std::size_t uniforms = program.uniforms;

@@ -88,9 +88,9 @@ void ElementNumbers::require_whole() const {
   if (only_corners()) throw NoSuchNumber{"has no shape of its own in a target's space, where its corners alone are known"};
 }
 
-// Vectors.
+// --- Vectors ---
 
-/// of(i): component i.
+/// Vector of `count` components; of(i): component i.
 template <class Of>
 ElementNumbers::Vector ElementNumbers::each(int count, const Of& of) {
   Vector c{{}, count};
@@ -139,7 +139,7 @@ ElementNumbers::Vector ElementNumbers::raw_edge(Index from, Index to) {
 ElementNumbers::Vector ElementNumbers::stretched(const Vector& a) {
   Vector result{{}, a.count};
   for (std::size_t row = 0; static_cast<int>(row) < a.count; ++row)
-    for (std::size_t column = row; static_cast<int>(column) < a.count; ++column) {  // upper triangular
+    for (std::size_t column = row; static_cast<int>(column) < a.count; ++column) {  // upper triangular matrix
       const Number part = builder_.multiply(
           builder_.input({FormulaInput::What::Stretch, 0, static_cast<std::uint8_t>(row), static_cast<std::uint8_t>(column)}),
           a.at[column]);
@@ -148,7 +148,7 @@ ElementNumbers::Vector ElementNumbers::stretched(const Vector& a) {
   return result;
 }
 
-/// The edges times the target's matrix of the corner.
+/// Multiplies the edges by the target's matrix of the corner.
 std::array<ElementNumbers::Vector, 3> ElementNumbers::targeted(Index corner, const std::array<Vector, 3>& edges) {
   const auto n = static_cast<std::size_t>(dimension());
   std::array<Vector, 3> result{};
@@ -171,7 +171,7 @@ ElementNumbers::Vector ElementNumbers::place(Index corner) {
     return place;
   }
   const Vector nowhere{{builder_.constant(0.0), builder_.constant(0.0), builder_.constant(0.0)}, dimension()};
-  if (corner == 0) return nowhere;  // relative to the first corner
+  if (corner == 0) return nowhere;  // places are relative to the first corner
   if (space_ == FormulaSpace::Stretched) return stretched(raw_edge(0, corner));
   std::array<Vector, 3> edges{};
   for (Index i = 1; i < corner_count(); ++i) edges[i - 1] = raw_edge(0, i);
@@ -195,7 +195,7 @@ ElementNumbers::Vector ElementNumbers::edge(Index from, Index to) {
   return subtract(place(to), place(from));
 }
 
-// Corner by corner.
+// --- Numbers of one corner ---
 
 Number ElementNumbers::jacobian_of(const std::array<Vector, 3>& edges) {
   return dimension() == 2 ? cross_in_plane(edges[0], edges[1]) : determinant_of(edges[0], edges[1], edges[2]);
@@ -213,7 +213,7 @@ ElementNumbers::Corner ElementNumbers::corner(std::size_t at) {
 }
 
 std::array<ElementNumbers::Vector, 3> ElementNumbers::jacobian_matrix(std::size_t at) {
-  std::array<Vector, 3> a = corner(is_simplex() ? 0 : at).edges;  // all corners of a simplex have the same, but for turns
+  std::array<Vector, 3> a = corner(is_simplex() ? 0 : at).edges;  // corners of a simplex have equal edges but for rotations
   const auto constant = [this](double value) { return builder_.constant(value); };
   const auto twice = [&](const Vector& v) { return add(v, v); };
   switch (kind_) {
@@ -270,11 +270,11 @@ Number ElementNumbers::adjugate_norm(std::size_t at) {
 Number ElementNumbers::singular_value(std::size_t at, int which) {
   ProgramBuilder& b = builder_;
   const Number det = b.absolute(determinant(at)), square = squared_norm(at);
-  if (dimension() == 2) {  // their squares have the sum |T|^2, and their product is |det T|
+  if (dimension() == 2) {  // the squares have the sum |T|^2, and the product of the values is |det T|
     const Number greatest = b.times(0.5, b.add(b.root(b.add(square, b.times(2.0, det))), b.root(b.subtract(square, b.times(2.0, det)))));
     return which == 0 ? greatest : b.divide(det, greatest);
   }
-  // The eigenvalues of T^T T by the angle of its characteristic polynomial.
+  // Eigenvalues of T^T T by the angle of its characteristic polynomial.
   const auto t = jacobian_matrix(at);
   std::array<std::array<Number, 3>, 3> c{};
   const Number third = b.times(1.0 / 3.0, square);
@@ -284,7 +284,7 @@ Number ElementNumbers::singular_value(std::size_t at, int which) {
   const Number diagonal = b.add(b.add(product(0, 0), product(1, 1)), product(2, 2));
   const Number off = b.add(b.add(product(0, 1), product(0, 2)), product(1, 2));
   const Number p = b.root(b.times(1.0 / 6.0, b.add(diagonal, b.times(2.0, off))));
-  const auto minor = [&](std::size_t i, std::size_t j) {  // of the first row
+  const auto minor = [&](std::size_t i, std::size_t j) {  // minor of the first row
     return b.subtract(b.multiply(c[1][i], c[2][j]), b.multiply(c[1][j], c[2][i]));
   };
   const Number determinant_c =
@@ -315,7 +315,7 @@ Number ElementNumbers::corner_angle(std::size_t at) {
   return builder_.select(builder_.less(c.jacobian, builder_.constant(0.0)), builder_.subtract(builder_.constant(2.0 * pi), angle), angle);
 }
 
-// Of the whole element.
+// --- Numbers of the whole element ---
 
 Number ElementNumbers::measure() {
   require_whole();
@@ -324,7 +324,7 @@ Number ElementNumbers::measure() {
   return volume();
 }
 
-/// Of a cell with faces between planes and saddles: each face by the mean of its two halvings, seen from the first corner.
+/// Volume of an element whose faces may be saddles: each face counts as the mean of its two halvings, seen from the first corner.
 Number ElementNumbers::volume() {
   if (kind_ == ElementKind::Tetrahedron) return builder_.times(1.0 / 6.0, corner(0).jacobian);
   Number sum = builder_.constant(0.0);
@@ -375,7 +375,7 @@ Number ElementNumbers::extreme_angle(Operation of) {
     return extreme;
   }
   require_whole();
-  if (kind_ == ElementKind::Triangle) {  // the largest of u . v has the least angle, the least the greatest: one angle to compute
+  if (kind_ == ElementKind::Triangle) {  // the largest u . v has the least angle and the least the greatest: only one angle to compute
     const Operation opposite = of == Operation::Minimum ? Operation::Maximum : Operation::Minimum;
     Number extreme = 0;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -416,7 +416,7 @@ Number ElementNumbers::scaled_jacobian_inside(Index moving) {
   if (kind_ != ElementKind::Hexahedron && kind_ != ElementKind::Wedge)
     throw NoSuchNumber{"has its least scaled Jacobian at a corner: 'scaled_jacobian_inside' is of hexahedra and wedges"};
   struct Coefficient {
-    std::optional<Number> determinants{}, lengths{};  // sums
+    std::optional<Number> determinants{}, lengths{};  // sums over the triples of edges
   };
   std::array<Coefficient, 27> coefficients{};
   const auto take = [&](std::size_t at, const Vector& a, const Vector& b, const Vector& c) {
@@ -424,7 +424,7 @@ Number ElementNumbers::scaled_jacobian_inside(Index moving) {
     join(coefficients[at].determinants, determinant_of(a, b, c));
     join(coefficients[at].lengths, builder_.multiply(builder_.multiply(length(a), length(b)), length(c)));
   };
-  if (kind_ == ElementKind::Hexahedron) {  // (p, q, r) at 9 p + 3 q + r; edges by the two other coordinates, the lower one first
+  if (kind_ == ElementKind::Hexahedron) {  // (p, q, r) at 9 p + 3 q + r; edges by their two other coordinates, the lower first
     const std::array x{edge(0, 1), edge(3, 2), edge(4, 5), edge(7, 6)}, y{edge(0, 3), edge(1, 2), edge(4, 7), edge(5, 6)},
         z{edge(0, 4), edge(1, 5), edge(3, 7), edge(2, 6)};
     for (std::size_t ends = 0; ends < 64; ++ends) {
@@ -432,7 +432,7 @@ Number ElementNumbers::scaled_jacobian_inside(Index moving) {
       take(9 * (end(0) + end(1)) + 3 * (end(2) + end(3)) + end(4) + end(5), x[end(2) + 2 * end(4)], y[end(0) + 2 * end(5)],
            z[end(1) + 2 * end(3)]);
     }
-  } else {  // along the edges between the triangles, where its least stands: (edge, q) at 3 edge + q
+  } else {  // on the edges between the triangles, where the least is: (edge, q) at 3 edge + q
     const auto side = [this](Index triangle, Index i) { return edge(3 * triangle + i % 3, 3 * triangle + (i + 1) % 3); };
     for (Index i = 0; i < 3; ++i)
       for (Index first = 0; first < 2; ++first)

@@ -1,6 +1,6 @@
 #pragma once
-// What formulas know of an element: its corners, edges, angles, Jacobians, ..., as numbers of a program. All are of the space of the target
-// where there is one.
+// Numbers of an element that formulas use: corners, edges, angles, Jacobians, ..., as numbers of a program. With a target, all are measured
+// in its space.
 
 #include <array>
 #include <cstdint>
@@ -11,14 +11,14 @@
 
 namespace dmoscope {
 
-/// What is measured. Plain: the element as it stands. Target: its edges at each corner against those of a target (A W^-1, Knupp), whose
-/// corner Jacobian is the ideal one. Stretched: the element in a space that a metric tensor makes of its own.
+/// Space in which formulas measure an element. Plain: the element as it stands. Target: its edges at each corner relative to those of a
+/// target (A W^-1, Knupp), whose corner Jacobian is the ideal one. Stretched: the element in a space given by a metric tensor.
 enum class FormulaSpace : std::uint8_t { Plain, Target, Stretched };
 inline constexpr std::size_t kFormulaSpaces = 3;
 
-/// An element has no such number.
+/// Reports that an element has no such number.
 struct NoSuchNumber {
-  const char* why;  // "has no area"
+  const char* why;  // reason, such as "has no area"
 };
 
 class ElementNumbers {
@@ -38,15 +38,15 @@ class ElementNumbers {
 
   [[nodiscard]] int dimension() const noexcept { return info(kind_).dimension; }
   [[nodiscard]] Index corner_count() const noexcept { return info(kind_).corners; }
-  /// The corners where as many edges meet as there are dimensions: all but a pyramid's tip.
+  /// Number of corners where as many edges meet as there are dimensions: all but a pyramid's apex.
   [[nodiscard]] std::size_t frame_count() const noexcept;
-  /// Does the Jacobian of such a corner change with the element's corner `moving`?
+  /// Whether the Jacobian of such a corner changes with the element's corner `moving`.
   [[nodiscard]] bool depends_on(std::size_t frame, Index moving) const;
   [[nodiscard]] std::span<const std::pair<Index, Index>> edges() const noexcept;
 
-  // Vectors. A corner's place is relative to what all corners are given relative to.
+  // --- Vectors. Places of corners are relative to the common origin. ---
   [[nodiscard]] Vector place(Index corner);
-  [[nodiscard]] Vector origin();  // of the places: in the mesh's coordinates, of a planar one those of its plane
+  [[nodiscard]] Vector origin();  // origin of the places, in the mesh's coordinates or, in a planar mesh, those of its plane
   [[nodiscard]] Vector edge(Index from, Index to);
   template <class Of>
   [[nodiscard]] Vector each(int count, const Of& of);
@@ -58,21 +58,21 @@ class ElementNumbers {
   [[nodiscard]] Vector cross_in_space(const Vector& a, const Vector& b);
   [[nodiscard]] Number length(const Vector& a) { return builder_.root(dot(a, a)); }
 
-  // Corner by corner.
+  // --- Numbers of one corner ---
   [[nodiscard]] Corner corner(std::size_t frame);
-  /// The columns of the corner's Jacobian against the ideal or the target: A W^-1.
+  /// The columns of the corner's Jacobian relative to the ideal element or the target: A W^-1.
   [[nodiscard]] std::array<Vector, 3> jacobian_matrix(std::size_t frame);
   [[nodiscard]] Number determinant(std::size_t frame);
   [[nodiscard]] Number squared_norm(std::size_t frame);
-  /// Singular value 0 (greatest) to dimension() - 1.
+  /// Singular value of the corner's Jacobian, from 0 (the greatest) to dimension() - 1.
   [[nodiscard]] Number singular_value(std::size_t frame, int which);
-  /// The norm of the adjugate.
+  /// The norm of the adjugate of the corner's Jacobian.
   [[nodiscard]] Number adjugate_norm(std::size_t frame);
-  /// The determinant against that of an ideal element of the mesh's mean measure, or of the target.
+  /// The corner's determinant over that of an ideal element of the mesh's mean measure, or over that of the target.
   [[nodiscard]] Number relative_size(std::size_t frame);
   [[nodiscard]] Number corner_angle(std::size_t frame);
 
-  // Of the whole element; throw NoSuchNumber.
+  // --- Numbers of the whole element; all throw NoSuchNumber. ---
   [[nodiscard]] Number measure();
   [[nodiscard]] Number surface();
   [[nodiscard]] Number dihedral_angle(std::size_t edge);
@@ -81,14 +81,15 @@ class ElementNumbers {
   [[nodiscard]] Number inradius();
   [[nodiscard]] Number circumradius();
   [[nodiscard]] Number mean_measure() { return builder_.input({FormulaInput::What::MeanMeasure, 0, 0, 0}); }
-  /// Of a hexahedron or wedge: above 0 it is valid everywhere, and this no more than the scaled Jacobian anywhere in it; of a wedge, across
-  /// which the determinant is linear, on the edges between its triangles. The determinant is a sum of coefficients times Bernstein
-  /// polynomials, each coefficient a mean of determinants of triples of edges, one along each coordinate. The same means of the products of
-  /// these edges' lengths make a sum that is no less than the product of the lengths of the Jacobian's columns, for each is a mean of
-  /// edges. No polynomial is negative, so that determinant over sum is at least the least coefficient over its own mean of products, which
-  /// is the number; at corners these are the scaled Jacobian. Of those that change with `moving` (kNoIndex: all).
+  /// Lower bound of the scaled Jacobian in a hexahedron or wedge; if it is above 0, the element is valid everywhere. For a wedge, across
+  /// which the determinant is linear, it is taken on the edges between its triangles. The determinant is a sum of coefficients times
+  /// Bernstein polynomials, each coefficient a mean of determinants of triples of edges, one along each coordinate. The same means of the
+  /// products of these edges' lengths make a sum that is no less than the product of the lengths of the Jacobian's columns, for each is a
+  /// mean of edges. No polynomial is negative, so that determinant over sum is at least the least coefficient over its own mean of
+  /// products, which is the number; at corners these are the scaled Jacobian. Only coefficients that change with `moving` count (kNoIndex:
+  /// all).
   [[nodiscard]] Number scaled_jacobian_inside(Index moving);
-  /// The least Jacobian of the corners as they stand, of those that change with `moving` (kNoIndex: all).
+  /// The least corner Jacobian of the element as it stands, among corners that change with `moving` (kNoIndex: all).
   [[nodiscard]] Number smallest_jacobian(Index moving);
 
  private:
@@ -101,7 +102,7 @@ class ElementNumbers {
   [[nodiscard]] std::array<Vector, 3> targeted(Index corner, const std::array<Vector, 3>& edges);
   [[nodiscard]] Number jacobian_of(const std::array<Vector, 3>& edges);
   [[nodiscard]] Number volume();
-  /// The least angle (Minimum) or the greatest (Maximum).
+  /// The least (Minimum) or greatest (Maximum) angle.
   [[nodiscard]] Number extreme_angle(Operation of);
   [[nodiscard]] Number determinant_of(const Vector& a, const Vector& b, const Vector& c) { return dot(cross_in_space(a, b), c); }
 
@@ -110,7 +111,7 @@ class ElementNumbers {
   FormulaSpace space_;
 };
 
-/// The measure of an ideal element whose edges have the length 1.
+/// The measure of an ideal element whose edges have length 1.
 [[nodiscard]] double ideal_measure(ElementKind kind);
 
 }  // namespace dmoscope

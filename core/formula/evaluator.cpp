@@ -4,7 +4,7 @@
 
 namespace dmoscope {
 
-// Defined in the files of these names.
+// Kernels, each defined in the file of its name.
 void formula_kernel_baseline(const FormulaRun<float>& run);
 void formula_kernel_baseline(const FormulaRun<double>& run);
 void formula_kernel_avx2(const FormulaRun<float>& run);

@@ -1,5 +1,6 @@
 #pragma once
-// Evaluates programs for many places or elements at once, with the vector instructions of the processor. The same bits for any of them.
+// Evaluation of programs for many places or elements at once, with the vector instructions of the processor. The result does not depend on
+// them.
 
 #include <cstddef>
 #include <vector>
@@ -9,30 +10,30 @@
 
 namespace dmoscope {
 
-/// How many values a register has.
+/// Number of values in a register.
 inline constexpr std::size_t kFormulaBatch = 64;
 
-/// What a kernel needs to know. Real: float or double.
+/// Arguments of a kernel. Real: float or double.
 template <class Real>
 struct FormulaRun {
   const FormulaStep* steps;
   std::size_t step_count;
-  const Real* uniforms;  // the numbers of operands below `uniform_count`
+  const Real* uniforms;  // values of operands below `uniform_count`
   std::size_t uniform_count;
-  Real* registers;    // kFormulaBatch values each, aligned for any pack
-  std::size_t count;  // of values, up to kFormulaBatch
+  Real* registers;    // registers of kFormulaBatch values each, aligned for any pack
+  std::size_t count;  // number of values, up to kFormulaBatch
 };
 template <class Real>
 using FormulaKernel = void (*)(const FormulaRun<Real>& run);
-/// Runs the steps. `level`: one of supported_simd_levels().
+/// The kernel that runs the steps. `level`: one of supported_simd_levels().
 template <class Real>
 [[nodiscard]] FormulaKernel<Real> formula_kernel(SimdLevel level);
 
-/// Numbers aligned for any pack.
+/// Array of numbers, aligned for any pack.
 template <class Real>
 class AlignedNumbers {
  public:
-  /// Room for so many; what was there is lost where there was less.
+  /// Makes room for `count` numbers; the contents are lost if it grows.
   Real* reserve(std::size_t count) {
     if (room_.size() < count + kSlack) room_.resize(count + kSlack);
     const auto address = reinterpret_cast<std::uintptr_t>(room_.data());
@@ -44,15 +45,15 @@ class AlignedNumbers {
   std::vector<Real> room_;
 };
 
-/// The uniform numbers of a program for one element: those given, constants, and what follows from these. given(input): its number.
-/// `uniforms`: program.uniforms of them.
+/// Computes the uniform numbers of a program for one element: those given, constants, and what follows from these. given(input): its
+/// number. `uniforms`: room for program.uniforms numbers.
 template <class Real, class Given>
 void prepare(const FormulaProgram& program, const Given& given, Real* uniforms);
-/// Its steps with uniform numbers alone.
+/// Runs the program's steps on uniform numbers.
 template <class Real>
 void run_beforehand(const FormulaProgram& program, Real* uniforms);
 
-/// The result of a run: `count` values, or one for all.
+/// The result of a run: `count` values, or one value for all.
 template <class Real>
 class FormulaResult {
  public:
@@ -62,7 +63,7 @@ class FormulaResult {
                     : registers + static_cast<std::size_t>(program.result - program.uniforms) * kFormulaBatch),
         stride_(program.result < program.uniforms ? 0 : 1) {}
   [[nodiscard]] Real operator[](std::size_t i) const { return values_[i * stride_]; }
-  /// Of Places, where each place has a value of its own.
+  /// Values of places, if each place has one of its own.
   [[nodiscard]] const Real* values() const { return values_; }
 
  private:

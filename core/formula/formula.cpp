@@ -22,9 +22,9 @@ struct Formula::Pieces {
 
 namespace {
 
-constexpr std::size_t kCorners = 9;  // of any element, and none
+constexpr std::size_t kCorners = 9;  // corners that may move: up to 8, and none
 
-/// One blank where there is a choice, none around brackets and commas.
+/// Formula in one line: a blank wherever there may be one, except around brackets and commas.
 std::string one_line(std::string_view text) {
   std::string line;
   const auto tokens = tokens_of(text);
@@ -97,8 +97,8 @@ const Formula::Slot& Formula::lowered(ElementKind kind, FormulaSpace space, Form
   return slot;
 }
 
-/// Every kind that it could be for: what is wrong with it is found here. Of a formula that is for none, what is wrong for all is said
-/// rather than what is of one kind.
+/// Lowers the formula for every kind to find its errors. If it fits no kind, an error that concerns all kinds is preferred to one of a
+/// single kind.
 void Formula::examine() {
   std::optional<FormulaError> first;
   bool any = false, of_kind = false;

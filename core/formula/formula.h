@@ -1,5 +1,5 @@
 #pragma once
-// A metric that a person wrote: read, understood, and ready to be evaluated.
+// A metric defined by a formula: parsed, checked, and ready to be evaluated.
 
 #include <memory>
 #include <span>
@@ -11,37 +11,36 @@
 
 namespace dmoscope {
 
-/// What a formula is for elements of the kinds that it makes sense for. Immutable; programs are made when they are first asked for, by any
-/// thread.
+/// A parsed formula and its programs, for all kinds of elements that it fits. Immutable; programs are made on first use, by any thread.
 class Formula {
  public:
-  /// Throws FormulaError.
+  /// Parses and checks a formula. Throws FormulaError.
   explicit Formula(std::string_view text);
   Formula(const Formula&) = delete;
   Formula& operator=(const Formula&) = delete;
   ~Formula();
 
-  /// In one line, without comments; means the same.
+  /// The formula in one line, without comments; its meaning is unchanged.
   [[nodiscard]] const std::string& text() const noexcept { return text_; }
   [[nodiscard]] const std::string& title() const noexcept { return syntax_.title; }  // may be empty
-  /// For which it makes sense, in a space.
+  /// Kinds of elements that the formula fits in a space.
   [[nodiscard]] KindSet kinds(FormulaSpace space = FormulaSpace::Plain) const;
-  /// Why not for a kind; empty where it does.
+  /// Reason why it does not fit a kind; empty if it does.
   [[nodiscard]] std::string why_not(ElementKind kind, FormulaSpace space) const;
   /// Names of the fields that it reads, in the order of FormulaInput::index.
   [[nodiscard]] const std::vector<std::string>& fields() const noexcept { return fields_; }
-  /// Does it stay when the mesh is made larger or smaller? For elements of a kind, or of all that it is for.
+  /// Whether its value stays when the mesh is scaled, for elements of a kind, or of all kinds that it fits.
   [[nodiscard]] bool scale_free(ElementKind kind) const noexcept { return !contains(with_unit_, kind); }
   [[nodiscard]] bool scale_free() const noexcept { return with_unit_ == 0; }
-  [[nodiscard]] const std::string& scale_note() const noexcept { return scale_note_; }  // why not
-  /// Does it read fields, whose unit nobody knows?
+  [[nodiscard]] const std::string& scale_note() const noexcept { return scale_note_; }  // reason why it is not scale-free
+  /// Whether it reads fields, whose unit is unknown.
   [[nodiscard]] bool uses_fields() const noexcept { return !fields_.empty(); }
-  /// Does it change when the mesh is moved?
+  /// Whether its value changes when the mesh is moved.
   [[nodiscard]] bool uses_place() const noexcept { return uses_place_; }
 
-  /// The smooth numbers that it is the least of, for a kind of kinds(space). See lower_pieces().
+  /// The smooth pieces whose least is the formula, for a kind of kinds(space). See lower_pieces().
   [[nodiscard]] std::span<const FormulaPiece> pieces(ElementKind kind, FormulaSpace space) const;
-  /// For a kind of kinds(space). See FormulaProgram.
+  /// The program for a kind of kinds(space). See FormulaProgram.
   [[nodiscard]] const FormulaProgram& program(ElementKind kind, FormulaSpace space, FormulaUse use, Index moving) const;
 
  private:
@@ -55,11 +54,11 @@ class Formula {
   FormulaSyntax syntax_;
   std::string text_;
   std::vector<std::string> fields_;
-  KindSet with_unit_ = 0;  // of the kinds it is for: for which it changes with the unit of length
+  KindSet with_unit_ = 0;  // kinds for which its value changes with the unit of length
   bool uses_place_ = false;
   std::string scale_note_;
   std::unique_ptr<Slot[]> slots_;
-  std::unique_ptr<Pieces[]> pieces_;  // by space and kind
+  std::unique_ptr<Pieces[]> pieces_;  // pieces by space and kind
 };
 
 }  // namespace dmoscope

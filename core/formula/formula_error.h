@@ -1,5 +1,5 @@
 #pragma once
-// What is wrong with a formula, and where.
+// Errors in formulas, with their place.
 
 #include <cstddef>
 #include <string>
@@ -14,12 +14,12 @@ struct FormulaPlace {
   friend bool operator==(const FormulaPlace&, const FormulaPlace&) = default;
 };
 
-/// A formula cannot be read or makes no sense. what() is "formula, column 7: what is wrong", with "line 2, " where there are several lines.
+/// A formula that cannot be parsed or makes no sense. what() is "formula, column 7: reason", with "line 2, " if there are several lines.
 class FormulaError : public UsageError {
  public:
   FormulaError(FormulaPlace place, const std::string& what);
   [[nodiscard]] FormulaPlace place() const noexcept { return place_; }
-  /// Without the place.
+  /// The message without the place.
   [[nodiscard]] const std::string& reason() const noexcept { return reason_; }
 
  private:

@@ -1,21 +1,21 @@
 #pragma once
-// The one definition of the evaluator's kernel. Only the formula_kernel_*.cpp, each compiled for one kind of processor, include it: see
-// core/smooth/kernels/lane_kernel_impl.h for what that asks of the code.
+// The single definition of the evaluator's kernel. Only the formula_kernel_*.cpp, each compiled for one kind of processor, include it;
+// core/smooth/kernels/lane_kernel_impl.h has the rules for such code.
 
 #include <type_traits>
 
 #include "core/numeric/pack.h"
-// After the packs:
+// Included after the packs, whose functions they use.
 #include "core/formula/evaluator.h"
 #include "core/formula/operations.h"
 
 namespace dmoscope::formula_kernels {
 
-/// Those that a pack of floats does by way of doubles, as a float does.
+/// Operations that a pack of floats computes in double, as a float does.
 template <Operation O>
 inline constexpr bool kInDouble = O == Operation::CubeRoot || O == Operation::ArcTangent;
 
-/// R: the pack; D: that of doubles.
+/// Kernel for packs. R: the pack; D: the pack of doubles.
 template <class R, class D, class Real>
 class Kernel {
  public:
@@ -32,7 +32,7 @@ class Kernel {
 
  private:
   static constexpr std::size_t kWidth = R::size;
-  /// A register; or a number that is the same for all, and its pack.
+  /// An operand: a register, or a number that is equal for all values, and its pack.
   struct Operand {
     const Real* at;
     R same;
@@ -55,7 +55,7 @@ class Kernel {
     } else if constexpr (operand_count(O) == 1) {
       for (std::size_t i = 0; i < count; i += kWidth) step<O>(R::load_aligned(a.at + i), R(Real(0)), R(Real(0)), to + i);
     } else if constexpr (operand_count(O) == 2) {
-      // Which of them vary is decided once, and not pack by pack.
+      // Decides once, and not pack by pack, which operands vary.
       if (a.at != nullptr && b.at != nullptr) {
         for (std::size_t i = 0; i < count; i += kWidth) step<O>(R::load_aligned(a.at + i), R::load_aligned(b.at + i), R(Real(0)), to + i);
       } else if (a.at != nullptr) {

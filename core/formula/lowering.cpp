@@ -53,7 +53,7 @@ FormulaProgram Lowering::of_places(Number quality) {
   std::optional<Number> ceiling = builder_.ceiling_of(quality, moving_);
   if (space_ == FormulaSpace::Target) {
     quality = steeper(quality);
-    if (ceiling) ceiling = steeper(*ceiling);  // monotone, with its rounding, for steepness is positive
+    if (ceiling) ceiling = steeper(*ceiling);  // monotone even when rounded, since steepness is positive
   }
   const Number sound = builder_.less(builder_.constant(0.0), element_.smallest_jacobian(moving_));
   return builder_.finish(kind_, use_, moving_, builder_.select(sound, quality, builder_.constant(kNeverBest)), ceiling);
@@ -64,7 +64,7 @@ Number Lowering::steeper(Number quality) {
   return builder_.subtract(one, builder_.multiply(builder_.subtract(one, quality), steepness));
 }
 
-// Parts and scopes.
+// --- Parts and scopes ---
 
 std::optional<std::size_t> Lowering::part_named(std::string_view name, std::size_t before) const {
   for (std::size_t i = before; i-- > 0;)
@@ -98,7 +98,7 @@ Value Lowering::result_value() {
   SyntaxId id = body_.result;
   std::size_t parts = body_.parts.size();
   if (uses_corner(id, parts)) return over_corners("min_corner", id, parts, {}, true);
-  while (node(id).what == Syntax::Name) {  // a name for the whole
+  while (node(id).what == Syntax::Name) {  // a name for the whole body
     const auto part = part_named(node(id).text, parts);
     if (!part) break;
     id = body_.parts[*part].value;
@@ -106,7 +106,7 @@ Value Lowering::result_value() {
   }
   if (node(id).what == Syntax::Call && node(id).text == "min_corner" && node(id).operands.size() == 1)
     return over_corners("min_corner", node(id).operands[0], parts, {}, true);
-  if (node(id).what == Syntax::Name && node(id).text == "scaled_jacobian_inside")  // likewise
+  if (node(id).what == Syntax::Name && node(id).text == "scaled_jacobian_inside")  // holds for the whole element, not corner by corner
     return number(known(node(id), [&] { return element_.scaled_jacobian_inside(moving_); }));
   return value_of(id, parts, {});
 }
@@ -146,7 +146,7 @@ Value Lowering::compute(SyntaxId id, std::size_t parts, const Scope& scope) {
   }
 }
 
-// Values.
+// --- Values ---
 
 Value Lowering::number_of(SyntaxId id, std::size_t parts, const Scope& scope) {
   const Value value = value_of(id, parts, scope);
@@ -203,7 +203,7 @@ void Lowering::note_unit(const std::string& what, const SyntaxNode& n) {
   lowered_.scale_note = fmt::format("{} ({}column {})", what, line, n.place.column);
 }
 
-// Operators.
+// --- Operators ---
 
 Value Lowering::negated(Value value, const SyntaxNode& n) {
   if (value.kind == ValueKind::OneCondition) throw FormulaError(n.place, "'-' of a condition makes no sense: '!' turns one round");
@@ -312,7 +312,7 @@ Number Lowering::whole_power(Number base, unsigned exponent) {
   return exponent % 2 == 0 ? square : exponent < 2 ? base : builder_.multiply(square, base);
 }
 
-// Names.
+// --- Names ---
 
 std::optional<Index> Lowering::corner_named(std::string_view text) {
   if (text.size() != 2 || text[0] != 'p' || text[1] < '1' || text[1] > '8') return std::nullopt;

@@ -1,4 +1,4 @@
-// Calls of functions, and what gathers corners and edges.
+// Calls of functions, and aggregates over corners and edges.
 
 #include <algorithm>
 
@@ -9,7 +9,7 @@
 
 namespace dmoscope::formula_lowering {
 
-// Calls.
+// --- Calls ---
 
 void Lowering::require_arguments(const SyntaxNode& n, const FormulaFunction& function) const {
   const int given = static_cast<int>(n.operands.size());
@@ -130,7 +130,7 @@ Value Lowering::field(const SyntaxNode& n) {
   return number(builder_.input({FormulaInput::What::Field, index, 0, 0}), {0.0, true});
 }
 
-// What gathers corners and edges.
+// --- Aggregates over corners and edges ---
 
 Value Lowering::over_corners(std::string_view how, SyntaxId id, std::size_t parts, const Scope& scope, bool outermost,
                              const SyntaxNode* n) {
@@ -141,7 +141,7 @@ Value Lowering::over_corners(std::string_view how, SyntaxId id, std::size_t part
     Scope here = scope;
     here.corner = corner;
     const Value one = number_of(id, parts, here);
-    // A corner that stays says nothing of where the moving one should be, and the worst of these would hold it in place.
+    // Skips corners that do not change with the moving one: they say nothing about its place, and the worst of them would hold it there.
     const bool may_stay = outermost && element_.dimension() == 3 && moving_ != kNoIndex && !element_.depends_on(corner, moving_);
     if (may_stay && !builder_.depends_on(one.number(), moving_)) continue;
     join(all, one, how, node(id));

@@ -1,5 +1,5 @@
 #pragma once
-// A formula's body on its way to a program: what its expressions are worth so far, and the rules that say so. Only the lowering*.cpp
+// State of the translation of a formula's body: the values of its expressions so far, and the rules for them. Only the lowering*.cpp
 // include it; lowering.h is for all others.
 
 #include <cstdint>
@@ -14,13 +14,13 @@
 #include "core/formula/lowering.h"
 #include "core/formula/vocabulary.h"
 
-// A namespace of its own, for the search knows another Value.
+// A namespace of its own, since the search has another Value.
 namespace dmoscope::formula_lowering {
 
 using Number = ProgramBuilder::Number;
 using Vector = ElementNumbers::Vector;
 
-/// Of what a number is a power of a length; `any` of 0 and of what nobody knows.
+/// Unit of a number as a power of a length; `any` for 0 and for numbers of unknown unit.
 struct Dimension {
   double power = 0.0;
   bool any = false;
@@ -30,24 +30,24 @@ enum class ValueKind : std::uint8_t { OneNumber, OneVector, OneCondition };
 
 struct Value {
   ValueKind kind = ValueKind::OneNumber;
-  Vector vector{};  // of a number or condition the first
+  Vector vector{};  // a number or condition is its first component
   Dimension dimension{};
-  double places = 0.0;  // of a vector: how many places it is the sum of; of a difference of two 0
+  double places = 0.0;  // for a vector, the number of places that it is the sum of: 0 for a difference of two
   [[nodiscard]] Number number() const { return vector.at[0]; }
 };
 
-/// "a vector".
+/// Words for a kind of value: "a vector".
 [[nodiscard]] std::string_view words(ValueKind kind);
-/// "an area".
+/// Words for a unit: "an area".
 [[nodiscard]] std::string words(Dimension dimension);
 
-/// Where an expression is computed: at which corner or edge.
+/// Corner or edge at which an expression is computed.
 struct Scope {
   std::optional<std::size_t> corner{}, edge{};
   [[nodiscard]] std::pair<std::size_t, std::size_t> key() const { return {corner ? *corner + 1 : 0, edge ? *edge + 1 : 0}; }
 };
 
-/// Lowers one body for one kind of element, once. `parts`: how many of the body's parts an expression may use, those before it.
+/// Translates one body for one kind of element, once. `parts`: number of the body's parts that an expression may use, those before it.
 class Lowering {
  public:
   Lowering(const FormulaSyntax& syntax, const FormulaBody& body, ElementKind kind, FormulaSpace space, FormulaUse use, Index moving,
@@ -65,107 +65,107 @@ class Lowering {
   std::vector<FormulaPiece> pieces();
 
  private:
-  /// Of the whole body, which must be a number.
+  /// The value of the whole body, which must be a number.
   Value metric_value();
-  /// What a place of the moving corner is worth.
+  /// The program for the number `quality` at places of the moving corner.
   FormulaProgram of_places(Number quality);
   Number steeper(Number quality);
 
   [[nodiscard]] const SyntaxNode& node(SyntaxId id) const { return syntax_.nodes[id]; }
 
-  // Parts and scopes.
+  // --- Parts and scopes ---
 
-  /// The last of the first `before` parts with this name.
+  /// Index of the last part with this name among the first `before`.
   [[nodiscard]] std::optional<std::size_t> part_named(std::string_view name, std::size_t before) const;
-  /// A name of the vocabulary; null: there is none.
+  /// Entry of the vocabulary for a name; null: there is none.
   [[nodiscard]] static const FormulaName* name_in_table(std::string_view name);
-  /// Does the expression use a corner's names outside of what gathers them? `parts`: those it may use.
+  /// Whether the expression uses a corner's names outside of aggregates. `parts`: those it may use.
   bool uses_corner(SyntaxId id, std::size_t parts);
-  /// Of the whole body: of what is said corner by corner the least.
+  /// The value of the whole body: the least over the corners if it uses a corner's names.
   Value result_value();
-  /// Memory of what was computed makes a part that many use cost once.
+  /// The value of an expression, cached, so that a part costs once if many use it.
   Value value_of(SyntaxId id, std::size_t parts, const Scope& scope);
   Value compute(SyntaxId id, std::size_t parts, const Scope& scope);
 
-  // Values.
+  // --- Values ---
 
   static Value number(Number number, Dimension dimension = {}) { return {ValueKind::OneNumber, {{number}, 1}, dimension}; }
   static Value condition(Number number) { return {ValueKind::OneCondition, {{number}, 1}}; }
   Value vector(const Vector& v, double power = 1.0, double places = 0.0) { return {ValueKind::OneVector, v, unit(power), places}; }
-  /// In a target's space nothing has a unit.
+  /// Unit of a power of a length; in a target's space numbers have none.
   [[nodiscard]] Dimension unit(double power) const { return {space_ == FormulaSpace::Plain ? power : 0.0, false}; }
 
   Value number_of(SyntaxId id, std::size_t parts, const Scope& scope);
   Number condition_of(SyntaxId id, std::size_t parts, const Scope& scope);
-  /// A difference of places, or what stands for one: with the origin, where it depends on it.
+  /// A vector that is a difference of places or stands for one: a single place is made absolute by the origin.
   Value vector_of(SyntaxId id, std::size_t parts, const Scope& scope);
-  /// What an element has, or an error that says that it has not.
+  /// Calls f, and reports a missing number of the element as an error at `n`.
   template <class F>
   auto known(const SyntaxNode& n, const F& f) -> decltype(f());
-  /// Of two that are added, compared or chosen between.
+  /// The common unit of two values that are added, compared or chosen between.
   Dimension common(Dimension a, Dimension b, const SyntaxNode& n, std::string_view done);
-  /// Of what has no unit by its nature.
+  /// Checks that a value is a plain number, for operations that need one.
   void need_no_unit(const Value& value, const SyntaxNode& n);
-  /// The first reason why the formula changes with the mesh's scale stays.
+  /// Records a reason why the formula changes with the mesh's scale; the first one stays.
   void note_unit(const std::string& what, const SyntaxNode& n);
 
-  // Operators.
+  // --- Operators ---
 
   Value negated(Value value, const SyntaxNode& n);
   Value binary(const SyntaxNode& n, Value a, Value b);
-  /// factor * b; `turned`: -1 where the factor's unit is that of its inverse.
+  /// The product factor * b; `turned`: -1 if the factor's unit is that of its inverse.
   Value product(Number factor, Dimension of_factor, Value b, const SyntaxNode& n, double turned);
   Value sum(const SyntaxNode& n, const Value& a, const Value& b);
   Value compared(const SyntaxNode& n, const Value& a, const Value& b);
   Value power(const SyntaxNode& n, const Value& base, const Value& exponent);
-  /// Whole powers and roots that have operations of their own; others by logarithm.
+  /// A power by a constant: whole powers and roots by operations of their own, others by logarithm.
   Number to_the(Number base, double exponent);
   Number whole_power(Number base, unsigned exponent);
 
-  // Names.
+  // --- Names ---
 
-  /// "p3": 2; none where it is no such name.
+  /// Index of a corner's name: 2 for "p3"; none for other names.
   [[nodiscard]] static std::optional<Index> corner_named(std::string_view text);
-  /// "l13": 0 and 2.
+  /// Indices of a pair's name: 0 and 2 for "l13".
   [[nodiscard]] static std::optional<std::pair<Index, Index>> pair_named(std::string_view text);
   void require_corner(Index corner, const SyntaxNode& n) const;
   Value name(const SyntaxNode& n, std::size_t parts, const Scope& scope);
-  /// What is wrong with a name that is none here.
+  /// Message for a name that is unknown here.
   [[nodiscard]] std::string unknown_name(std::string_view text, std::size_t parts) const;
-  /// A name of the vocabulary.
+  /// Value of a name of the vocabulary.
   Value named(const SyntaxNode& n, const FormulaName& entry, const Scope& scope);
   Vector vector_named(const SyntaxNode& n, const FormulaName& entry, const Scope& scope);
   Number number_named(const SyntaxNode& n, const FormulaName& entry, const Scope& scope);
   Number corner_number(const SyntaxNode& n, std::string_view name, std::size_t corner);
-  /// Joins the lengths of all edges, or their squares.
+  /// Joins the lengths of all edges, or the squares of these.
   template <class F>
   Number over_lengths(const F& join, bool squared);
 
-  // Calls.
+  // --- Calls ---
 
   void require_arguments(const SyntaxNode& n, const FormulaFunction& function) const;
   Value call(const SyntaxNode& n, std::size_t parts, const Scope& scope);
-  /// abs, sqrt, sin and others of one number.
+  /// Call of a function of one number: abs, sqrt, sin and others.
   Value of_number(const SyntaxNode& n, std::string_view name, const Value& a);
   Number sign(Number x);
   Value arc_tangent(const SyntaxNode& n, std::size_t parts, const Scope& scope);
-  /// min, max and clamp.
+  /// Call of min, max or clamp.
   Value extreme(const SyntaxNode& n, std::string_view name, std::size_t parts, const Scope& scope);
-  /// if(condition, a, b).
+  /// Call of if(condition, a, b).
   Value choice(const SyntaxNode& n, std::size_t parts, const Scope& scope);
-  /// dot, cross, length, x, y and z.
+  /// Call of dot, cross, length, x, y or z.
   Value of_vectors(const SyntaxNode& n, std::string_view name, std::size_t parts, const Scope& scope);
   Value field(const SyntaxNode& n);
 
-  // What gathers corners and edges; `how`: min_corner, mean_edge, ...
+  // --- Aggregates over corners and edges; `how`: min_corner, mean_edge, ... ---
 
-  /// `outermost`: the formula is this, so that corners that do not change need not be looked at.
+  /// Aggregate over the corners. `outermost`: the whole formula is this aggregate, so that corners that do not change can be skipped.
   Value over_corners(std::string_view how, SyntaxId id, std::size_t parts, const Scope& scope, bool outermost,
                      const SyntaxNode* n = nullptr);
   Value over_edges(std::string_view how, const SyntaxNode& n, std::size_t parts, const Scope& scope);
-  /// Takes one more into all.
+  /// Adds one more value to the aggregate.
   void join(std::optional<Value>& all, const Value& one, std::string_view how, const SyntaxNode& n);
-  /// Of a mean the sum by the count.
+  /// Completes an aggregate: a mean is the sum over the count.
   Value finished(Value all, std::string_view how, std::size_t count);
 
   const FormulaSyntax& syntax_;

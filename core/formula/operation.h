@@ -1,5 +1,5 @@
 #pragma once
-// The operations that programs are made of.
+// Operations of a formula's program.
 
 #include <cstdint>
 
@@ -11,24 +11,24 @@ enum class Operation : std::uint8_t {
   Add,
   Subtract,
   Multiply,
-  Divide,  // 0 where the divisor is 0
+  Divide,  // 0 if the divisor is 0
   Minimum,
   Maximum,
   Absolute,
-  SquareRoot,  // of less than 0: 0
+  SquareRoot,  // 0 if the operand is negative
   CubeRoot,
-  Less,         // 1 or 0
-  LessOrEqual,  // likewise
-  Equal,        // likewise
-  Select,       // where a is not 0 b, else c
-  ArcTangent,   // of a over b, as atan2
+  Less,         // result 1 or 0
+  LessOrEqual,  // result 1 or 0
+  Equal,        // result 1 or 0
+  Select,       // b if a is not 0, else c
+  ArcTangent,   // atan2 of a and b
   Exponential,
   Logarithm,
   Sine,
   Cosine,
-  Power  // by logarithm; 0 for what is not above 0
+  Power  // by logarithm; 0 unless the base is positive
 };
-/// How many of the operands a, b, c it reads.
+/// Number of operands that it reads, of a, b, c.
 [[nodiscard]] DMOSCOPE_ANYWHERE int operand_count(Operation operation) {
   switch (operation) {
     case Operation::Absolute:

@@ -1,5 +1,5 @@
 #pragma once
-// What the operations of formulas compute, for any scalar: a plain number, or a pack whose slots get the bits that plain numbers get.
+// Results of the operations of formulas, for any scalar: a plain number, or a pack whose slots get the bits that plain numbers get.
 
 #include "core/formula/operation.h"
 #include "core/numeric/elementary.h"
@@ -7,15 +7,15 @@
 
 namespace dmoscope::operations {
 
-/// Those that have no case here, slot by slot: see apply_alone().
+/// Operations that have no case here and run slot by slot: see apply_alone().
 template <Operation O>
 inline constexpr bool kSlotBySlot =
     O == Operation::Exponential || O == Operation::Logarithm || O == Operation::Sine || O == Operation::Cosine || O == Operation::Power;
 
-/// Of plain numbers, in double. For kernels that are compiled for one kind of processor: they must not compile a copy of these.
+/// Result for plain numbers, in double. For kernels that are compiled for one kind of processor: they must not compile a copy of these.
 [[nodiscard]] double apply_alone(Operation operation, double a, double b);
 
-/// `cube_root` and `atan2` of the scalar are found where it is.
+/// Result for a scalar, with the `cube_root` and `atan2` that belong to it.
 template <Operation O, class R>
 [[gnu::always_inline]] DMOSCOPE_ANYWHERE R apply(R a, R b, R c) {
   using scalar::abs, scalar::atan2, scalar::cube_root, scalar::select, scalar::sqrt;
@@ -26,7 +26,7 @@ template <Operation O, class R>
     const auto none = b == R(0);
     return select(none, R(0), a / select(none, R(1), b));
   }
-  // Not min() and max(), of which processors differ where one is no number: something may have overflowed.
+  // Selections instead of min() and max(), in which processors differ for NaN: something may have overflowed.
   if constexpr (O == Operation::Minimum) return select(a < b, a, b);
   if constexpr (O == Operation::Maximum) return select(a > b, a, b);
   if constexpr (O == Operation::Absolute) return abs(a);
@@ -40,7 +40,7 @@ template <Operation O, class R>
   return R(0);
 }
 
-/// Any operation of plain numbers.
+/// Result of any operation for plain numbers.
 template <Operation O, class Real>
 [[nodiscard]] DMOSCOPE_ANYWHERE Real apply_plain(Real a, [[maybe_unused]] Real b, [[maybe_unused]] Real c) {
   if constexpr (O == Operation::Exponential) return static_cast<Real>(elementary::exponential(static_cast<double>(a)));
@@ -51,7 +51,7 @@ template <Operation O, class Real>
   if constexpr (!kSlotBySlot<O>) return apply<O>(a, b, c);
 }
 
-/// Calls f.template operator()<O>() with the operation.
+/// Calls f.template operator()<O>() with the operation as template argument.
 template <class F>
 [[gnu::always_inline]] DMOSCOPE_ANYWHERE void with_operation(Operation operation, const F& f) {
   switch (operation) {

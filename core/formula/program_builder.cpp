@@ -111,7 +111,7 @@ std::vector<bool> ProgramBuilder::needed(Number result) const {
 
 namespace {
 
-/// Hands out registers; those that nobody reads any more are used again.
+/// Assigns registers; those that are not read any more are used again.
 class Registers {
  public:
   std::uint16_t take() {
@@ -159,11 +159,11 @@ FormulaProgram ProgramBuilder::finish(ElementKind kind, FormulaUse use, Index mo
   program.kind = kind;
   program.use = use;
   program.moving = moving;
-  std::vector<std::uint16_t> place(nodes_.size());  // of uniform numbers; of others the register
+  std::vector<std::uint16_t> place(nodes_.size());  // index of each uniform number, register of each other one
   for (std::size_t i = 0; i < nodes_.size(); ++i)
     if (is_needed[i] && !varies[i]) place[i] = program.uniforms++;
   Registers registers;
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {  // first, so that they are given where they stand
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {  // inputs first, so that they keep the registers that they are given in
     if (!is_needed[i] || nodes_[i].what != Node::What::Input) continue;
     if (varies[i]) place[i] = registers.take();
     (varies[i] ? program.varying : program.given).push_back({nodes_[i].input, place[i]});

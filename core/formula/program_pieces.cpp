@@ -1,4 +1,4 @@
-// Splits a number of a program into the smooth numbers that it is the least of.
+// Splitting of a number of a program into smooth numbers whose least it is.
 
 #include <algorithm>
 
@@ -8,7 +8,7 @@ namespace dmoscope {
 
 namespace {
 
-/// More pieces than that are not worth it: the number stays whole, with its kinks.
+/// Greatest number of pieces: with more the number stays whole, with its kinks.
 constexpr std::size_t kMostPieces = 64;
 
 /// A number's sign in every element that is not inverted; 0 counts as either.
@@ -19,7 +19,7 @@ Sign same(Sign a, Sign b) { return a == b ? a : Sign::Unknown; }
 
 }  // namespace
 
-/// Goes from the result to its operands. `Of`: whether the parts' least or their greatest is the number.
+/// Splits a number by going from the result to its operands. `Of`: whether the least or the greatest of the parts is the number.
 class ProgramBuilder::Splitter {
  public:
   enum class Of : std::uint8_t { Least, Greatest };
@@ -27,7 +27,7 @@ class ProgramBuilder::Splitter {
 
   [[nodiscard]] std::vector<Number> split(Number number, Of of) {
     number = chosen(number);
-    const Node node = builder_.nodes_[number];  // a copy: new numbers may move the others
+    const Node node = builder_.nodes_[number];  // a copy, since new numbers may move the nodes
     if (node.what != Node::What::Step) return {number};
     const Number a = node.operands[0], b = node.operands[1];
     if (node.operation == (of == Of::Least ? Operation::Minimum : Operation::Maximum)) return joined(number, split(a, of), split(b, of));
@@ -39,7 +39,7 @@ class ProgramBuilder::Splitter {
     std::vector<Number> all;
     for (const Number x : first)
       for (const Number y : second) {
-        const bool says_nothing = two && x == y && node.operation == Operation::Divide;  // it is 1 whatever the element
+        const bool says_nothing = two && x == y && node.operation == Operation::Divide;  // 1 for every element
         if (!says_nothing) keep_once(all, builder_.apply(node.operation, x, y));
       }
     return all;
@@ -59,7 +59,7 @@ class ProgramBuilder::Splitter {
     return a.size() > kMostPieces ? std::vector<Number>{whole} : a;
   }
 
-  /// What a selection by the sign of a number chooses whose sign is known; any other number itself.
+  /// The operand that a selection by a number of known sign chooses; any other number itself.
   [[nodiscard]] Number chosen(Number number) const {
     const Node& node = builder_.nodes_[number];
     if (node.what != Node::What::Step || node.operation != Operation::Select) return number;
@@ -72,7 +72,7 @@ class ProgramBuilder::Splitter {
     return number;
   }
 
-  /// Whether an operation only rises or only falls with each of its first two operands.
+  /// Whether an operation is increasing or decreasing in each of its first two operands.
   struct Slopes {
     Sign by_a, by_b;
   };
@@ -88,7 +88,7 @@ class ProgramBuilder::Splitter {
         return {kUp, kDown};
       case Operation::Multiply:
         return {sign(b), sign(a)};
-      case Operation::Divide:  // of a divisor that changes its sign nothing is known
+      case Operation::Divide:  // unknown if the divisor changes its sign
         return {sign(b), sign(b) == kNone ? kNone : sign_of_product(kDown, sign(a))};
       case Operation::Absolute:
         return {sign(a), kNone};

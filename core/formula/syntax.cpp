@@ -15,7 +15,7 @@ namespace dmoscope {
 
 namespace {
 
-/// Signs between two operands, those that bind least first.
+/// Binary signs, weakest binding first.
 struct BinarySign {
   std::string_view sign;
   Syntax what;
@@ -67,7 +67,7 @@ class Parser {
     advance();
   }
 
-  /// "triangle {", "triangle, quadrilateral {".
+  /// Whether a section starts here: "triangle {", "triangle, quadrilateral {".
   [[nodiscard]] bool starts_section() const {
     return here().kind == TokenKind::Name && (after().is("{") || (after().is(",") && kind_named(here().text)));
   }
@@ -138,7 +138,7 @@ class Parser {
     heights_[id] = std::max(heights_[id], height);
   }
 
-  /// Counts how deep brackets and signs are nested.
+  /// Counts the nesting depth of brackets and signs.
   class Deeper {
    public:
     explicit Deeper(Parser& parser) : parser_(parser) {
@@ -153,7 +153,7 @@ class Parser {
     Parser& parser_;
   };
 
-  /// Of signs that bind at least as much as `rank`.
+  /// Parses an expression of signs that bind at least as strongly as `rank`.
   SyntaxId expression(int rank) {
     if (rank > kHighest) return unary();
     SyntaxId left = expression(rank + 1);
@@ -224,8 +224,8 @@ class Parser {
   std::vector<Token> tokens_;
   std::size_t at_ = 0, depth_ = 0;
   FormulaSyntax syntax_;
-  std::vector<std::size_t> heights_;                    // of the nodes
-  std::unordered_map<std::string, std::size_t> parts_;  // of the body at hand: their heights
+  std::vector<std::size_t> heights_;                    // heights of the nodes
+  std::unordered_map<std::string, std::size_t> parts_;  // heights of the parts of the current body
 };
 
 }  // namespace

@@ -1,11 +1,11 @@
 #pragma once
-// The syntax of formulas: text to a tree.
+// The syntax of formulas, and their parsing into a tree.
 //
 //   formula  := [ "title" ; ] ( body | { kind, kind { body } } )
 //   body     := { name = expression ; } expression
 //
-// Expressions are the usual ones: || && ! comparisons + - * / ^ calls and brackets. A new line ends what a semicolon ends; # starts a
-// comment. Semicolons and new lines inside round brackets count as blanks.
+// Expressions are the usual ones: || && ! comparisons + - * / ^ calls and brackets. A new line ends a statement like a semicolon; # starts
+// a comment. Semicolons and new lines inside round brackets count as blanks.
 
 #include <cstdint>
 #include <string>
@@ -19,9 +19,9 @@ namespace dmoscope {
 
 enum class Syntax : std::uint8_t {
   Number,
-  Text,  // in double quotes: a field's name
+  Text,  // a field's name, in double quotes
   Name,
-  Call,  // of `text`
+  Call,  // call of function `text`
   Negate,
   Not,
   Add,
@@ -39,25 +39,25 @@ enum class Syntax : std::uint8_t {
   Or
 };
 
-using SyntaxId = std::uint32_t;  // of a node, into FormulaSyntax::nodes
+using SyntaxId = std::uint32_t;  // index into FormulaSyntax::nodes
 
 struct SyntaxNode {
   Syntax what = Syntax::Number;
   FormulaPlace place{};
   double number = 0.0;
-  std::string text{};                // of a name, call or text
-  std::vector<SyntaxId> operands{};  // of a call its arguments
+  std::string text{};                // name, function or text
+  std::vector<SyntaxId> operands{};  // operands, or arguments of a call
 };
 
-/// The formula of some kinds of elements.
+/// The formula for some kinds of elements.
 struct FormulaBody {
   struct Part {
     std::string name;
     SyntaxId value;
   };
-  KindSet kinds = 0;  // 0: all that it makes sense for
+  KindSet kinds = 0;  // 0: all kinds that it fits
   FormulaPlace place{};
-  std::vector<Part> parts{};  // each may use those before it
+  std::vector<Part> parts{};  // named parts, each of which may use those before it
   SyntaxId result = 0;
 };
 
@@ -67,10 +67,10 @@ struct FormulaSyntax {
   std::vector<FormulaBody> bodies{};
 };
 
-/// At most this many letters, brackets inside each other, and steps from a result to what it is made of: more than any person writes.
+/// Limits, beyond all that people write: letters, nested brackets, and steps from a result down to its operands.
 inline constexpr std::size_t kMostFormulaText = 20000, kMostFormulaDepth = 100, kMostFormulaHeight = 300;
 
-/// Throws FormulaError that says what was expected.
+/// Parses a formula. Throws FormulaError that says what was expected.
 [[nodiscard]] FormulaSyntax parse_formula(std::string_view text);
 
 }  // namespace dmoscope

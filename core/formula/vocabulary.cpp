@@ -7,7 +7,7 @@ namespace dmoscope {
 namespace {
 
 constexpr NameScope kElement = NameScope::Element, kCorner = NameScope::Corner, kEdge = NameScope::Edge;
-constexpr int kMeasure = -1;  // 2 in the plane, 3 in space
+constexpr int kMeasure = -1;  // stands for the power of the measure: 2 in the plane, 3 in space
 
 constexpr std::array kNames{
     FormulaName{"area", kElement, false, 2, "signed area of a triangle or quadrilateral"},

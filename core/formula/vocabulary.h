@@ -1,5 +1,5 @@
 #pragma once
-// The names that formulas may use: what each stands for, in order of a manual.
+// Names that formulas may use and their meanings, in the order of the manual.
 
 #include <cstdint>
 #include <span>
@@ -7,22 +7,22 @@
 
 namespace dmoscope {
 
-/// Where a name has a value: of the whole element; at each corner; at each edge.
+/// Scope in which a name has a value: the whole element, each corner, or each edge.
 enum class NameScope : std::uint8_t { Element, Corner, Edge };
 
 struct FormulaName {
   std::string_view name;
   NameScope scope;
   bool is_vector;
-  int power;  // of a length that it is: an area 2 ...
+  int power;  // power of a length that it is: 2 for an area ...
   std::string_view doc;
 };
-/// All but those with numbers: p1, l12, ... (see numbered_names()).
+/// All names except those with numbers: p1, l12, ... (see numbered_names()).
 [[nodiscard]] std::span<const FormulaName> formula_names();
 
 struct FormulaFunction {
   std::string_view name;
-  int least, most;             // arguments
+  int least, most;             // numbers of arguments
   std::string_view arguments;  // "x, y"
   std::string_view doc;
 };

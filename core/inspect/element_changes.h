@@ -11,14 +11,14 @@
 
 namespace dmoscope {
 
-/// Are elements of the star judged corner by corner? See VisitSummary::by_corners.
+/// Whether elements of the star are judged corner by corner. See VisitSummary::by_corners.
 template <class Frame>
 [[nodiscard]] bool has_corners(const MeshView<Frame>& mesh, Index vertex) {
   const auto is_cornered = [&mesh](const Incidence& at) { return mesh.corners_of(at.element).size() > 4; };
   return std::is_same_v<Frame, Space> && std::ranges::any_of(mesh.star(vertex), is_cornered);
 }
 
-/// The star of a visit that is told to its end. Frame: Plane, Space or Curved.
+/// The changes of a vertex's elements by a completed visit. Frame: Plane, Space or Curved.
 template <class Frame>
 [[nodiscard]] std::vector<ElementChange> element_changes(const InputMesh& input, PositionView positions, const VisitSummary& visit) {
   const MeshView<Frame> mesh = input.view<Frame>();

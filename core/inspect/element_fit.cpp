@@ -17,13 +17,13 @@ namespace {
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 constexpr std::size_t kFaceGrain = 256;  // faces that a thread takes at once
 
-/// The greater one; any number is greater than none.
+/// Raises value to the greater of the two; any number is greater than NaN.
 void raise(float& value, double other) {
   const auto rounded = static_cast<float>(other);
   if (!std::isnan(rounded) && !(value >= rounded)) value = rounded;
 }
 
-/// Lays faces over the facets beneath them, each as it stands.
+/// Lays faces, at the vertices' positions, over the facets beneath them.
 class FaceLayer {
  public:
   FaceLayer(const Domain& domain, PositionView positions)
@@ -42,7 +42,7 @@ class FaceLayer {
   }
 
  private:
-  /// Facets near the face: beneath its corners, and where it was in the input.
+  /// Finds facets near the face: beneath its corners, and beneath its place in the input.
   void find_starts(Index face) {
     starts_.clear();
     const auto c = faces_.table().corners(face);
@@ -63,7 +63,7 @@ class FaceLayer {
         if (facets_.facets()[side.facet].patch == faces_.patch_of(face)) starts_.push_back(side.facet);
     }
   }
-  /// The stretches of curves along the face's edges.
+  /// Finds the stretches of curves along the face's edges.
   void find_stretches(Index face) {
     stretches_.clear();
     const auto c = faces_.table().corners(face);
@@ -98,7 +98,7 @@ bool is_face(const ElementTable& elements, ElementFace at, std::span<const Index
   return std::ranges::all_of(corners, [&](Index v) { return std::ranges::find(vertices, v) != vertices.end(); });
 }
 
-/// Which face of which element each face of the surface is: of the boundary, then of interfaces, as far as these slide.
+/// The element's face that each face of the surface is: first those of the boundary, then those of interfaces, as far as these slide.
 std::vector<ElementFace> owners_of(const InputMesh& input, const ElementTable& faces) {
   std::vector<ElementFace> owners;
   const auto boundary = input.faces.boundary();
@@ -129,7 +129,7 @@ ElementFit fit_in_space(const InputMesh& input, const Domain& domain, PositionVi
   ElementFit fit{std::vector<float>(count, kNone), std::vector<float>(count, kNone)};
   const std::vector<ElementFace> owners = owners_of(input, faces);
   for (std::size_t f = 0; f < owners.size(); ++f) {
-    const Index other = input.faces.of(owners[f].element)[owners[f].face];  // beyond an interface
+    const Index other = input.faces.of(owners[f].element)[owners[f].face];  // element beyond an interface
     for (const Index e : {owners[f].element, other}) {
       if (e == kNoIndex) continue;
       raise(fit.deviation[e], static_cast<double>(deviation[f]));

@@ -22,9 +22,9 @@ namespace dmoscope {
 
 namespace {
 
-constexpr int kRounds = 12;            // of visits in a trial
-constexpr double kAngleStep = 5.0;     // degrees: angles are proposed in multiples of it
-constexpr double kMoreDeviation = 10;  // times the bound
+constexpr int kRounds = 12;            // rounds of visits in a trial
+constexpr double kAngleStep = 5.0;     // degrees; angles are proposed in multiples of it
+constexpr double kMoreDeviation = 10;  // factor on the bound of deviation
 
 bool is_possible(const SmoothingTask& task) {
   try {
@@ -35,7 +35,7 @@ bool is_possible(const SmoothingTask& task) {
   }
 }
 
-/// A few words changed about what may move.
+/// Conditions that decide what may move, which switches change.
 struct Conditions {
   StandingRule rule;
   double max_deviation;
@@ -43,7 +43,7 @@ struct Conditions {
   std::optional<CompositeTerms> combination;
 };
 
-/// Whether the look goes on.
+/// Progress of the look, and whether it goes on.
 struct Asking {
   Progress& progress;
   const std::function<bool()>& go_on;
@@ -55,10 +55,10 @@ struct Asking {
 
 double angle_between(Vec3 a, Vec3 b) { return std::atan2(length(cross(a, b)), dot(a, b)) / kDegree; }
 
-/// The next proposed angle that is greater.
+/// The next greater angle that is proposed.
 double angle_above(double angle) { return std::min(180.0, kAngleStep * (std::floor((angle + 0.5) / kAngleStep) + 1.0)); }
 
-/// What is asked about one element.
+/// Examines one element.
 class Look {
  public:
   Look(const HeldQuestion& question, Index element, std::span<const std::uint8_t> standing, ThreadPool* pool, const Asking& asking)
@@ -78,7 +78,7 @@ class Look {
     found.quality = found.unchanged = quality_of(q_.positions, element_);
     for (const Index v : std::set<Index>(corners().begin(), corners().end())) found.vertices.push_back({v, holding(v)});
     const std::vector<HoldSwitch> all = switches(found);
-    // Once it has ended, it ends for all that would follow.
+    // Runs a trial; once one was cut off, all later ones are.
     const auto attempt = [&](std::string_view what, double share, const auto& trial) {
       try {
         if (!found.untried.empty()) throw Cancelled();
@@ -96,7 +96,7 @@ class Look {
     if (!all.empty()) attempt("switches that could free it", 0.1, [&] { try_switches(found, all, best); });
     const bool stays = std::ranges::all_of(found.vertices, [](const HeldVertex& one) { return is_fixed(one.by); });
     const bool is_moot = stays || (found.rises() && !q_.joint_where_it_rises);
-    // Below the threshold the second aim does not count yet: what more iterations raise there, the threshold does not hold.
+    // Tries a higher threshold, except below it: there the second aim does not count yet, and the threshold does not hold what rises.
     if (q_.task.combination && (!found.rises() || !(found.quality < q_.task.combination->threshold)))
       attempt("a higher threshold", 0.4, [&] { try_threshold(found, best); });
     if (q_.joint && (found.change || !is_moot)) attempt("joint moves", 0.5, [&] { try_joint(found, best); });
@@ -127,10 +127,10 @@ class Look {
       }
     }
   }
-  /// Two switches together, where none gains alone.
+  /// Tries two switches together, if none gains alone.
   void try_pairs(HeldMinimum& found, std::vector<HoldSwitch> all) const {
     const auto has = [&all](std::string_view name) { return std::ranges::find(all, name, &HoldSwitch::name) != all.end(); };
-    // What does not slide as long as it is a corner may need more room afterwards; so may its neighbours, before.
+    // Adds a greater bound of deviation: a corner that becomes free to slide may need more room, and so may its neighbours before.
     if ((has("corner-angle") || has("feature-angle")) && !has("max-deviation") && q_.max_deviation < 1.0) {
       all.push_back(more_deviation());
       if (const double there = after_switches({&all.back(), 1}); is_gain(found.unchanged, there)) {
@@ -161,7 +161,7 @@ class Look {
                             now.size() != nullptr ? to_text(*now.size()) : std::string()};
     if (const double there = after_switches({&change, 1}); is_gain(best, there)) take(found, change, best = there);
   }
-  /// Joint moves, where a vertex may move.
+  /// Tries joint moves of the vertices that may move.
   void try_joint(HeldMinimum& found, double& best) const {
     if (!(found.quality > 0.0)) return;
     auto cluster = joint_hold(input_, q_.positions, q_.fixed, {q_.task.domain, q_.task.max_deviation},
@@ -183,7 +183,7 @@ class Look {
   }
   [[nodiscard]] bool on_boundary(Index v) const { return input_.topology.boundary()[v] != 0; }
 
-  /// The elements that are judged, around the worst one, and the vertices that are visited, two rings of them.
+  /// Gathers the elements that are judged, around the worst one, and the vertices that are visited, two rings of them.
   void gather() {
     std::set<Index> around(corners().begin(), corners().end()), elements;
     for (int ring = 0; ring < 2; ++ring) {
@@ -228,7 +228,7 @@ class Look {
     return on_boundary(v) ? Holding::Touching : Holding::Named;
   }
 
-  /// What concerns the vertices of the element.
+  /// Switches that concern the vertices of the element.
   [[nodiscard]] std::vector<HoldSwitch> switches(const HeldMinimum& found) const {
     std::vector<HoldSwitch> all;
     std::string by_hand;
@@ -253,7 +253,7 @@ class Look {
     return {"max-deviation", fmt::format("{:.6g}", more), Holding::Deviation, more};
   }
 
-  /// "4 7": those that a person made corners.
+  /// Numbers of the vertices that the user made corners: "4 7".
   [[nodiscard]] std::string made_corners(const HeldMinimum& found) const {
     std::string text;
     for (const HeldVertex& one : found.vertices)
@@ -262,7 +262,7 @@ class Look {
     return text;
   }
 
-  /// The least angles that would make something else of the vertices, and the greatest.
+  /// Adds switches to the least angles that would change the kinds of the vertices, and to the greatest.
   void add_angles(const HeldMinimum& found, std::vector<HoldSwitch>& all) const {
     std::set<double> turns, folds;
     for (const HeldVertex& one : found.vertices) {
@@ -282,10 +282,10 @@ class Look {
     add("corner-angle", turns, q_.rule.corner_angle, Holding::Corner);
     add("feature-angle", folds, q_.rule.feature_angle, Holding::Feature);
   }
-  /// Where the edges of curves at a vertex lead to: of the boundary or an interface in a plane, else feature edges.
+  /// Neighbours of a vertex along curves: edges of the boundary or an interface in a plane, else feature edges.
   [[nodiscard]] std::vector<Index> along_curves(Index v) const {
     const SlidingFaces& faces = q_.task.domain->faces();
-    std::map<Index, std::vector<Index>> beside;  // by neighbour: the elements or faces at the edge
+    std::map<Index, std::vector<Index>> beside;  // by neighbour, the elements or faces at the edge
     const auto add = [&](std::span<const Index> c, Index of) {
       const auto i = static_cast<std::size_t>(std::ranges::find(c, v) - c.begin());
       for (const std::size_t other : {(i + 1) % c.size(), (i + c.size() - 1) % c.size()}) beside[c[other]].push_back(of);
@@ -302,13 +302,13 @@ class Look {
     }
     return found;
   }
-  /// By how many degrees a curve of the input turns at a vertex.
+  /// Angle by which a curve of the input turns at a vertex, in degrees.
   [[nodiscard]] double turn(Index before, Index v, Index after) const {
     const Plane& plane = input_.geometry.plane;
     const auto& at = mesh_.positions;
     return angle_between(plane.difference(at[v], at[before]), plane.difference(at[after], at[v]));
   }
-  /// By how many degrees the surface of the input folds along an edge; none where other than two facets meet.
+  /// Angle by which the surface of the input folds along an edge, in degrees; none unless exactly two facets meet there.
   [[nodiscard]] std::optional<double> fold(Index a, Index b) const {
     if (!q_.task.domain->faces().any() || !q_.task.domain->faces().are_own()) return std::nullopt;
     const Facets& facets = q_.task.domain->faces().facets();
@@ -332,7 +332,7 @@ class Look {
     if (change.name == "unfix") std::erase_if(then.by_hand, is_corner);
     if (change.name == "combine") then.combination->threshold = change.number;
   }
-  /// The least quality of what is judged, after switches.
+  /// The least quality of the judged elements after switches.
   [[nodiscard]] double after_switches(std::span<const HoldSwitch> changes) const {
     Conditions then = conditions();
     for (const HoldSwitch& change : changes) apply(change, then);
@@ -343,7 +343,7 @@ class Look {
   }
   [[nodiscard]] SmoothingTask task_of(const Conditions& then, std::shared_ptr<const Domain> domain) const {
     SmoothingTask task = q_.task;
-    task.search.precision = Precision::Float;  // of gains that a person would call none, double finds more, at ten times the cost
+    task.search.precision = Precision::Float;  // double finds more only of gains that nobody would call so, at ten times the cost
     task.combination = then.combination;
     task.then_joint = task.then_mean = false;
     task.slides = lets_slide(input_, then.rule);
@@ -351,7 +351,7 @@ class Look {
     task.max_deviation = then.max_deviation * input_.geometry.size;
     return task;
   }
-  /// After some visits around the element.
+  /// The least quality of the judged elements after some visits around the element.
   [[nodiscard]] double after(const Conditions& then, std::shared_ptr<const Domain> domain) const {
     std::vector<std::uint8_t> fixed = standing_vertices(input_, then.rule, domain.get());
     for (const Index v : then.by_hand) fixed[v] = 1;
@@ -378,7 +378,7 @@ class Look {
     }
   }
 
-  /// Says what keeps it in one word.
+  /// Sets the one word for what holds the minimum.
   void settle(HeldMinimum& found) const {
     if (found.change) {
       found.by = found.change->frees;
@@ -400,7 +400,7 @@ class Look {
     if (!found.rises() && found.untried.empty()) look_into_visits(found);
   }
 
-  /// Whether what the vertices on a surface could gain is refused to them.
+  /// Finds out whether vertices on a surface are refused a gain because faces would deviate or lean too much.
   void look_into_visits(HeldMinimum& found) const {
     const SmoothingTask task = task_of(conditions(), q_.task.domain);
     for (HeldVertex& one : found.vertices) {
@@ -420,10 +420,10 @@ class Look {
   ThreadPool* pool_;
   const Asking& asking_;
   std::vector<Index> judged_, visited_;
-  mutable std::optional<std::pair<StandingRule, std::shared_ptr<const Domain>>> last_domain_{};  // it takes longer than a trial
+  mutable std::optional<std::pair<StandingRule, std::shared_ptr<const Domain>>> last_domain_{};  // kept: costs more than a trial
 };
 
-/// The worst element of all, and of those with a corner that is not fixed; kNoIndex: there is none.
+/// The worst element of all, and the worst with a corner that is not fixed; kNoIndex: there is none.
 std::pair<Index, Index> worst_elements(const HeldQuestion& question, ThreadPool* pool) {
   const Mesh& mesh = question.task.input->mesh;
   std::vector<double> qualities(mesh.elements.size());

@@ -1,4 +1,4 @@
-// What holds the minimum, in words.
+// Reasons that hold the minimum, in words.
 
 #include <algorithm>
 #include <array>
@@ -60,7 +60,7 @@ std::string HoldSwitch::gives_up() const {
 
 namespace {
 
-/// With four significant digits and no larger.
+/// Number with four significant digits, rounded down.
 std::string four_digits_down(double value) {
   std::string text = four_digits(value);
   if (std::isfinite(value) && std::stod(text) > value) {
@@ -92,7 +92,7 @@ std::vector<std::string> HeldMinimum::commands() const {
 std::vector<std::string> HeldMinimum::advice() const {
   std::vector<std::string> lines = commands();
   if (lines.empty()) return lines;
-  lines.front() = "continue-with " + lines.front();  // the others change what that has made
+  lines.front() = "continue-with " + lines.front();  // the other switches change the run that this one makes
   lines.emplace_back("until-converged best");
   return lines;
 }
@@ -136,7 +136,7 @@ std::string HeldMinimum::outlook() const {
   return unchanged > quality ? "it rises slowly" : "its vertices gain nothing";
 }
 
-/// "4 of its 8 vertices, 1 by corners, 3 free"
+/// Numbers of vertices by reason: "4 of its 8 vertices, 1 by corners, 3 free".
 std::string HeldMinimum::shares() const {
   std::string text;
   const auto count = [this](Holding one) { return std::ranges::count(vertices, one, &HeldVertex::by); };
@@ -150,7 +150,7 @@ std::string HeldMinimum::shares() const {
   return text;
 }
 
-/// What was tried in vain; each parameter once.
+/// Sentence on the switches that were tried in vain; each parameter once.
 std::string HeldMinimum::tried(bool as_option) const {
   std::vector<std::string_view> names;
   std::string text;
@@ -194,7 +194,7 @@ std::string HeldMinimum::hold_sentence(bool as_option) const {
   return text + ": " + gain(as_option) + (rises() ? ". More iterations alone raise it, too." : ".");
 }
 
-/// Says what the change gives up, and what came of it on the whole mesh where that was tried.
+/// Sentence on the gain of the change, what it gives up, and its result on the whole mesh if that was tried.
 std::string HeldMinimum::gain(bool as_option) const {
   const std::string with = as_option ? options() : fmt::format("{}", fmt::join(commands(), " with "));
   const std::string given_up = gives_up();

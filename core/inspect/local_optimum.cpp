@@ -1,8 +1,8 @@
-// The best place for a vertex among triangles by the mean ratio, as the search's threshold rounds find the best of a grid: each element's
-// quality is N(p) / S(p) with N affine and S quadratic, so where the least N - t S is largest every quality can exceed t. S grows with
-// |p|^2 alike for all elements, so that this largest place is that of a paraboloid among planes, which a few of them decide: one, two or
-// three. Raising t to the least quality there and asking again converges faster than linearly, to the very maximum, since what lies above
-// t is an intersection of discs.
+// The best place for a vertex among triangles by the mean ratio. Like the search's threshold rounds, it uses that each element's quality is
+// N(p) / S(p) with N affine and S quadratic, so that at the maximum of the least N - t S every quality can exceed t. S grows with |p|^2
+// equally for all elements, so the maximum is that of a paraboloid among planes, which one, two or three of them decide. Raising t to the
+// least quality there and repeating converges faster than linearly to the exact maximum, since the places with a quality above t form an
+// intersection of discs.
 
 #include <algorithm>
 #include <array>
@@ -24,14 +24,14 @@ constexpr int kRounds = 200;
 
 V scaled(double s, V a) { return {s * a.x, s * a.y}; }
 
-/// The largest place of min_k (a_k + b_k . p) - c |p|^2.
+/// The maximum of min_k (a_k + b_k . p) - c |p|^2.
 class Paraboloid {
  public:
   Paraboloid(const Forms& forms, double t) : c_(2.0 * t) {
     for (const RatioForm<double>& f : forms) planes_.push_back({f.n0 - t * f.s0, {f.nx - t * f.sx, f.ny - t * f.sy}});
   }
 
-  /// Takes in the plane that is lowest at the best place of a few others until it is one of those.
+  /// Finds the maximum: adds the plane that is lowest at the maximum of a few others until it is one of those.
   [[nodiscard]] V highest() const {
     Few few{{0}, 1};
     V place = of_one(0);
@@ -72,7 +72,7 @@ class Paraboloid {
   }
 
   [[nodiscard]] V of_one(std::size_t k) const { return scaled(0.5 / c_, planes_[k].b); }
-  /// On the line where both are equal.
+  /// Maximum on the line where both planes are equal.
   [[nodiscard]] V of_two(std::size_t i, std::size_t k) const {
     const V d = planes_[i].b - planes_[k].b;
     const double square = dot(d, d);
@@ -80,7 +80,7 @@ class Paraboloid {
     const double share = -(2.0 * c_ * (planes_[i].a - planes_[k].a) + dot(d, planes_[k].b)) / square;
     return scaled(0.5 / c_, planes_[k].b + scaled(share, d));
   }
-  /// Where all three are equal.
+  /// Place where all three planes are equal.
   [[nodiscard]] V of_three(std::size_t i, std::size_t j, std::size_t k) const {
     const V d = planes_[j].b - planes_[i].b, e = planes_[k].b - planes_[i].b;
     const double p = planes_[i].a - planes_[j].a, q = planes_[i].a - planes_[k].a, area = cross(d, e);
@@ -88,8 +88,8 @@ class Paraboloid {
     return {(p * e.y - q * d.y) / area, (d.x * q - e.x * p) / area};
   }
 
-  /// Those of up to four that decide their largest place; sets it and its value. Any place is a lower bound of the largest, and that of the
-  /// right ones reaches it, so the best of all is it.
+  /// Finds those of up to four planes that decide their maximum; sets its place and value. Any place is a lower bound of the maximum, and
+  /// that of the right planes attains it, so the best of all is the maximum.
   [[nodiscard]] Few decisive(const Few& from, V& place, double& value) const {
     Few best{};
     value = -std::numeric_limits<double>::infinity();
@@ -119,7 +119,7 @@ double least_quality(const Star<double>& star, V p) {
   return least;
 }
 
-/// A place where the least quality is positive, where there is one above 1e-9.
+/// A place with a positive least quality, if there is one above 1e-9.
 std::optional<V> valid_place(const Star<double>& star, const Forms& forms) {
   if (least_quality(star, {}) > 0.0) return V{};
   for (const double t : {1e-2, 1e-4, 1e-6, 1e-9}) {
@@ -133,7 +133,7 @@ std::optional<V> valid_place(const Star<double>& star, const Forms& forms) {
 
 std::optional<LocalOptimum> local_optimum(const InputMesh& input, PositionView positions, Metric metric, Index vertex) {
   require_vertex(input, vertex);
-  if (metric != Metric::MeanRatio && metric != Metric::MeanRatioArea) return std::nullopt;  // alike for triangles
+  if (metric != Metric::MeanRatio && metric != Metric::MeanRatioArea) return std::nullopt;  // both agree for triangles
   if (input.topology.star(vertex).empty()) return std::nullopt;
   Star<double> star;
   gather_star(MeshStar<Plane>(input.planar_view(), positions, vertex), star);

@@ -17,7 +17,7 @@ namespace dmoscope {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t kGrain = 16;  // rows a chunk
+constexpr std::size_t kGrain = 16;  // rows in a chunk
 
 template <class Frame>
 StarIn<Frame, double> star_of(const InputMesh& input, PositionView positions, Index vertex) {
@@ -28,7 +28,7 @@ StarIn<Frame, double> star_of(const InputMesh& input, PositionView positions, In
   return star;
 }
 
-/// With the vertex at `p`, in units of the star's scale. View: of a Star or VolumeStar.
+/// State of a star with the vertex at `p`, in units of the star's scale. View: of a Star or VolumeStar.
 template <Metric M, class View, class Offset>
 StarState state_at(const View& star, Offset p) {
   StarState state{kInfinity, kInfinity};
@@ -40,7 +40,7 @@ StarState state_at(const View& star, Offset p) {
   return state;
 }
 
-/// state(offset): of the star with the vertex there; offset(point): of the vertex, mesh units.
+/// Fills the field. state(offset): state of the star with the vertex there; offset(point): offset of the vertex, in mesh units.
 template <class StateAt, class OffsetAt>
 void fill(const StateAt& state_at, bool defined, ThreadPool* pool, const OffsetAt& offset, QualityField& field) {
   const auto width = static_cast<std::size_t>(field.columns);
@@ -58,7 +58,7 @@ void fill(const StateAt& state_at, bool defined, ThreadPool* pool, const OffsetA
   });
 }
 
-/// By any metric.
+/// Fills the field by any metric.
 template <class Frame, class OffsetAt>
 void fill(const InputMesh& input, PositionView positions, Metric metric, Index vertex, ThreadPool* pool, const OffsetAt& offset,
           QualityField& field) {

@@ -1,5 +1,5 @@
 #pragma once
-// Records what a search reports while it runs.
+// Recorder of a search's reports.
 
 #include <vector>
 
@@ -41,7 +41,7 @@ class Recorder {
     if (static_cast<double>(best.objective) > best_) choose(best.offset);
     best_ = static_cast<double>(best.objective);
   }
-  /// The level's candidate at this place, by its very bits, is the one chosen.
+  /// Marks the level's candidate at this offset, compared by its bits, as the one chosen.
   template <class Point>
   void choose(const Point& offset) {
     const Offset chosen = in_mesh_units(offset);
@@ -52,8 +52,8 @@ class Recorder {
 
   std::vector<TracedLevelIn<Offset>> levels;
   double here = 0.0;
-  Offset started{};       // where the first grid is centred
-  double at_start = 0.0;  // what that is worth
+  Offset started{};       // centre of the first grid
+  double at_start = 0.0;  // objective at that centre
 
  private:
   template <class Real>

@@ -1,5 +1,5 @@
 #pragma once
-// The planar fast search for one vertex alone.
+// The planar fast search for a single vertex.
 
 #include <vector>
 
@@ -8,7 +8,7 @@
 
 namespace dmoscope {
 
-/// One vertex's star as FastVisit wants it: the vertex is rank 0, its ring the ranks that follow.
+/// One vertex's star in the layout that FastVisit reads: the vertex is rank 0, its ring the ranks that follow.
 class SingleVertexTask {
  public:
   SingleVertexTask(const InputMesh& input, PositionView positions, const SearchParameters& search_parameters, Index vertex)
@@ -26,7 +26,7 @@ class SingleVertexTask {
   SingleVertexTask(const SingleVertexTask&) = delete;
   SingleVertexTask& operator=(const SingleVertexTask&) = delete;
 
-  // What FastVisit reads.
+  // Members that FastVisit reads.
   const StarShape* shapes;
   const Index* others;
   const Vec3* ranked;

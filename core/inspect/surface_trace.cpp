@@ -20,7 +20,7 @@ namespace dmoscope {
 
 namespace {
 
-/// One look at one vertex. Frame: Space or Curved.
+/// Traces the visit of one vertex. Frame: Space or Curved.
 template <class Frame>
 class SurfaceLook {
  public:
@@ -61,7 +61,7 @@ class SurfaceLook {
  private:
   [[nodiscard]] StarState state(Vec3 at) const { return judge_.state(task_.metric, positions_, vertex_, at); }
 
-  /// As Slide does it.
+  /// Searches like Slide.
   void search(const FacetPlace& stands) {
     const Plane& plane = visit_.grid.plane;
     const auto score = judge_.score_of(star_, positions_, vertex_, visit_.trace.untangling);
@@ -98,7 +98,7 @@ class SurfaceLook {
       if (level.best) trace.found = level.at(*level.best);
     }
   }
-  /// Of a candidate with a place on the surface: as near as the bound, or no worse than where it stands.
+  /// Fate of a candidate that lies on the surface: it counts if it is as near as the bound, or no worse than the vertex's present place.
   [[nodiscard]] CandidateFate fate_of(const Fit& there, const Fit& now) const {
     const bool lay = now.deviation < kNoFit.deviation, lies = there.deviation < kNoFit.deviation;
     if (!lies || there.least_cosine < (lay ? std::min(kLeastCosine, now.least_cosine) : kLeastCosine)) return CandidateFate::Leans;
@@ -106,7 +106,7 @@ class SurfaceLook {
                  most_other = lay ? std::max(task_.max_deviation, now.other_split) : task_.max_deviation;
     return there.deviation <= most && there.other_split <= most_other ? CandidateFate::Counts : CandidateFate::Deviates;
   }
-  /// Of the star's other vertices in the tangent plane, in units of its scale.
+  /// Size of the bounding box of the star's other vertices in the tangent plane, in units of the star's scale.
   [[nodiscard]] Vec2<double> box() const {
     Vec2<double> low{}, high{};
     for (const Incidence& at : mesh_.star(vertex_)) {
@@ -119,7 +119,7 @@ class SurfaceLook {
     return times(high - low, 1.0 / star_.scale);
   }
 
-  /// Where the smoother itself takes the vertex.
+  /// Records the vertex's new place by the smoother itself.
   void settle() {
     SmoothingTask alone = task_;
     alone.colouring = std::make_shared<const Colouring>(Colouring{{vertex_}, {0, 1}});

@@ -42,7 +42,7 @@ std::optional<TargetShapeOfElement> target_shape(const InputMesh& input, Positio
     const SmallMatrix edges = edges_at(kind, places, corner), now = edges * to_ideal;
     if (!(determinant(now) > 0.0)) return std::nullopt;
     shape.now = shape.now + scaled(1.0 / static_cast<double>(count), now);
-    // Edges times the matrix are the ideal ones where the element is as wished, but for a turn, which is that of what it is against that.
+    // The wished map: edges times the target's matrix are the ideal edges but for a rotation, which the polar decomposition gives.
     const SmallMatrix wished = target.space == FormulaSpace::Stretched
                                    ? inverse(matrix(0))
                                    : polar(edges * matrix(corner) * to_ideal).rotation * ideal * inverse(matrix(corner)) * to_ideal;

@@ -20,7 +20,7 @@ namespace dmoscope {
 
 namespace {
 
-/// What the fast search compares: formulas::rank.
+/// Phrase for the value that the fast search compares: formulas::rank.
 std::string rank_phrase(Metric metric) {
   switch (metric) {
     case Metric::MinAngle:
@@ -35,7 +35,7 @@ std::string rank_phrase(Metric metric) {
   }
 }
 
-/// "mean ratio up to 0.7, beyond it 0.7 + density"
+/// Phrase for a composite objective: "mean ratio up to 0.7, beyond it 0.7 + density".
 std::string both_phrase(const CompositeObjective& composite) {
   if (composite.is_single()) return metric_phrase(composite.first);
   const auto* metric = std::get_if<Metric>(&composite.second);
@@ -62,7 +62,7 @@ CompositeObjective with_guard(CompositeObjective objective, const std::optional<
   return objective;
 }
 
-/// One look at one vertex. Frame: Plane or Space.
+/// Traces the visit of one vertex. Frame: Plane or Space.
 template <class Frame>
 class Look {
  public:
@@ -112,7 +112,7 @@ class Look {
     search_plainly(true);
   }
 
-  /// Repeats the search of the kernel for the objective. False: the star is the plain search's.
+  /// Repeats the kernel's search for the objective. False: the star is left to the plain search.
   bool search_fast() {
     if (!is_built_in(metric_)) {
       const auto judge = input_.quality_context().judge(metric_);
@@ -142,7 +142,7 @@ class Look {
     }
   }
 
-  /// The star by the statistics' formulas with the vertex at a place.
+  /// State of the star by the statistics' formulas with the vertex at a place.
   [[nodiscard]] StarState state(Vec3 place) const { return judge_.state(metric_, positions_, trace_.vertex, place); }
 
   bool search_by_formula(const DefinedJudge& judge) {
@@ -172,7 +172,7 @@ class Look {
     record_levels(points.scale, points.narrow_box, [&](int levels) { return find(levels).offset; });
     return true;
   }
-  /// Tells a search that reports no candidates: its choice in level L is what it finds in L levels, and not in L - 1. find(levels): an
+  /// Records a search that reports no candidates: its choice in level L is what it finds in L levels and not in L - 1. find(levels): an
   /// offset, in units of `scale`, as the search rounds it.
   template <class Point, class Find>
   void record_levels(double scale, Point box, const Find& find) {
@@ -207,7 +207,7 @@ class Look {
     return search_by_lanes(metric_phrase(metric_),
                            [&](const SingleVertexTask& task) { return TargetVisit<Crossed, SingleVertexTask>(task, 0, numbers.data()); });
   }
-  /// make_visit(task): what a lane does.
+  /// Repeats a search by lanes. make_visit(task): the visit that a lane runs.
   template <class MakeVisit>
   bool search_by_lanes(std::string value_phrase, const MakeVisit& make_visit) {
     const SingleVertexTask task(input_, positions_, parameters_, trace_.vertex);
@@ -218,7 +218,7 @@ class Look {
     trace_.fast = true;
     trace_.value_phrase = std::move(value_phrase);
     take(std::move(recorder), [&](Offset offset) {
-      // Exact: the offsets are floats times a power of two.
+      // exact, since the offsets are floats times a power of two
       const Displacement to = task.frame.displace(&trace_.from.x, static_cast<float>(offset.x * task.frame.inverse),
                                                   static_cast<float>(offset.y * task.frame.inverse));
       return Vec3{to.target[0], to.target[1], to.target[2]};
@@ -249,14 +249,14 @@ class Look {
     });
   }
 
-  /// Where an offset leads as the smoothers in double store it.
+  /// Position for an offset, as the smoothers in double store it.
   [[nodiscard]] Vec3 stored(Offset offset) const { return displaced(mesh_.frame, trace_.from, offset, input_.mesh.single_precision); }
   [[nodiscard]] Confirmation confirm(Vec3 target) const { return judge_.confirm(positions_, trace_.vertex, target); }
 
   void take(Recorder<Offset> recorder) {
     take(std::move(recorder), [this](Offset offset) { return stored(offset); });
   }
-  /// place(offset): where the vertex would be stored.
+  /// Takes over a recording. place(offset): position in which the vertex would be stored.
   template <class Place>
   void take(Recorder<Offset> recorder, const Place& place) {
     trace_.value_here = recorder.here;
@@ -302,7 +302,7 @@ class Look {
   Trace trace_;
 };
 
-/// Whether the vertex is fixed. Throws UsageError when there is nothing to trace.
+/// Whether the vertex is fixed. Throws UsageError if there is nothing to trace.
 bool require_traceable(const InputMesh& input, Shape shape, std::span<const std::uint8_t> fixed, Metric metric,
                        const SearchParameters& parameters, Index vertex) {
   require_vertex(input, vertex, shape);
@@ -312,7 +312,7 @@ bool require_traceable(const InputMesh& input, Shape shape, std::span<const std:
   return fixed[vertex] != 0 || input.topology.star(vertex).empty();
 }
 
-/// How a visit that moved its vertex changed its star.
+/// Phrase on how a visit that moved its vertex changed its star.
 std::string moved_phrase(const VisitSummary& visit) {
   const StarState &before = visit.before, &after = visit.after;
   if (visit.combined && !visit.untangling)

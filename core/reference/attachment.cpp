@@ -10,17 +10,17 @@ namespace dmoscope {
 
 namespace {
 
-/// How far from the reference a vertex may stand, as a share of the reference's size.
+/// Greatest distance of a vertex from the reference, as a share of the reference's size.
 constexpr double kBeside = 1e-2;
-/// How far from a corner or a line, as a share of the least height of the faces at the vertex; and a line from the edge that runs along it,
-/// as a share of that edge's length.
+/// Greatest distance of a vertex from a corner or a line, as a share of the least height of its faces; also that of a line from the edge
+/// along it, as a share of the edge's length.
 constexpr double kReach = 0.25;
 
 std::array<Index, 2> edge_of(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
 
 double distance_to_segment(Vec3 p, Vec3 a, Vec3 b) { return std::sqrt(nearest_point(std::array{a, b, b}, p).square); }
 
-/// A tree of one patch.
+/// Facet tree of a single patch.
 FacetTree tree_of(std::vector<std::array<Vec3, 3>> triangles) {
   const std::vector<Index> patch_of(triangles.size(), 0);
   return {std::move(triangles), patch_of};
@@ -46,7 +46,7 @@ Attachment::Attachment(const InputMesh& input, const ElementTable& faces, const 
   find_edges();
 }
 
-/// The feature edges of the reference, chained; those between two vertices that do not slide are lines by themselves.
+/// Finds the feature lines of the reference; lines between two vertices that do not slide are lines of one edge.
 void Attachment::find_lines(const CurveEnds& ends) {
   lines_ = chains(ends);
   Edge last{kNoIndex, kNoIndex};
@@ -58,7 +58,7 @@ void Attachment::find_lines(const CurveEnds& ends) {
 }
 
 void Attachment::measure_faces(const ElementTable& faces) {
-  std::vector<double> height(reach_.size(), std::numeric_limits<double>::infinity());  // the least of the faces at a vertex
+  std::vector<double> height(reach_.size(), std::numeric_limits<double>::infinity());  // by vertex, least height of its faces
   for (Index f = 0; f < faces.size(); ++f) {
     const auto c = faces.corners(f);
     const auto at = [&](std::size_t i) { return input_.mesh.positions[c[i]]; };
@@ -91,7 +91,7 @@ void Attachment::find_corners(const CurveEnds& ends) {
   }
   if (corners.empty()) return;
   const FacetTree tree = tree_of(std::move(points));
-  std::map<Index, std::pair<double, Index>> nearest;  // by corner: the square of the distance, and the vertex
+  std::map<Index, std::pair<double, Index>> nearest;  // by corner, squared distance of the nearest vertex, and the vertex
   for (Index v = 0; v < reach_.size(); ++v) {
     if (reach_[v] == 0.0) continue;
     const auto found = tree.nearest(input_.mesh.positions[v], 0);
@@ -102,12 +102,12 @@ void Attachment::find_corners(const CurveEnds& ends) {
   for (const auto& [corner, found] : nearest) corner_[found.second] = 1, corner_points_[found.second] = corner;
 }
 
-/// Who stands on which line, corners at its ends.
+/// Finds the vertices on each line, with corners at its ends.
 void Attachment::find_standing() {
   standing_.resize(lines_.size());
   std::vector<std::array<Vec3, 3>> segments;
   std::vector<std::pair<Index, std::size_t>> segment_of;
-  std::multimap<Index, std::pair<Index, double>> ends_at;  // by corner: a line, and where on it that is
+  std::multimap<Index, std::pair<Index, double>> ends_at;  // by corner, the lines that end there, with the place on them
   for (Index l = 0; l < lines_.size(); ++l) {
     const auto& points = lines_[l].points;
     const std::size_t count = points.size() - (lines_[l].closed ? 0 : 1);
@@ -137,7 +137,7 @@ void Attachment::find_standing() {
   for (auto& standing : standing_) std::ranges::sort(standing);
 }
 
-/// Is the line between two places as near the straight edge between them as it must be?
+/// Whether the line between two places is near enough to the straight edge between them.
 bool Attachment::runs_along(const FeatureLine& line, const Standing& from, const Standing& to) const {
   const Vec3 a = input_.mesh.positions[from.vertex], b = input_.mesh.positions[to.vertex];
   const double most = kReach * length(b - a);
@@ -172,9 +172,10 @@ Vec3 Attachment::middle_of(const ElementTable& faces, Index face) const {
   return (1.0 / static_cast<double>(c.size())) * sum;
 }
 
-/// By patch of the faces the patch of the reference over most of which they lie. `near`: by face the facet nearest to its middle.
+/// For each patch of the mesh, the patch of the reference over which most of its area lies. `near`: by face, the facet nearest to its
+/// middle.
 std::vector<Index> Attachment::patches_beneath(const ElementTable& faces, const Facets& own, std::span<const Index> near) const {
-  std::map<std::pair<Index, Index>, double> areas;  // of a patch of the mesh over one of the reference
+  std::map<std::pair<Index, Index>, double> areas;  // areas by patch of the mesh and patch of the reference
   for (Index f = 0; f < faces.size(); ++f)
     areas[{own.facets()[own.first_of(f)].patch, facets_->facets()[near[f]].patch}] += own.twice_area(own.first_of(f));
   std::vector<Index> beneath;
@@ -187,7 +188,7 @@ std::vector<Index> Attachment::patches_beneath(const ElementTable& faces, const 
   return beneath;
 }
 
-/// The nearest facet, or the nearest one of a patch where that is farther by no more than `most`.
+/// The nearest facet of a patch, if it is farther than the nearest facet of all by no more than `most`; else the latter.
 FacetTree::Nearest Attachment::nearest_of(const FacetTree& all, Vec3 p, Index near, Index of_patch, double most) const {
   const FacetTree::Nearest nearest = all.nearest(p, near);
   const FacetTree::Nearest wanted = facets_->nearest(p, of_patch);
@@ -196,7 +197,7 @@ FacetTree::Nearest Attachment::nearest_of(const FacetTree& all, Vec3 p, Index ne
 
 SlidingFaces Attachment::lay(ElementTable faces, const Facets& own, CurveEnds& ends) const {
   std::vector<std::array<Vec3, 3>> triangles;
-  std::vector<Index> one_of(facets_->facets().size(), kNoIndex);  // by patch of the reference: a facet
+  std::vector<Index> one_of(facets_->facets().size(), kNoIndex);  // by patch of the reference, one facet
   for (const Facet& facet : facets_->facets()) {
     one_of[facet.patch] = static_cast<Index>(triangles.size());
     triangles.push_back({facets_->point(facet.corners[0]), facets_->point(facet.corners[1]), facets_->point(facet.corners[2])});

@@ -1,5 +1,5 @@
 #pragma once
-// How a mesh lies on the surface of another one, its reference.
+// Relation of a mesh to the surface of another one, its reference.
 
 #include <array>
 #include <cstdint>
@@ -14,30 +14,30 @@
 
 namespace dmoscope {
 
-/// Finds which vertices and edges of the mesh stand on corners and feature lines of the reference, and which facets lie beneath its faces.
-/// All that it is given must outlive it.
+/// Finds the vertices and edges of the mesh on corners and feature lines of the reference, and the facets beneath its faces. All arguments
+/// must outlive it.
 class Attachment {
  public:
-  /// `faces`: of the mesh, those that slide. `facets`, `ends`: of the reference, with its own feature edges.
+  /// Attaches a mesh. `faces`: its sliding faces. `facets`, `ends`: those of the reference, with its own feature edges.
   Attachment(const InputMesh& input, const ElementTable& faces, const InputMesh& reference, std::shared_ptr<const Facets> facets,
              const CurveEnds& ends);
 
-  /// Is a vertex of the mesh the nearest one to a corner of the reference, and near it?
+  /// Whether a vertex of the mesh is the nearest one to a corner of the reference, and near it.
   [[nodiscard]] bool on_corner(Index vertex) const { return corner_[vertex] != 0; }
-  /// Does an edge of the mesh run along a feature line of the reference?
+  /// Whether an edge of the mesh runs along a feature line of the reference.
   [[nodiscard]] bool is_along(Index a, Index b) const;
 
-  /// The faces over the facets, wound as these are. `own`: the same faces as facets of the mesh itself, parted along feature edges: each
-  /// patch of them lies on one patch of the reference. Vertices that are off all edges in `ends`, and near enough, are carried; others off
-  /// them are held.
+  /// The faces over the facets, wound like these. `own`: the same faces as facets of the mesh itself, parted along feature edges: each
+  /// patch of them lies on one patch of the reference. Vertices off all edges in `ends` slide on the surface if they are near enough;
+  /// others off the edges are held.
   [[nodiscard]] SlidingFaces lay(ElementTable faces, const Facets& own, CurveEnds& ends) const;
-  /// The lines, and who stands near which of them.
+  /// The feature lines, and the line near which each vertex stands.
   [[nodiscard]] OntoLines take_lines() { return {std::move(lines_), std::move(line_of_), beside_}; }
 
  private:
   using Edge = std::array<Index, 2>;
   struct Standing {
-    double along;  // segments, and the share of the last one
+    double along;  // index of the segment plus the share of it
     Index vertex;
     friend auto operator<=>(const Standing&, const Standing&) = default;
   };
@@ -56,14 +56,14 @@ class Attachment {
   std::shared_ptr<const Facets> facets_;
   double beside_;
   std::vector<FeatureLine> lines_;
-  std::vector<Edge> edges_;                      // of the faces, ascending
-  std::vector<double> reach_;                    // by vertex: how near it must be to what it stands on; 0 for one of no face
-  std::vector<double> longest_;                  // by vertex: the longest edge of its faces
-  std::vector<std::uint8_t> corner_;             // by vertex
-  std::vector<Index> corner_points_;             // by vertex, of those: the corner
-  std::vector<Index> line_of_;                   // by vertex
-  std::vector<std::vector<Standing>> standing_;  // by line
-  std::vector<Edge> along_;                      // ascending
+  std::vector<Edge> edges_;                      // edges of the faces, ascending
+  std::vector<double> reach_;                    // by vertex, greatest distance from its line or corner; 0 for a vertex of no face
+  std::vector<double> longest_;                  // by vertex, longest edge of its faces
+  std::vector<std::uint8_t> corner_;             // by vertex, whether it is on a corner
+  std::vector<Index> corner_points_;             // by vertex on a corner, that corner
+  std::vector<Index> line_of_;                   // by vertex, its line
+  std::vector<std::vector<Standing>> standing_;  // by line, the vertices on it
+  std::vector<Edge> along_;                      // edges along lines, ascending
 };
 
 }  // namespace dmoscope

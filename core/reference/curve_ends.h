@@ -1,5 +1,5 @@
 #pragma once
-// Which vertices slide along edges of the input, and between which neighbours.
+// Vertices that slide along edges of the input, and their neighbours there.
 
 #include <array>
 #include <cstdint>
@@ -9,21 +9,22 @@
 
 namespace dmoscope {
 
-/// What holds a vertex that could slide.
+/// Reason why a vertex that could slide is held.
 enum class HeldOn : std::uint8_t {
-  Nothing,    // it slides, or is not of what slides
-  Corner,     // the boundary, or the feature edge, turns there
-  Junction,   // more than two feature edges meet there, or parts of the boundary
-  End,        // a feature edge ends there
-  Touching,   // parts of the surface touch there, or it cannot be wound alike
-  Named,      // the file gives it a meaning
-  Rule,       // boundary or interfaces stay
-  Unmatched,  // the surface of another mesh that it should slide on is too far away, or has no feature edge there
-  Hand,       // a person made it a corner
-  Tied        // it belongs to another vertex: see core/mesh/ties.h
+  Nothing,    // the vertex slides, or is on nothing that slides
+  Corner,     // the boundary, or the feature edge, turns at the vertex
+  Junction,   // more than two feature edges, or parts of the boundary, meet at the vertex
+  End,        // a feature edge ends at the vertex
+  Touching,   // parts of the surface touch at the vertex, or cannot be wound alike
+  Named,      // the file gives the vertex a meaning
+  Rule,       // boundary or interfaces are fixed by rule
+  Unmatched,  // the other mesh's surface to slide on is too far away, or has no feature edge there
+  Hand,       // the user made the vertex a corner
+  Tied        // the vertex belongs to another one: see core/mesh/ties.h
 };
 
-/// A vertex slides between two neighbours once exactly two edges of curves have met at it, unless it is held.
+/// Neighbours of vertices along curves. A vertex slides between two neighbours once exactly two edges of curves have met at it, unless it
+/// is held.
 class CurveEnds {
  public:
   explicit CurveEnds(Index vertices) : ends_(vertices, kNone) {}
@@ -32,12 +33,12 @@ class CurveEnds {
   [[nodiscard]] Index size() const noexcept { return static_cast<Index>(ends_.size()); }
   [[nodiscard]] bool slides(Index v) const noexcept { return ends_[v][0] != kNoIndex && ends_[v][1] != kNoIndex; }
   [[nodiscard]] bool held(Index v) const noexcept { return ends_[v][0] == kNoIndex && ends_[v][1] != kNoIndex; }
-  /// Does no edge of a curve meet there, and does nothing hold it?
+  /// Whether no edge of a curve meets at the vertex, and nothing holds it.
   [[nodiscard]] bool off(Index v) const noexcept { return ends_[v] == kNone; }
-  /// Of a vertex that slides: its neighbours along the curve.
+  /// Neighbours along the curve of a vertex that slides.
   [[nodiscard]] const Ends& of(Index v) const noexcept { return ends_[v]; }
 
-  /// The first reason counts.
+  /// Holds a vertex; the first reason counts.
   void hold(Index v, HeldOn why) noexcept {
     if (!held(v)) ends_[v] = {kNoIndex, static_cast<Index>(why)};
   }
@@ -45,7 +46,7 @@ class CurveEnds {
     if (held(v)) return static_cast<HeldOn>(ends_[v][1]);
     return slides(v) || off(v) ? HeldOn::Nothing : HeldOn::End;
   }
-  /// An edge of a curve. Where a third one meets, the vertex is held.
+  /// Adds an edge of a curve. A vertex where a third one meets is held.
   void join(Index a, Index b) noexcept {
     join_one(a, b);
     join_one(b, a);
@@ -64,7 +65,7 @@ class CurveEnds {
       hold(v, HeldOn::Junction);
   }
 
-  std::vector<Ends> ends_;  // kNoIndex: none; of one that is held the second is why
+  std::vector<Ends> ends_;  // neighbours, kNoIndex: none; of a held vertex the second is the reason
 };
 
 }  // namespace dmoscope

@@ -12,7 +12,7 @@ namespace dmoscope {
 
 namespace {
 
-/// Roundings of a coordinate that a point of a segment, computed, may lie beside it.
+/// Tolerance for a computed point to lie beside its segment, in roundings of a coordinate.
 constexpr double kRoundings = 8.0;
 
 double largest_coordinate(Vec3 p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
@@ -36,7 +36,7 @@ std::vector<FeatureLine> chains(const CurveEnds& ends) {
     while (first != start && ends.slides(first)) before = std::exchange(first, beyond(before, first));
     FeatureLine line;
     line.closed = first == start;
-    // From `first` on, away from where the way back came from.
+    // Goes on from `first` in the other direction.
     const Index end = first;
     Index v = line.closed ? ends.of(start)[1] : before, last = first;
     line.points.push_back(first);
@@ -58,7 +58,7 @@ Curves::Curves(const InputMesh& input, const CurveEnds& ends)
       string_of_(input.mesh.vertex_count(), kNoIndex),
       index_on_(input.mesh.vertex_count(), 0) {
   take_strings(ends);
-  for (String& string : strings_) {  // each along a curve of its own
+  for (String& string : strings_) {  // gives each string a curve of its own
     string.curve = static_cast<Index>(curves_.size());
     Curve& curve = curves_.emplace_back(Curve{string.members, {}, string.closed});
     measure(curve);
@@ -107,7 +107,7 @@ void Curves::measure(Curve& curve) const {
     curve.lengths.push_back(curve.lengths.back() + dmoscope::length(plane_.difference(point(curve, i), point(curve, i - 1))));
 }
 
-/// Gives each string the line near which its members stand.
+/// Assigns to each string the line near which its members stand.
 void Curves::put_along(const OntoLines& onto) {
   for (const FeatureLine& line : onto.lines) {
     Curve& curve = curves_.emplace_back(Curve{line.points, {}, line.closed});
@@ -116,7 +116,7 @@ void Curves::put_along(const OntoLines& onto) {
   for (String& string : strings_) string.curve = onto.line_of[string.members[string.closed ? 0 : 1]];
 }
 
-/// Reverses a string that runs against its curve: of one that closes, the way forwards from member to member is then the shorter way round.
+/// Reverses a string that runs against its curve. Along a closed one, the shorter way round from member to member is then the forward one.
 void Curves::turn_along(String& string) const {
   const Curve& curve = curves_[string.curve];
   double forwards = 0.0, backwards = 0.0;
@@ -137,7 +137,7 @@ Curves::Member Curves::beside(Index vertex, bool after) const {
   return {string.members[i], string.near[i]};
 }
 
-/// The place of the segment's point that is nearest.
+/// The place of the nearest point of the segment.
 double Curves::place_near(const Curve& curve, std::size_t segment, Vec3 position, double& distance) const {
   const Vec3 a = point(curve, segment), b = point(curve, segment + 1);
   const Vec3 d = plane_.difference(b, a), r = plane_.difference(position, a);
@@ -156,7 +156,7 @@ std::optional<double> Curves::place_on(const Curve& curve, std::size_t segment, 
 
 std::optional<double> Curves::place_of(const Curve& curve, std::size_t near, Vec3 position) const {
   const std::size_t count = curve.segments();
-  for (std::size_t step = 0; step <= count; ++step) {  // the segments on either side, nearest first
+  for (std::size_t step = 0; step <= count; ++step) {  // segments on either side, nearest first
     for (const bool forwards : {true, false}) {
       std::size_t segment = 0;
       if (curve.closed)
@@ -209,7 +209,7 @@ std::optional<Curves::Straight> Curves::straight(Index vertex, double place, boo
   if (curve.closed && forwards && place >= whole) place -= whole;
   if (curve.closed && !forwards && place <= 0.0) place += whole;
   if (forwards ? place >= whole : place <= 0.0) return std::nullopt;
-  // A place at a point belongs to the segment that leads away from it.
+  // Assigns a place at a point to the segment that begins there.
   const auto& lengths = curve.lengths;
   const auto bound =
       forwards ? std::upper_bound(lengths.begin(), lengths.end(), place) : std::lower_bound(lengths.begin(), lengths.end(), place);
@@ -258,7 +258,7 @@ double Curves::deviation(Index vertex, double first, double last, Vec3 from, Vec
   const Curve& curve = curve_of(vertex);
   double shift = 0.0;
   if (curve.closed) shift = first < 0.0 ? -curve.length() : first >= curve.length() ? curve.length() : 0.0;
-  const auto count = static_cast<std::ptrdiff_t>(curve.segments());  // points of a closed curve; else one less
+  const auto count = static_cast<std::ptrdiff_t>(curve.segments());  // number of points of a closed curve; else one less
   auto j = std::upper_bound(curve.lengths.begin(), curve.lengths.end(), first - shift) - curve.lengths.begin();
   double greatest = 0.0;
   for (; curve.closed || j <= count; ++j) {

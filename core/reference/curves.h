@@ -1,5 +1,5 @@
 #pragma once
-// Curves of the input along which vertices slide, its boundary and interfaces or the feature edges of its surface: polylines that no
+// Curves along which vertices slide: the boundary and interfaces of the input, or the feature edges of its surface, as polylines that no
 // vertex ever leaves.
 
 #include <array>
@@ -15,63 +15,63 @@ namespace dmoscope {
 
 /// A polyline along feature edges of a mesh.
 struct FeatureLine {
-  std::vector<Index> points;  // vertices; of a closed one each once
+  std::vector<Index> points;  // vertices along the line; of a closed one each once
   bool closed = false;
 };
-/// Those edges of which two meet at a vertex, chained: from one vertex that is held to the next, or all around; by the lowest vertex that
+/// Feature lines made of the edges in `ends`: each from one held vertex to the next, or all around; in the order of the lowest vertex that
 /// slides on each.
 [[nodiscard]] std::vector<FeatureLine> chains(const CurveEnds& ends);
 
 /// Feature lines of another mesh, along which vertices slide instead of along edges of their own.
 struct OntoLines {
   std::vector<FeatureLine> lines;
-  std::vector<Index> line_of;  // by vertex of the mesh: the line near which one that slides stands
-  double beside = 0.0;         // how far from it, in mesh units
+  std::vector<Index> line_of;  // by vertex of the mesh, the line that it slides along
+  double beside = 0.0;         // greatest distance of a vertex from its line, in mesh units
 };
 
-/// Places on a curve are lengths along it, in mesh units, from its first point; those of a closed curve without a corner start anew after
-/// its length. A vertex's place follows from its position: it is where its curve passes through that, and of several passes the one nearest
-/// to where the vertex was in the input. The mesh must outlive them.
+/// Curves along which vertices slide. Places on a curve are lengths along it, in mesh units, from its first point; on a closed curve
+/// without a corner they are periodic in its length. A vertex's place follows from its position: the place where its curve passes through
+/// that, and of several the one nearest to the vertex's place in the input. The mesh must outlive them.
 class Curves {
  public:
-  /// `ends`: who slides, and between whom.
+  /// Curves along edges of the input. `ends`: the vertices that slide, and their neighbours.
   Curves(const InputMesh& input, const CurveEnds& ends);
-  /// Along lines of input.surface; `ends` tell the neighbours still.
+  /// Curves along lines of input.surface; `ends` still has the neighbours.
   Curves(const InputMesh& input, const CurveEnds& ends, const OntoLines& onto);
 
   [[nodiscard]] bool slides(Index vertex) const noexcept { return string_of_[vertex] != kNoIndex; }
   [[nodiscard]] Index curve_count() const noexcept { return static_cast<Index>(curves_.size()); }
 
-  /// Where on its curve a vertex that slides stands; nowhere for one that was put beside it.
+  /// Place on its curve of a vertex that slides; none for one that is beside it.
   [[nodiscard]] std::optional<double> place(Index vertex, Vec3 position) const;
-  /// The point at a place of the vertex's curve, as the file would hold it.
+  /// The point at a place of the vertex's curve, rounded as the file holds it.
   [[nodiscard]] Vec3 at(Index vertex, double place) const;
-  /// The same in double, for what searches along the curve in steps finer than a float's.
+  /// The point at a place of the vertex's curve in double, for searches along the curve in steps finer than a float's.
   [[nodiscard]] Vec3 point_at(Index vertex, double place) const;
-  /// After which length places start anew: 0 of a curve that is not closed.
+  /// Period of the places in mesh units, the length of a closed curve; 0 for a curve that is not closed.
   [[nodiscard]] double period(Index vertex) const { return curve_of(vertex).closed ? curve_of(vertex).length() : 0.0; }
-  /// The straight way from a place to the next point of the curve.
+  /// Straight line from a place to the next point of the curve.
   struct Straight {
-    Vec3 way;         // of length 1
-    double distance;  // > 0
-    double end;       // the place of that point
+    Vec3 way;         // unit vector
+    double distance;  // distance to that point, > 0
+    double end;       // place of that point
   };
-  /// `place`: from 0 to the curve's length. None at the end of an open curve.
+  /// The straight line from a place. `place`: from 0 to the curve's length. None at the end of an open curve.
   [[nodiscard]] std::optional<Straight> straight(Index vertex, double place, bool forwards) const;
 
-  /// The neighbours of a vertex along its curve, and where they stand beside its place. Sliding never leads past them.
+  /// The neighbours of a vertex along its curve, and their places relative to its own. Sliding never passes them.
   struct Neighbours {
     Index before, after;
-    double place_before, place_after;  // of a closed curve: less than its length away from `place`
+    double place_before, place_after;  // places; on a closed curve less than its length away from `place`
   };
-  /// None where a neighbour stands beside the curve, or not on its side.
+  /// The neighbours of a vertex at `place`. None if a neighbour is beside the curve, or not on its side.
   [[nodiscard]] std::optional<Neighbours> neighbours(Index vertex, double place, PositionView positions) const;
 
-  /// How far an edge is from the stretch of the curve that it stands for, exactly and both ways: the greatest distance of the curve's
-  /// points between two places, first <= last, from the segment between the positions there.
+  /// Exact distance of an edge from its stretch of the curve: the greatest distance of the curve's points between two places, first <=
+  /// last, from the segment between the positions there. It is exact in both directions.
   [[nodiscard]] double deviation(Index vertex, double first, double last, Vec3 from, Vec3 to) const;
 
-  /// Segments of a curve, from the first to the last; of a closed curve `first` may be greater than `last`.
+  /// Segments of a curve, from the first to the last; on a closed curve `first` may be greater than `last`.
   struct Stretch {
     Index curve;
     std::size_t first, last;
@@ -79,11 +79,11 @@ class Curves {
       return first <= last ? first <= segment && segment <= last : segment >= first || segment <= last;
     }
   };
-  /// What lies between a vertex that slides and a neighbour along the curve; none where `other` is no neighbour, or either beside the
+  /// The stretch between a vertex that slides and a neighbour along the curve; none if `other` is no neighbour, or either is beside the
   /// curve.
   [[nodiscard]] std::optional<Stretch> stretch_to(Index vertex, Vec3 position, Index other, Vec3 position_of_other) const;
-  /// The edges of the mesh that it slides along, around a place of the vertex's curve: the one it lies on, and the one before where it is
-  /// that one's first end. kNoIndex: none.
+  /// The edges of the reference mesh around a place of the vertex's curve: the one that it lies on, and at that one's first end also the
+  /// one before. kNoIndex: none.
   [[nodiscard]] std::array<std::pair<Index, Index>, 2> edges_at(Index vertex, double place) const;
   /// Calls visit(curve, segment, from, to) for all segments.
   template <class Visit>
@@ -105,17 +105,17 @@ class Curves {
 
  private:
   struct Curve {
-    std::vector<Index> points;    // along it, of points_; of a closed one without a corner each once
-    std::vector<double> lengths;  // from the first point to each; of a closed one, to the first again, too
+    std::vector<Index> points;    // indices into points_ along the curve; of a closed one without a corner each once
+    std::vector<double> lengths;  // length from the first point to each point; of a closed curve also to the first again
     bool closed = false;
     [[nodiscard]] std::size_t segments() const { return lengths.size() - 1; }
     [[nodiscard]] double length() const { return lengths.back(); }
   };
-  /// Vertices of the mesh along a curve, one after the other, each joined to the next by an edge; the ends of an open one are held.
+  /// Vertices of the mesh along a curve in order, each joined to the next by an edge; the ends of an open string are held.
   struct String {
     Index curve = kNoIndex;
     std::vector<Index> members;
-    std::vector<std::size_t> near;  // by member: a segment near which it was in the input
+    std::vector<std::size_t> near;  // by member, a segment that it was near in the input
     bool closed = false;
   };
   struct Member {
@@ -139,14 +139,14 @@ class Curves {
   [[nodiscard]] std::optional<double> place_of(const Curve& curve, std::size_t near, Vec3 position) const;
   [[nodiscard]] static std::size_t segment_at(const Curve& curve, double place);
 
-  std::span<const Vec3> points_;  // of the mesh that it slides along
+  std::span<const Vec3> points_;  // positions of the mesh that vertices slide along
   Plane plane_;
   bool single_precision_ = false;
-  double beside_ = 0.0;  // how far from its curve a vertex may stand, in mesh units; 0: not at all, but for rounding
+  double beside_ = 0.0;  // greatest distance of a vertex from its curve, in mesh units; 0: none but for rounding
   std::vector<Curve> curves_;
   std::vector<String> strings_;
-  std::vector<Index> string_of_;  // of every vertex; kNoIndex: it does not slide
-  std::vector<Index> index_on_;   // where on its string a vertex that slides is
+  std::vector<Index> string_of_;  // by vertex, its string; kNoIndex: it does not slide
+  std::vector<Index> index_on_;   // by vertex that slides, its index on its string
 };
 
 }  // namespace dmoscope

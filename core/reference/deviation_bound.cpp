@@ -14,7 +14,7 @@ bool DeviationBound::allows_faces(PositionView positions, const Move& move, Over
   Overlay overlay(domain_, room);
   const Fit bound{most_, most_, kLeastCosine};
   if (is_within(overlay.star(positions, move.vertex, move.to, move.beneath_to, bound), bound)) return true;
-  // No worse than it is now will do, too.
+  // Allows also a fit that is no worse than the present one.
   if (!now) now = overlay.star(positions, move.vertex, move.from, move.beneath_from, kNoFit);
   if (now->deviation == kNoFit.deviation && !domain_.faces().are_own())
     return overlay.keeps_what_lies(positions, move.vertex, move.from, move.beneath_from, move.to, move.beneath_to, bound);

@@ -24,7 +24,7 @@ std::vector<std::string_view> split_at(std::string_view text, char at) {
   }
 }
 
-/// One word, looked up in one mesh.
+/// Finds the edges that one word names in one mesh.
 class EdgeWord {
  public:
   EdgeWord(const InputMesh& input, const StandingRule& rule, const Domain* domain, std::string_view word)
@@ -102,7 +102,7 @@ class EdgeWord {
       while (beside[at].size() == 2 && (domain_ == nullptr || !domain_->is_held(at))) {
         const Index next = beside[at][0] == from ? beside[at][1] : beside[at][0];
         const EdgeEnds one = edge_ends(at, next);
-        if (one == first) return;  // all the way round
+        if (one == first) return;  // back at the first edge
         found_.push_back(one);
         from = at, at = next;
       }
@@ -122,7 +122,7 @@ class EdgeWord {
     }
   }
 
-  /// The edges that one face of the group has alone.
+  /// Adds the border of a group: the edges with only one of its faces.
   void border(const Group& group) {
     std::map<EdgeEnds, Index> count;
     const auto add = [&](std::span<const Index> c) {

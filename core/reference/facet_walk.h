@@ -1,5 +1,5 @@
 #pragma once
-// The way over facets to the one above or below a point of a plane.
+// Walk over facets to the one above or below a point of a plane.
 
 #include <array>
 #include <optional>
@@ -9,11 +9,11 @@
 
 namespace dmoscope {
 
-/// See Facets::walk. `corners_of(facet)`: as they look from above the plane, from its origin.
+/// The walk of Facets::walk. `corners_of(facet)`: its corners projected into the plane, relative to the plane's origin.
 template <class CornersOf>
 [[nodiscard]] std::optional<FacetPlace> walk_facets(const Facets& facets, Index facet, Vec2<double> target, double least_cosine,
                                                     const CornersOf& corners_of) {
-  constexpr double kWeightRounding = 1e-10;  // what a weight may be below 0 where the line just about meets the facet
+  constexpr double kWeightRounding = 1e-10;  // least weight, below 0, with which the line counts as meeting the facet
   constexpr int kLongestWalk = 256;
   Index before = kNoIndex;
   for (int step = 0; step < kLongestWalk; ++step) {
@@ -29,7 +29,7 @@ template <class CornersOf>
       for (double& weight : found.weights) weight /= sum;
       return found;
     }
-    // Across the edge that the target is farthest beyond; back only where there is no other way.
+    // Crosses the edge that the target is farthest beyond; goes back only if there is no other way.
     const auto& across = facets.facets()[facet].across;
     std::size_t through = 3;
     for (const bool back : {false, true}) {
@@ -44,10 +44,10 @@ template <class CornersOf>
   return std::nullopt;
 }
 
-/// Many walks over the same facets, from a place of the surface to what lies above or below points of a plane that touches it there.
+/// Many walks over the same facets, from a place of the surface to the facets above or below points of the tangent plane there.
 class FacetWalks {
  public:
-  /// The facets that were met, projected: kept from one vertex to the next.
+  /// The projected facets that were met; memory that is kept from one vertex to the next.
   struct Room {
     struct Seen {
       Index facet;
@@ -55,7 +55,7 @@ class FacetWalks {
     };
     std::vector<Seen> seen;
   };
-  /// `origin`: the place; the plane's. All must outlive it.
+  /// Prepares walks. `origin`: the place, and the plane's origin. All arguments must outlive it.
   FacetWalks(const Facets& facets, Index start, const Plane& plane, Vec3 origin, double least_cosine, Room& room)
       : facets_(facets), start_(start), plane_(plane), origin_(origin), least_cosine_(least_cosine), room_(room) {
     room_.seen.clear();

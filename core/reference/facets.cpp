@@ -44,7 +44,7 @@ void Facets::split(const ElementTable& faces, std::span<const Index> links) {
   struct Side {
     Index facet, corner;
   };
-  std::vector<Side> side_of(faces.all_corners().size());  // by the face's corner that the edge leaves from
+  std::vector<Side> side_of(faces.all_corners().size());  // by corner, the side whose edge leaves from it
   for (Index f = 0; f < faces.size(); ++f) {
     const auto c = faces.corners(f);
     const Index first = faces.offsets()[f], number = static_cast<Index>(facets_.size());
@@ -98,7 +98,7 @@ std::vector<Index> Facets::fan_at(Index facet, Index vertex) const {
   std::vector<Index> found{facet};
   bool around = false;
   for (const std::size_t way : {std::size_t{1}, std::size_t{2}}) {
-    // Of a face that has a corner twice the way may lead round without coming back.
+    // Limits the steps: at a face with a repeated corner the way may lead round without coming back.
     for (Index f = facet; !around && found.size() <= facets_at_[vertex];) {
       const auto at = static_cast<std::size_t>(std::ranges::find(facets_[f].corners, vertex) - facets_[f].corners.begin());
       f = facets_[f].across[(at + way) % 3];
@@ -139,7 +139,7 @@ void Facets::find_normals() {
   }
 }
 
-/// How facets around a vertex look from the tip of a normal.
+/// Whether the facets around a vertex go round it once, seen from the tip of a normal.
 bool Facets::go_round_once(std::span<const Index> around, Index vertex, Vec3 normal) const {
   if (normal == Vec3{}) return false;
   const Plane plane = tangent_plane(normal);
@@ -187,7 +187,7 @@ Vec3 Facets::at(const FacetPlace& place) const {
   for (std::size_t i = 0; i < 3; ++i)
     if (place.weights[i] == 1.0) return points_[c[i]];
   const Vec3 a = points_[c[0]];
-  return a + place.weights[1] * (points_[c[1]] - a) + place.weights[2] * (points_[c[2]] - a);  // coordinates that all share stay
+  return a + place.weights[1] * (points_[c[1]] - a) + place.weights[2] * (points_[c[2]] - a);  // keeps shared coordinates exactly
 }
 
 Vec3 Facets::normal(const FacetPlace& place) const {

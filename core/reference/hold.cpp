@@ -59,7 +59,7 @@ void hold_parting(const InputMesh& input, CurveEnds& ends) {
   for (const auto& [first, second, shift] : pairs) {
     const bool both = ends.slides(first) && ends.slides(second);
     if (both) {
-      // A curve may begin at either end, and at a vertex that both have in common.
+      // Compares both ends in either order, and a vertex that both curves share with itself.
       const auto stands_for = [&](Index of_first, Index of_second) { return image[of_first] == of_second || image[of_second] == of_first; };
       const auto [a, b] = ends.of(first);
       const auto [c, d] = ends.of(second);

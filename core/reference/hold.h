@@ -1,5 +1,5 @@
 #pragma once
-// What holds vertices that could slide: corners, and the meaning that the file gives them.
+// Rules that hold vertices that could slide: corners, and the meaning that the file gives them.
 
 #include <vector>
 
@@ -13,17 +13,17 @@ namespace dmoscope {
 
 inline constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
-/// Holds who slides along a curve where that turns by more than the corner angle, unless a person says that it is no corner, or where it
-/// has no direction.
+/// Holds vertices where their curve turns by more than the corner angle, unless the user said that they are no corners, or where it has no
+/// direction.
 void hold_corners(const InputMesh& input, const StandingRule& rule, CurveEnds& ends);
-/// Holds who slides along a curve between two edges that different groups name.
+/// Holds vertices of a curve between two edges that different groups name.
 void hold_ends_of_names(const NamedEdges& names, CurveEnds& ends);
-/// Holds points that the file names, but in lists of all that there are, and the corners of required elements and faces.
+/// Holds points that the file names, except in lists that enumerate everything, and the corners of required elements and faces.
 void hold_named_points(const InputMesh& input, CurveEnds& ends);
 
-/// Holds vertices that belong to others, from which they would part: all but partners, which may move together.
+/// Holds vertices that are tied to others, except partners, which may move together.
 void hold_tied(const InputMesh& input, CurveEnds& ends);
-/// Holds those partners, too, that do not both slide between the same places. After all else that holds.
+/// Holds partners that do not both slide between corresponding neighbours. To be called after all other rules.
 void hold_parting(const InputMesh& input, CurveEnds& ends);
 /// Pairs of vertices that may slide as one, in planar meshes and on curved surfaces that slide along their own curves.
 [[nodiscard]] std::vector<Partners> partners_of(const InputMesh& input);

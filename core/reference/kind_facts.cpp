@@ -21,7 +21,7 @@ bool between_materials(const InputMesh& input, Index v) {
   return std::ranges::any_of(star, [&](const Incidence& at) { return input.interfaces.between(star[0].element, at.element); });
 }
 
-/// By some rule for boundary and interfaces?
+/// Whether a vertex slides under some rule for boundary and interfaces.
 bool could_slide(const InputMesh& input, Index v) {
   if (input.topology.star(v).empty()) return false;
   return input.is_surface() || input.topology.boundary()[v] != 0 || between_materials(input, v);
@@ -48,7 +48,7 @@ Vec3 normal_of(const InputMesh& input, const SlidingFaces& faces, Index face) {
   return c.size() == 3 ? cross(at(1) - at(0), at(2) - at(0)) : cross(at(2) - at(0), at(3) - at(1));
 }
 
-/// How many elements have the edge, in a plane; and whether it parts materials.
+/// Number of elements at an edge of a planar mesh, and whether the edge parts materials.
 std::pair<std::size_t, bool> sides_in_plane(const InputMesh& input, Index a, Index b) {
   std::pair<std::size_t, bool> found{0, false};
   EdgeFinder(input.mesh, input.topology).around(a, b, [&](Index other, std::span<const EdgeSide> sides) {

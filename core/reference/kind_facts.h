@@ -1,5 +1,5 @@
 #pragma once
-// Of what kind edges are where vertices slide, and what of the kinds that a person says does not come true.
+// Kinds of the edges on which vertices slide, and kinds given by hand that have no effect.
 
 #include <optional>
 #include <string>
@@ -11,34 +11,34 @@
 namespace dmoscope {
 
 enum class EdgeKind : std::uint8_t {
-  Off,       // on nothing where vertices slide
+  Off,       // on no curve or surface that slides
   Smooth,    // vertices may cross it
   Angle,     // a feature edge, because the surface folds there
-  Hand,      // because a person says so
-  File,      // because the file names it, or parts materials there
-  Border,    // because the surface ends there
-  Touching,  // because other than two faces meet there, they cannot be wound alike, or one of them has no normal
-  Reference  // because the surface of another mesh, that it slides on, has one there
+  Hand,      // a feature edge by hand
+  File,      // a feature edge, because the file names it, or materials meet there
+  Border,    // a feature edge, because the surface ends there
+  Touching,  // a feature edge, because not exactly two faces meet there, they cannot be wound alike, or one has no normal
+  Reference  // a feature edge, because the surface of another mesh, on which it slides, has one there
 };
 [[nodiscard]] inline bool is_feature(EdgeKind kind) noexcept { return kind > EdgeKind::Smooth; }
-/// Why it is a feature edge: "the surface folds there". Empty for others.
+/// Reason why it is a feature edge: "the surface folds there". Empty for other kinds.
 [[nodiscard]] std::string_view phrase(EdgeKind kind) noexcept;
 
-/// `domain`: by the rule.
+/// The kind of an edge. `domain`: that of the rule.
 [[nodiscard]] EdgeKind edge_kind(const InputMesh& input, const StandingRule& rule, const Domain& domain, Index a, Index b);
-/// By how many degrees the surface of the input folds along an edge; none in a plane, and where other than two faces meet.
+/// Angle by which the surface of the input folds along an edge, in degrees; none in a plane, and unless exactly two faces meet there.
 [[nodiscard]] std::optional<double> fold_of(const InputMesh& input, const Domain& domain, Index a, Index b);
 
-/// Something said that does not come true.
+/// A kind given by hand that has no effect.
 struct Unmet {
-  std::string what;  // "vertex 7 stays: feature edges meet there"
-  bool for_good;     // whatever boundary and interfaces may do
+  std::string what;  // sentence such as "vertex 7 stays: feature edges meet there"
+  bool for_good;     // for every rule of boundary and interfaces
 };
-/// `said`: of the rule's kinds those that are asked about. `domain`: by the rule; may be null.
+/// The kinds by hand that have no effect. `said`: those of the rule's kinds to examine. `domain`: that of the rule; may be null.
 [[nodiscard]] std::vector<Unmet> unmet(const InputMesh& input, const StandingRule& rule, const Domain* domain, const Kinds& said);
-/// The first of them and how many more there are, in one sentence.
+/// Sentence with the first of them and the number of the others.
 [[nodiscard]] std::string sentence(const std::vector<Unmet>& all);
-/// What of all that was said does not come true, in one sentence; empty where all does. Throws UsageError where nothing does, for good.
+/// Sentence on the kinds in `said` that have no effect; empty if all have one. Throws UsageError if none ever has one.
 [[nodiscard]] std::string require_met(const InputMesh& input, const StandingRule& rule, const Domain* domain, const Kinds& said);
 
 }  // namespace dmoscope

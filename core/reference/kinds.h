@@ -1,5 +1,5 @@
 #pragma once
-// Which vertices and edges a person gives another kind than file and angles do, where vertices slide.
+// Kinds of vertices and edges that the user gives by hand, against file and angles.
 
 #include <array>
 #include <span>
@@ -14,12 +14,12 @@ namespace dmoscope {
 using EdgeEnds = std::array<Index, 2>;
 [[nodiscard]] inline EdgeEnds edge_ends(Index a, Index b) noexcept { return a < b ? EdgeEnds{a, b} : EdgeEnds{b, a}; }
 
-/// Each list ascends, and has nothing twice; nothing is in two lists that contradict each other.
+/// Kinds given by hand. Each list ascends without repetitions; lists never contradict each other.
 struct Kinds {
-  std::vector<Index> corners;         // stay where they could slide
-  std::vector<Index> no_corners;      // slide along their curve however much that turns there
-  std::vector<EdgeEnds> features;     // nothing crosses them, and vertices slide along them
-  std::vector<EdgeEnds> no_features;  // smooth, however much the surface folds there
+  std::vector<Index> corners;         // vertices that stay though they could slide
+  std::vector<Index> no_corners;      // vertices that slide along their curve, however much it turns there
+  std::vector<EdgeEnds> features;     // feature edges: nothing crosses them, and vertices slide along them
+  std::vector<EdgeEnds> no_features;  // smooth edges, however much the surface folds there
 
   [[nodiscard]] bool empty() const noexcept { return size() == 0; }
   [[nodiscard]] std::size_t size() const noexcept { return corners.size() + no_corners.size() + features.size() + no_features.size(); }
@@ -30,22 +30,22 @@ struct Kinds {
   friend bool operator==(const Kinds&, const Kinds&) = default;
 };
 
-/// What a person says of a vertex or an edge: it is one, it is none, or as file and angles say.
+/// Statement of the user on a vertex or an edge: it is a corner or feature edge, it is none, or as file and angles say.
 enum class Saying : std::uint8_t { Is, IsNot, Automatic };
 
-/// What is said last counts.
+/// Adds statements on vertices; the last one counts.
 void say_corners(Kinds& kinds, std::span<const Index> vertices, Saying saying);
 void say_features(Kinds& kinds, std::span<const EdgeEnds> edges, Saying saying);
-/// The vertices or edges alone, as they are said; none where they are automatic.
+/// Kinds with only these vertices, as stated; empty if they are automatic.
 [[nodiscard]] Kinds only_corners(std::span<const Index> vertices, Saying saying);
 [[nodiscard]] Kinds only_features(std::span<const EdgeEnds> edges, Saying saying);
 
 /// The other ends of the edges at a vertex, of elements of any kind, ascending.
 [[nodiscard]] std::vector<Index> edges_at(const InputMesh& input, Index vertex);
-/// Throws UsageError for a vertex or an edge that the mesh does not have.
+/// Checks that the mesh has all vertices and edges. Throws UsageError.
 void require_there(const InputMesh& input, const Kinds& kinds);
 
-/// "2 corners, 1 no corner and 14 features by hand"; empty for none.
+/// Phrase on the numbers: "2 corners, 1 no corner and 14 features by hand"; empty for none.
 [[nodiscard]] std::string phrase(const Kinds& kinds);
 
 }  // namespace dmoscope

@@ -1,5 +1,5 @@
 #pragma once
-// The names that a file gives to edges: by its lines, and by its strings of vertices.
+// Names that a file gives to edges: by its lines, and by its strings of vertices.
 
 #include <optional>
 #include <span>
@@ -9,13 +9,13 @@
 
 namespace dmoscope {
 
-/// Mesh and topology must outlive it.
+/// Groups that name each edge. Mesh and topology must outlive it.
 class NamedEdges {
  public:
   NamedEdges(const Mesh& mesh, const Topology& topology);
-  /// Are two edges at a vertex named by the very same groups?
+  /// Whether two edges at a vertex are named by exactly the same groups.
   [[nodiscard]] bool same(Index vertex, Index one, Index other) const;
-  /// Calls visit(a, b) for every edge that a line names, but where all edges around are merely listed.
+  /// Calls visit(a, b) for every edge that a line names, except if all edges around are merely listed.
   template <class Visit>
   void for_lines(const Visit& visit) {
     for (const Name& name : names_)

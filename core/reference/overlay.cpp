@@ -9,13 +9,13 @@ namespace dmoscope {
 
 namespace {
 
-/// Lengths below this share of a triangle's longest edge, and areas below it of the triangle's, are rounding.
+/// Tolerance for rounding: lengths below this share of a triangle's longest edge, and areas below this share of the triangle's.
 constexpr double kRounding = 1e-9;
 constexpr double kUncovered = 1e-6;
-/// Of 60 degrees: facets that lean farther away are laid slowly.
+/// Cosine of 60 degrees: facets that lean farther away are laid slowly.
 constexpr double kFarAway = 0.5;
 constexpr std::size_t kMostFacets = 4096;
-/// Off 1 by more than what rounding makes of a height.
+/// Factors that differ from 1 by more than the rounding of a height.
 constexpr double kSurely = 1.0 - 1e-8, kAbove = 1.0 + 1e-8;
 
 Plane tangent(Vec3 normal, Vec3 along) {
@@ -23,11 +23,11 @@ Plane tangent(Vec3 normal, Vec3 along) {
   return {u, cross(normal, u), normal};
 }
 
-/// The part of a segment that runs inside the triangle by more than a margin, as shares of the way.
+/// The part of a segment that runs inside the triangle by more than a margin, as shares of its length.
 struct Part {
   double first = 0.0, last = 1.0;
 };
-/// Is there one, more than a point and not only along an edge?
+/// Finds the part inside; false unless it is more than a point and not only along an edge.
 [[nodiscard, gnu::always_inline]] inline bool find_part_inside(const OverlayRoom::Corner& from, const OverlayRoom::Corner& to,
                                                                double margin, Part& part) {
   for (std::size_t i = 0; i < 3; ++i) {
@@ -43,13 +43,13 @@ struct Part {
 
 }  // namespace
 
-/// A triangle as the plane that facets are projected on.
+/// A triangle and its plane, onto which facets are projected.
 struct Overlay::Ground {
   Plane plane;
   Vec3 origin;
   std::array<Vec2<double>, 3> corners;  // counter-clockwise
-  std::array<Vec2<double>, 3> inwards;  // of length 1, across each edge
-  double size, area;                    // the longest edge; twice the area
+  std::array<Vec2<double>, 3> inwards;  // unit vectors across each edge
+  double size, area;                    // longest edge, and twice the area
   [[nodiscard]] Corner corner(Vec3 p) const {
     const Vec3 way = p - origin;
     Corner result{plane.project(way), dot(way, plane.normal), {}};
@@ -58,7 +58,7 @@ struct Overlay::Ground {
   }
 };
 
-/// Cuts off what of the polygon lies beyond one of the triangle's edges (Sutherland and Hodgman).
+/// Cuts off the part of the polygon beyond one of the triangle's edges (Sutherland and Hodgman).
 void Overlay::clip(std::size_t edge) {
   auto& polygon = room_.polygon;
   if (std::ranges::all_of(polygon, [edge](const Corner& corner) { return corner.inside[edge] >= 0.0; })) return;
@@ -80,7 +80,7 @@ void Overlay::clip(std::size_t edge) {
   std::swap(polygon, clipped);
 }
 
-/// Lays one facet under the triangle and notes the facets beyond its edges; false where the triangle lies across a feature edge.
+/// Lays one facet under the triangle and records the facets beyond its edges; false if the triangle lies across a feature edge.
 bool Overlay::lay(const Ground& ground, Index facet, std::span<const Curves::Stretch> allowed, Laid& laid) {
   const Facet& here = facets_.facets()[facet];
   auto& polygon = room_.polygon;
@@ -107,15 +107,15 @@ bool Overlay::lay(const Ground& ground, Index facet, std::span<const Curves::Str
   return true;
 }
 
-/// Without cutting any facet: the distance is greatest where a facet's edge begins or ends inside the triangle, or at a corner of the
-/// triangle. None where that may not be all: at feature edges, where a facet leans far away, and around vertices where facets might cover
-/// the triangle more than once.
+/// Finds the fit without cutting any facet: the distance is greatest where a facet's edge begins or ends inside the triangle, or at a
+/// corner of the triangle. None if the facets found may not be all: at feature edges, where a facet leans far away, and around vertices
+/// where facets might cover the triangle more than once.
 std::optional<Fit> Overlay::lay_quickly(const Ground& ground, Index start, const Need& need) {
   room_.found.assign(1, start);
   Crossed& first = room_for(0);
   first.from = 3;
   Fit fit;
-  double highest = 0.0;  // of all the facets' corners, and so of all that lies on them
+  double highest = 0.0;  // greatest height of the facets' corners, and so of all their points
   for (std::size_t i = 0; i < 3; ++i) {
     first.corners[i] = ground.corner(facets_.point(facets_.facets()[start].corners[i]));
     highest = std::max(highest, std::abs(first.corners[i].height));
@@ -130,7 +130,7 @@ std::optional<Fit> Overlay::lay_quickly(const Ground& ground, Index start, const
   return fit;
 }
 
-/// Follows the sides of one of the facets that were reached, and notes those beyond them; false where the quick way does not do.
+/// Follows the sides of one of the facets found, and records those beyond them; false if the quick method fails.
 bool Overlay::cross_sides(const Ground& ground, std::size_t k, Fit& fit) {
   const double margin = kRounding * ground.size;
   const Index number = room_.found[k];
@@ -145,9 +145,9 @@ bool Overlay::cross_sides(const Ground& ground, std::size_t k, Fit& fit) {
     fit.least_cosine = std::min(fit.least_cosine, cosine);
   }
   for (std::size_t i = 0; i < 3; ++i) {
-    const auto& corner = room_.crossed[k].corners;  // which move where another facet is reached
+    const auto& corner = room_.crossed[k].corners;  // looked up again, since reaching another facet moves them
     const auto is_inside = [margin](const Corner& c) { return c.inside[0] > margin && c.inside[1] > margin && c.inside[2] > margin; };
-    if ((from == 3 || i == from) && is_inside(corner[i]) && !facets_.covers_once(number, i)) return false;  // of others it is known
+    if ((from == 3 || i == from) && is_inside(corner[i]) && !facets_.covers_once(number, i)) return false;  // known for the other corners
     if (i == from) continue;
     const Corner &a = corner[(i + 1) % 3], &b = corner[(i + 2) % 3];
     Part part;
@@ -166,7 +166,7 @@ OverlayRoom::Crossed& Overlay::room_for(std::size_t k) {
   return room_.crossed[k];
 }
 
-/// Notes the facet beyond a side of another, two of whose corners are known.
+/// Records the facet beyond a side of another, two of whose corners are known.
 void Overlay::reach(const Ground& ground, Index across, std::size_t through, std::size_t side) {
   const Facet &beyond = facets_.facets()[across], &before = facets_.facets()[room_.found[through]];
   const auto from = static_cast<std::size_t>(std::ranges::find(beyond.across, room_.found[through]) - beyond.across.begin());
@@ -183,7 +183,7 @@ void Overlay::reach(const Ground& ground, Index across, std::size_t through, std
   }
 }
 
-/// The distance of the triangle's own corners from the facets that were reached.
+/// The distance of the triangle's own corners from the facets found.
 double Overlay::deviation_at_corners(const Ground& ground) const {
   double deviation = 0.0;
   for (std::size_t k = 0; k < room_.found.size(); ++k) {
@@ -203,7 +203,7 @@ double Overlay::deviation_at_corners(const Ground& ground) const {
   return deviation;
 }
 
-/// None of one that is shrunk to a line.
+/// Ground of a triangle; none if it is shrunk to a line.
 std::optional<Overlay::Ground> Overlay::ground_of(const std::array<Vec3, 3>& corners) {
   const Vec3 across = cross(corners[1] - corners[0], corners[2] - corners[0]);
   const double area = length(across);
@@ -241,12 +241,12 @@ Fit Overlay::triangle(const std::array<Vec3, 3>& corners, Index from, const Need
   room_.found.assign(1, start->facet);
   for (std::size_t i = 0; i < room_.found.size(); ++i)
     if (i > kMostFacets || !lay(*ground, room_.found[i], stretches, laid) || !(laid.fit.least_cosine > 0.0)) return kNoFit;
-  // What lies beyond a curve is nearer to it than its chord is, and that is bounded where vertices slide along it.
+  // Points beyond a curve are nearer to it than its chord is, and the chord's distance is bounded for vertices that slide along it.
   const bool whole = laid.covered >= (1.0 - kUncovered) * ground->area && laid.covered <= (1.0 + kUncovered) * ground->area;
   return whole || laid.beyond ? laid.fit : kNoFit;
 }
 
-/// The stretches of curves along a face's edges.
+/// Finds the stretches of curves along a face's edges.
 void Overlay::find_stretches(const Face& face) {
   room_.stretches.clear();
   const Curves& curves = domain_.curves();
@@ -260,7 +260,7 @@ void Overlay::find_stretches(const Face& face) {
   }
 }
 
-/// Facets near a face: beneath its vertex, or beside that on its curve, and where the face was in the input.
+/// Finds facets near a face: beneath its vertex, or beside that on its curve, and beneath the face in the input.
 void Overlay::find_starts(const Face& face) {
   room_.starts.clear();
   if (face.beneath != nullptr) {
@@ -276,9 +276,9 @@ void Overlay::find_starts(const Face& face) {
   for (Index i = 0; i < count; ++i) room_.starts.push_back(first + i);
 }
 
-/// A face, or half of one.
+/// Fit of a triangular face, or of half a quadrilateral one.
 Fit Overlay::triangle_of(const Face& face, const std::array<Vec3, 3>& corners) {
-  bool known = false;  // the stretches, which are mostly not asked for
+  bool known = false;  // whether the stretches, which are seldom needed, are known
   const auto stretches = [&] {
     if (!std::exchange(known, true)) find_stretches(face);
     return std::span<const Curves::Stretch>(room_.stretches);
@@ -296,7 +296,7 @@ Fit Overlay::face(const Face& face) {
   const auto at = [&](std::size_t i) { return c[i] == face.vertex ? face.target : face.positions[c[i]]; };
   const auto lay = [&](std::size_t i, std::size_t j, std::size_t k) { return triangle_of(face, {at(i), at(j), at(k)}); };
   if (c.size() == 3) return lay(0, 1, 2);
-  const auto both = [&](std::size_t first) {  // from one end of a diagonal to the other
+  const auto both = [&](std::size_t first) {  // fit of both halves at one diagonal
     const Fit one = lay(first, first + 1, first + 2), other = lay(first, first + 2, (first + 3) % 4);
     return Fit{std::max(one.deviation, other.deviation), 0.0, std::min(one.least_cosine, other.least_cosine)};
   };
@@ -307,7 +307,7 @@ Fit Overlay::face(const Face& face) {
   return fit;
 }
 
-/// The triangles around a vertex of a surface, each with the facet beneath its centre.
+/// The triangles of the faces around a vertex, each with the facet beneath its centre.
 struct Overlay::Sketch {
   static constexpr std::size_t kMost = 12;
   struct Part {
@@ -317,7 +317,7 @@ struct Overlay::Sketch {
   std::array<Part, kMost> parts;
 };
 
-/// False where the deviation at the centre of one is beyond the limit already: most that do not fit are told by that, at little cost.
+/// Sketches the faces; false if the deviation at the centre of one exceeds the limit already, which rejects most bad places at little cost.
 bool Overlay::sketch(PositionView positions, Index vertex, Vec3 target, const FacetPlace& beneath, double limit, Sketch& out) const {
   const auto around = faces_.at(vertex);
   for (std::size_t k = 0; k < std::min(around.size(), Sketch::kMost); ++k) {
@@ -334,7 +334,7 @@ bool Overlay::sketch(PositionView positions, Index vertex, Vec3 target, const Fa
 }
 
 Fit Overlay::star(PositionView positions, Index vertex, Vec3 target, const FacetPlace* beneath, const Fit& within) {
-  // Where a fit is only to be within some other, no more than that need be known of it.
+  // Limits the precision if the fit need only be within another one.
   Need need;
   if (within.deviation < kNoFit.deviation)
     need = {std::min(within.deviation, within.other_split), kAbove * std::max(within.deviation, within.other_split)};

@@ -1,5 +1,5 @@
 #pragma once
-// How near the faces of a mesh stay to the surface of the input: exactly, by laying each over the facets beneath it.
+// Exact deviation of a mesh's faces from the surface of the input, by laying each over the facets beneath it.
 
 #include <algorithm>
 #include <array>
@@ -12,57 +12,57 @@
 
 namespace dmoscope {
 
-/// Where the greatest distance between a triangle and the facets beneath it stands, both are known: at its corners, at theirs, and where
-/// its edges cross theirs. Distances are taken straight along the triangle's normal, so none is shorter than that to the surface.
+/// Fit of a triangle over the facets beneath it. The greatest distance between them is at the triangle's corners, at the facets' corners,
+/// or where their edges cross. Distances are measured along the triangle's normal, so none is shorter than that to the surface.
 /// Quadrilaterals count as split by their shorter diagonals, as facets are.
 struct Fit {
-  double deviation = 0.0;     // the greatest distance, in mesh units; infinite where the facets beneath do not cover it all
-  double other_split = 0.0;   // the same of quadrilaterals split by their longer diagonals: as far as they are warped
-  double least_cosine = 1.0;  // of the angles between it and the facets beneath
+  double deviation = 0.0;     // greatest distance, in mesh units; infinite if the facets beneath do not cover the triangle
+  double other_split = 0.0;   // greatest distance with quadrilaterals split by their longer diagonals: a measure of their warping
+  double least_cosine = 1.0;  // least cosine of the angles between the triangle and the facets beneath
 };
-/// Is a fit as good as another everywhere?
+/// Whether a fit is as good as another in every respect.
 [[nodiscard]] inline bool is_within(const Fit& fit, const Fit& other) {
   return fit.deviation <= other.deviation && fit.other_split <= other.other_split && fit.least_cosine >= other.least_cosine;
 }
-/// The worse of the two in everything.
+/// The worse of the two in every respect.
 [[nodiscard]] inline Fit worse(const Fit& a, const Fit& b) {
   return {std::max(a.deviation, b.deviation), std::max(a.other_split, b.other_split), std::min(a.least_cosine, b.least_cosine)};
 }
 inline constexpr Fit kNoFit{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(), -1.0};
 
-/// What an overlay works in, kept from one to the next.
+/// Working memory of overlays, kept from one to the next.
 struct OverlayRoom {
   struct Corner {
     Vec2<double> at;
     double height;
-    std::array<double, 3> inside;  // distances from the triangle's edges, positive inside
+    std::array<double, 3> inside;  // signed distances from the triangle's edges, positive inside
   };
   struct Crossed {  // a facet that was reached, and the side through which
     std::size_t from;
     std::array<Corner, 3> corners;
-    double area;  // twice, as the triangle sees it
+    double area;  // twice the area of its projection onto the triangle's plane
   };
   std::vector<Index> found, starts;  // found: facets that were reached
-  std::vector<Crossed> crossed;      // at least as many
+  std::vector<Crossed> crossed;      // one for each facet found, or more
   std::vector<Corner> polygon, clipped;
   std::vector<Curves::Stretch> stretches;
 };
 
-/// Domain and room must outlive it.
+/// Lays faces over facets. Domain and room must outlive it.
 class Overlay {
  public:
   Overlay(const Domain& domain, OverlayRoom& room) : domain_(domain), faces_(domain.faces()), facets_(faces_.facets()), room_(room) {}
 
-  /// The faces at a vertex, with it at `target`. `beneath`: where that is, of a vertex on a surface; of one on a curve nothing. The first
-  /// face that is not `within` ends it: the result is not, either.
+  /// Fit of the faces at a vertex, with it at `target`. `beneath`: facet beneath that place for a vertex on a surface; null for one on a
+  /// curve. Ends at the first face that is not `within`, and then the result is not within it, either.
   [[nodiscard]] Fit star(PositionView positions, Index vertex, Vec3 target, const FacetPlace* beneath, const Fit& within);
-  /// Of a star with faces that lie over no facets, such as those that are turned away: with the vertex at `target`, does every face lie
-  /// that lies with it at `here`, and is each that lies within the bound, or as near as the farthest of those is? `here_beneath`,
-  /// `beneath`: see star().
+  /// Whether faces of a star that lie over facets keep doing so, for stars with faces that do not, such as those that are turned away: with
+  /// the vertex at `target`, every face must lie over facets that does with it at `here`, and each such face must be within the bound, or
+  /// as near as the farthest of those is. `here_beneath`, `beneath`: see star().
   [[nodiscard]] bool keeps_what_lies(PositionView positions, Index vertex, Vec3 here, const FacetPlace* here_beneath, Vec3 target,
                                      const FacetPlace* beneath, const Fit& bound);
-  /// A triangle, whose corners stand on a patch. `from`: a facet near it. `allowed`: stretches of curves along its edges; what of it lies
-  /// beyond these is near the curve.
+  /// Fit of a triangle whose corners are on a patch. `from`: a facet near it. `allowed`: stretches of curves along its edges, across which
+  /// it may reach.
   [[nodiscard]] Fit triangle(const std::array<Vec3, 3>& corners, Index from, std::span<const Curves::Stretch> allowed);
 
  private:
@@ -70,7 +70,7 @@ class Overlay {
   struct Ground;
   struct Sketch;
   using Crossed = OverlayRoom::Crossed;
-  /// What need be known of a deviation: up to `enough` not more than that, beyond `limit` no more than that.
+  /// Precision needed of a deviation: one below `enough` may be returned too small, and one beyond `limit` may be any value beyond it.
   struct Need {
     double enough = 0.0, limit = kNoFit.deviation;
   };
@@ -93,8 +93,8 @@ class Overlay {
   [[nodiscard]] std::optional<FacetPlace> beneath_centre(const Ground& ground, Index from) const;
   struct Laid {
     Fit fit;
-    double covered = 0.0;  // twice the area
-    bool beyond = false;   // the triangle reaches across one of the stretches
+    double covered = 0.0;  // twice the covered area
+    bool beyond = false;   // whether the triangle reaches across one of the stretches
   };
   [[nodiscard]] std::optional<Fit> lay_quickly(const Ground& ground, Index start, const Need& need);
   [[nodiscard]] bool cross_sides(const Ground& ground, std::size_t k, Fit& fit);

@@ -7,7 +7,7 @@ namespace dmoscope {
 
 namespace {
 
-/// Holds where interfaces meet the boundary, and who slides at a named line but not along it.
+/// Holds vertices where interfaces meet the boundary, and vertices of a named line that slide, but not along it.
 void hold_at_interfaces(const InputMesh& input, NamedEdges& names, CurveEnds& ends) {
   for (Index v = 0; v < ends.size(); ++v)
     if (input.interfaces.meets_boundary_at(v)) ends.hold(v, HeldOn::Rule);

@@ -1,5 +1,5 @@
 #pragma once
-// Who slides along what in a planar mesh.
+// Sliding vertices of a planar mesh and their neighbours along curves.
 
 #include "core/input/input_mesh.h"
 #include "core/reference/curve_ends.h"
@@ -7,7 +7,7 @@
 
 namespace dmoscope {
 
-/// See Domain.
+/// The vertices that slide in a planar mesh under a rule, see Domain.
 [[nodiscard]] CurveEnds planar_ends(const InputMesh& input, const StandingRule& rule);
 
 }  // namespace dmoscope

@@ -9,8 +9,8 @@ namespace dmoscope {
 
 namespace {
 
-constexpr double kRoundings = 16.0;   // of the largest coordinate, in a distance
-constexpr std::size_t kDeepest = 64;  // halves of 2^32 simplices
+constexpr double kRoundings = 16.0;   // rounding of a distance, in roundings of the largest coordinate
+constexpr std::size_t kDeepest = 64;  // greatest depth of the stack: 2^32 simplices, halved at each step
 
 double coordinate(Vec3 p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
 Vec3 lower(Vec3 a, Vec3 b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
@@ -18,9 +18,9 @@ Vec3 upper(Vec3 a, Vec3 b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std
 
 }  // namespace
 
-/// The nearest of the foot of the perpendicular, where it lies inside, and the nearest points of the sides. The foot is found twice, the
-/// second time from the first: of a needle, whose sides are nearly one line, the first is no better than rounding times the needle's
-/// length over its width.
+/// The nearest point of a triangle: the foot of the perpendicular if it lies inside, else the nearest of the sides' nearest points. The
+/// foot is found twice, the second time from the first: in a needle, whose sides are nearly one line, the first is no better than rounding
+/// times the needle's length over its width.
 NearestPoint nearest_point(const std::array<Vec3, 3>& triangle, Vec3 p) {
   const Vec3 a = triangle[0], ab = triangle[1] - a, ac = triangle[2] - a, ap = p - a;
   const Vec3 normal = cross(ab, ac);
@@ -49,7 +49,7 @@ NearestPoint nearest_point(const std::array<Vec3, 3>& triangle, Vec3 p) {
   return best;
 }
 
-/// Inside, or the nearest of its faces.
+/// The point itself if it is inside of the tetrahedron, else the nearest point of its faces.
 NearestIn<4> nearest_point(const std::array<Vec3, 4>& tetrahedron, Vec3 p) {
   const Vec3 a = tetrahedron[0], ab = tetrahedron[1] - a, ac = tetrahedron[2] - a, ad = tetrahedron[3] - a, ap = p - a;
   const double volume = dot(ab, cross(ac, ad));
@@ -88,7 +88,7 @@ SimplexTree<N>::SimplexTree(std::vector<std::array<Vec3, N>> simplices, std::spa
   }
 }
 
-/// Splits in the middle of the triangles along the longest side of the box of their centres; among equals by number, so that the tree is
+/// Splits at the median of the triangles' centres along the longest side of their bounding box; equal ones by number, so that the tree is
 /// the same on every machine.
 template <std::size_t N>
 Index SimplexTree<N>::build(std::span<Index> order, Index up) {
@@ -99,7 +99,7 @@ Index SimplexTree<N>::build(std::span<Index> order, Index up) {
     return sum;
   };
   Node node{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}, up, kNoIndex, kNoIndex};
-  Vec3 low = node.low, high = node.high;  // of the centres
+  Vec3 low = node.low, high = node.high;  // bounding box of the centres
   for (const Index t : order) {
     for (const Vec3 corner : triangles_[t]) node.low = lower(node.low, corner), node.high = upper(node.high, corner);
     low = lower(low, centre(t)), high = upper(high, centre(t));
@@ -130,8 +130,7 @@ double SimplexTree<N>::square_to(const Node& node, Vec3 p) {
   return x * x + y * y + z * z;
 }
 
-/// From the triangle to begin with upwards, and at each step through the other half: where that triangle is near, little is left to look
-/// at.
+/// Goes upwards from the first triangle, and at each step through the other half: if that triangle is near, little is left to search.
 template <std::size_t N>
 auto SimplexTree<N>::nearest(Vec3 p, Index near) const -> Nearest {
   Nearest best{near, nearest_point(triangles_[near], p)};
@@ -140,7 +139,7 @@ auto SimplexTree<N>::nearest(Vec3 p, Index near) const -> Nearest {
   return best;
 }
 
-/// Through all below a node.
+/// Searches all simplices below a node.
 template <std::size_t N>
 void SimplexTree<N>::look_through(Index from, Vec3 p, Nearest& best) const {
   std::array<Index, kDeepest> waiting;
@@ -149,7 +148,7 @@ void SimplexTree<N>::look_through(Index from, Vec3 p, Nearest& best) const {
   while (count > 0) {
     const Index number = waiting[--count];
     const Node& node = nodes_[number];
-    // Both are rounded, and the one found must not depend on where the search began.
+    // Leaves a margin: both are rounded, and the result must not depend on where the search began.
     if (square_to(node, p) > 2.0 * (best.point.square + rounding_)) continue;
     if (node.right == kNoIndex) {
       const NearestIn<N> found = nearest_point(triangles_[node.triangle], p);

@@ -1,5 +1,5 @@
 #pragma once
-// Boxes around boxes around triangles or tetrahedra: finds the nearest one.
+// Trees of bounding boxes around triangles or tetrahedra, to find the nearest one.
 
 #include <array>
 #include <cstddef>
@@ -15,36 +15,36 @@ namespace dmoscope {
 template <std::size_t N>
 struct NearestIn {
   std::array<double, N> weights{};
-  double square = 0.0;  // of the distance; 0 in a tetrahedron
+  double square = 0.0;  // square of the distance; 0 in a tetrahedron
 };
 using NearestPoint = NearestIn<3>;
 [[nodiscard]] NearestIn<3> nearest_point(const std::array<Vec3, 3>& triangle, Vec3 p);
 [[nodiscard]] NearestIn<4> nearest_point(const std::array<Vec3, 4>& tetrahedron, Vec3 p);
 
-/// A tree for each patch of a set of triangles or tetrahedra.
+/// A set of triangles or tetrahedra, with a tree for each patch.
 template <std::size_t N>
 class SimplexTree {
  public:
   SimplexTree() = default;
-  /// `patch_of`: by simplex.
+  /// Builds the trees. `patch_of`: patch of each simplex.
   SimplexTree(std::vector<std::array<Vec3, N>> simplices, std::span<const Index> patch_of);
 
   struct Nearest {
-    Index triangle = kNoIndex;  // or tetrahedron
+    Index triangle = kNoIndex;  // triangle or tetrahedron
     NearestIn<N> point;
   };
-  /// Of the simplices of a patch the nearest; of equals the first. `near`: one of them to begin with, any; the nearer, the faster.
+  /// The nearest simplex of a patch; of several the first. `near`: any of them to begin with; the nearer, the faster.
   [[nodiscard]] Nearest nearest(Vec3 p, Index near) const;
-  /// visit(a, b) for each pair of simplices of the first patch whose boxes overlap.
+  /// Calls visit(a, b) for each pair of simplices of the first patch whose boxes overlap.
   template <class Visit>
   void for_overlapping(Visit visit) const;
 
  private:
   struct Node {
     Vec3 low, high;
-    Index up;        // kNoIndex: it is a patch's whole tree
-    Index right;     // the second half; the first half is the next node; kNoIndex: it is one simplex
-    Index triangle;  // of one
+    Index up;        // parent node; kNoIndex: the root of a patch's tree
+    Index right;     // second half; the first half is the next node; kNoIndex: a single simplex
+    Index triangle;  // the simplex of a leaf
   };
   Index build(std::span<Index> order, Index up);
   void look_through(Index from, Vec3 p, Nearest& best) const;
@@ -52,8 +52,8 @@ class SimplexTree {
 
   std::vector<std::array<Vec3, N>> triangles_;
   std::vector<Node> nodes_;
-  std::vector<Index> node_of_;  // by simplex
-  double rounding_ = 0.0;       // of a distance, squared
+  std::vector<Index> node_of_;  // leaf of each simplex
+  double rounding_ = 0.0;       // rounding of a distance, squared
 };
 using FacetTree = SimplexTree<3>;
 

@@ -12,7 +12,7 @@ namespace dmoscope {
 
 namespace {
 
-/// See InputMesh::surface_normals: how the facet beneath each element looks, for an element that is wound as the reference is.
+/// Normals for InputMesh::surface_normals: that of the facet beneath each element, reversed for an element wound against the reference.
 std::vector<Vec3> surface_normals(const InputMesh& input) {
   const SlidingFaces faces = surface_ends(input, {InterfaceRule::Slide, BoundaryRule::Slide}).faces;
   const Facets& facets = faces.facets();

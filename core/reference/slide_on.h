@@ -1,5 +1,5 @@
 #pragma once
-// A mesh whose vertices slide on the surface of another one: the part that a mesh was made from, or what it was before it was spoiled.
+// Meshes whose vertices slide on the surface of another one: of the part that the mesh was made from, or of an earlier state of it.
 
 #include <memory>
 
@@ -7,9 +7,9 @@
 
 namespace dmoscope {
 
-/// The mesh, to slide on `surface`: a mesh of a curved surface, or of a volume, whose boundary counts; null: on its own surface again. Its
-/// vertices stay where they are until they are visited. The elements of a curved surface are then inverted where they look away from the
-/// reference. Throws UsageError where either is planar.
+/// Returns the mesh with `surface` as its reference: a surface mesh, or a volume mesh, whose boundary counts; null: its own surface again.
+/// Its vertices stay in place until they are visited. The elements of a surface mesh are then inverted if they look away from the
+/// reference. Throws UsageError if either mesh is planar.
 [[nodiscard]] std::shared_ptr<const InputMesh> slide_on(const InputMesh& mesh, std::shared_ptr<const InputMesh> surface);
 
 }  // namespace dmoscope

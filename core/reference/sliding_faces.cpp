@@ -10,9 +10,9 @@ namespace dmoscope {
 
 namespace {
 
-/// Roundings of a coordinate that a point of a facet, computed, may lie beside it.
+/// Tolerance for a computed point to lie beside its facet, in roundings of a coordinate.
 constexpr double kRoundings = 8.0;
-/// As a share of the mesh's size: what is nearer than that to a facet is on it. The nearest point of a needle is not known better.
+/// Distance within which a point is on a facet, as a share of the mesh's size. The nearest point of a needle is no more accurate.
 constexpr double kBeside = 1e-12;
 
 double rounding_of(const InputMesh& input) {

@@ -36,7 +36,7 @@ std::vector<std::uint8_t> standing_vertices(const InputMesh& input, const Standi
   }
   if (rule.layers == LayerRule::Keep)
     for (const Index v : input.layers) standing[v] = 1;
-  // Inside a plane the ends of feature edges that a person names would be free.
+  // Fixes the ends of feature edges that the user named inside a plane, which would be free otherwise.
   if (domain == nullptr || input.geometry.shape != Shape::Planar) return standing;
   for (const auto& edge : rule.kinds.features)
     for (const Index v : edge)

@@ -15,7 +15,7 @@ namespace dmoscope {
 
 namespace {
 
-/// Collects the faces, parts them at feature edges, and says who is held.
+/// Collects the faces, parts them at feature edges, and finds the vertices that are held.
 class SurfaceFinder {
  public:
   SurfaceFinder(const InputMesh& input, const StandingRule& rule)
@@ -38,7 +38,7 @@ class SurfaceFinder {
   }
 
  private:
-  /// Feature edges and corners are those of the other surface, and where the file names edges that run along none of these they stay.
+  /// Finds feature edges and corners by the surface of another mesh; edges that the file names along none of these stay.
   SurfaceEnds find_on_another() {
     const StandingRule of_reference{InterfaceRule::Slide, BoundaryRule::Slide, rule_.corner_angle, rule_.feature_angle};
     SurfaceEnds reference = surface_ends(*input_.surface, of_reference);
@@ -80,7 +80,7 @@ class SurfaceFinder {
     name_faces();
   }
 
-  /// Of a surface the elements themselves, wound alike as far as that goes.
+  /// Collects the elements of a surface mesh as faces, wound alike as far as possible.
   void collect_elements() {
     Index contradictions = 0;
     const auto against = relate_windings(input_.mesh, input_.topology, contradictions);
@@ -99,7 +99,7 @@ class SurfaceFinder {
     const Key corners = vertices_of(input_.mesh.elements, face);
     add(std::span(corners).first(corners[3] == kNoIndex ? 3 : 4));
   }
-  /// A quadrilateral that has a corner twice is a triangle; what is left of others is held.
+  /// Adds a face: a quadrilateral with a repeated corner as a triangle; the corners of other degenerate faces are held.
   void add(std::span<const Index> corners) {
     std::array<Index, 4> kept{};
     std::size_t count = 0;
@@ -123,7 +123,7 @@ class SurfaceFinder {
     std::map<Key, Index> face_of;
     for (Index f = 0; f < faces_.size(); ++f) face_of.emplace(key_of(faces_.corners(f)), f);
     NamedList list(NamedKind::Faces, groups, input_.mesh, input_.topology);
-    std::map<std::pair<Index, Index>, Index> sets;  // a set and a group besides
+    std::map<std::pair<Index, Index>, Index> sets;  // number of a set with a group added, by set and group
     for (Index g = 0; g < groups.size(); ++g) {
       const ElementTable& named = groups[g]->faces;
       for (Index i = 0; i < named.size(); ++i) {
@@ -145,11 +145,11 @@ class SurfaceFinder {
     std::ranges::sort(named_edges_);
   }
 
-  /// Joins feature edges, and returns the links of all others; see Facets.
+  /// Joins feature edges, and returns the links across all other edges; see Facets.
   std::vector<Index> part() {
     struct Side {
       Edge edge;
-      Index face, corner;  // the corner: of all
+      Index face, corner;  // the corner: index among all corners
       bool forwards;
     };
     std::vector<Side> sides;
@@ -168,7 +168,7 @@ class SurfaceFinder {
       const Side &one = sides[first], &other = sides[last - 1];
       const auto [a, b] = one.edge;
       const bool touches = input_.is_surface() ? last - first > 2 : first + 2 < last && sides[first + 2].face < boundary_faces_;
-      const bool twisted = input_.is_surface() && last - first == 2 && one.forwards == other.forwards;  // as a Moebius band is
+      const bool twisted = input_.is_surface() && last - first == 2 && one.forwards == other.forwards;  // like in a Moebius strip
       if (touches || twisted) ends_.hold(a, HeldOn::Touching), ends_.hold(b, HeldOn::Touching);
       if (last - first == 2 && one.forwards != other.forwards && !is_feature(one.edge, one.face, other.face)) {
         links[one.corner] = other.corner;
@@ -199,7 +199,7 @@ class SurfaceFinder {
     return size > 0.0 ? (1.0 / size) * across : Vec3{};
   }
 
-  /// Lines that the file names inside hold their ends, where what is inside is not free.
+  /// Holds the ends of lines that the file names inside, unless interfaces are free.
   void settle_named_edges() {
     if (rule_.interfaces == InterfaceRule::Free || input_.is_surface()) return;
     for (const auto& [a, b] : named_edges_) {
@@ -225,14 +225,14 @@ class SurfaceFinder {
     hold_named_points(input_, ends_);
   }
 
-  /// Off the faces nothing slides that could be a corner.
+  /// Holds corners by hand; vertices off the faces do not slide anyway.
   void hold_said_corners() {
     if (rule_.kinds.corners.empty()) return;
     for (const Index v : faces_.all_corners())
       if (rule_.kinds.has_corner(v)) ends_.hold(v, HeldOn::Hand);
   }
 
-  /// Holds a vertex of a curve where a sheet of the surface touches it that does not reach from one of its edges to the other.
+  /// Holds a vertex of a curve if a sheet of the surface touches it that does not reach from one of its edges to the other.
   void hold_touching(const Facets& facets) {
     for (Index v = 0; v < ends_.size(); ++v) {
       if (!ends_.slides(v)) continue;
@@ -251,11 +251,11 @@ class SurfaceFinder {
 
   const InputMesh& input_;
   const StandingRule& rule_;
-  const Attachment* attachment_ = nullptr;  // to the surface of another mesh
+  const Attachment* attachment_ = nullptr;  // attachment to the surface of another mesh
   CurveEnds ends_;
   NamedEdges names_;
   ElementTable faces_;
-  Index boundary_faces_ = 0;  // of these, the first; the others are those of interfaces
+  Index boundary_faces_ = 0;  // number of boundary faces, which come first; the others are those of interfaces
   std::vector<Index> name_of_;
   std::vector<Edge> named_edges_;  // ascending
 };

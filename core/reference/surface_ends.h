@@ -1,5 +1,5 @@
 #pragma once
-// The surface of a volume on which vertices slide, and the feature edges on it.
+// The surface on which the vertices of a volume or surface mesh slide, and its feature edges.
 
 #include <optional>
 
@@ -12,11 +12,11 @@
 namespace dmoscope {
 
 struct SurfaceEnds {
-  CurveEnds curves;  // along feature edges
+  CurveEnds curves;  // neighbours along feature edges
   SlidingFaces faces{};
-  std::optional<OntoLines> onto{};  // of a mesh that slides on the surface of another one
+  std::optional<OntoLines> onto{};  // feature lines of another mesh, if it slides on that one's surface
 };
-/// See Domain.
+/// The surface and the vertices that slide on it under a rule, see Domain.
 [[nodiscard]] SurfaceEnds surface_ends(const InputMesh& input, const StandingRule& rule);
 
 }  // namespace dmoscope

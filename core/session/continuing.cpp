@@ -1,4 +1,4 @@
-// Other parameters for a run: from where it began, and from the best that it reached.
+// Changed parameters for a run: a new run from the same start, or from the best state reached.
 
 #include <cstring>
 
@@ -16,14 +16,14 @@ namespace {
 
 bool is_untouched(const Run& run) { return run.moment() == Moment{} && run.history().records().size() == 1 && run.edits().all().empty(); }
 
-/// How far a vertex may go: nowhere, along a curve, on a surface, anywhere.
+/// Rank of a vertex's freedom: none, along a curve, on a surface, anywhere.
 int freedom(const Run& run, Index vertex) {
   if (run.fixed()[vertex] != 0) return 0;
   if (!run.domain() || !run.domain()->slides(vertex)) return 3;
   return run.domain()->on_curve(vertex) ? 1 : 2;
 }
 
-/// What has left its place under one run's rules need not lie where stricter ones would have let it go.
+/// Throws if a moved vertex would have less freedom: its place under the old rules need not be possible under stricter ones.
 void require_no_stricter(const Run& before, const Run& after, const BeginPositions& begin) {
   if (!begin) return;
   const std::vector<Vec3>& places = before.input().mesh.positions;
@@ -37,7 +37,7 @@ void require_no_stricter(const Run& before, const Run& after, const BeginPositio
 
 }  // namespace
 
-/// In the active run's place while that is untouched, else beside it.
+/// Puts a run in the place of the active one if that has not moved, else beside it.
 std::size_t Session::put(std::shared_ptr<Run> run) {
   const Run& current = active();
   if (!is_untouched(current)) return add(std::move(run));
@@ -55,7 +55,7 @@ std::size_t Session::change(RunParameters parameters) {
     auto run = make_run(input_, parameters, current.begin());
     require_no_stricter(current, *run, current.begin());
     return put(std::move(run));
-  } catch (const UsageError&) {  // also of what is wrong with the parameters: the input refuses that as well
+  } catch (const UsageError&) {  // also for invalid parameters, which the input refuses as well
     return put(make_run(input_, std::move(parameters)));
   }
 }
@@ -78,7 +78,7 @@ std::uint64_t Session::continue_with(RunParameters parameters, Progress& progres
   try {
     next = make_run(input_, parameters, begin);
   } catch (const UsageError&) {
-    (void)make_run(input_, std::move(parameters));  // says what is wrong with them from anywhere
+    (void)make_run(input_, std::move(parameters));  // throws if the parameters themselves are invalid
     throw UsageError("what would be fixed has moved: that cannot begin but from the input");
   }
   require_no_stricter(current, *next, begin);

@@ -1,6 +1,5 @@
 #pragma once
-// What a person should know of runs that came to their end: how the mesh fares as a whole, elements that are inverted, and faces that cross
-// each other. Worked out once for each end.
+// Findings about runs that came to their end: report card, inverted elements, and faces that cross each other. Computed once for each end.
 
 #include <functional>
 #include <memory>
@@ -25,19 +24,18 @@ struct RunEnding {
 /// The endings of a session's runs.
 class Endings {
  public:
-  /// The ending of a run; null while the run has not ended, and while this is not worked out yet.
+  /// The ending of a run; null while the run has not ended, and until the ending is computed.
   [[nodiscard]] std::shared_ptr<const RunEnding> of(Session& session, std::size_t run) const;
-  /// Works out where to look, of those that are missing, asking `go_on` before each. Returns whether there are new ones. Throws
-  /// DeviceError.
+  /// Computes missing endings, asking `go_on` before each. Returns whether there are new ones. Throws DeviceError.
   bool find(Session& session, const std::function<bool()>& go_on);
-  /// Tries whether another method gets further than the active run, once where `go_on` lets it come to its end. Returns whether one does.
+  /// Tries whether another method gets further than the active run, once if `go_on` lets the trial finish. Returns whether one does.
   bool find_hint(Session& session, const std::function<bool()>& go_on);
 
  private:
   struct Known {
     StandingRun at;
     std::shared_ptr<const RunEnding> ending;
-    bool tried = false;  // other methods
+    bool tried = false;  // whether other methods were tried
   };
   [[nodiscard]] const Known* find_known(Session& session, std::size_t run) const;
   std::vector<Known> known_;

@@ -11,8 +11,8 @@ namespace dmoscope {
 
 namespace {
 
-constexpr Index kSmall = 300'000;            // elements: a domain takes some 0.3 s at most
-constexpr std::size_t kMostHoldDomains = 3;  // that are kept: the next moment asks for the same
+constexpr Index kSmall = 300'000;            // elements, for which a domain takes some 0.3 s at most
+constexpr std::size_t kMostHoldDomains = 3;  // number of domains that are kept: the next moment asks for the same ones
 
 }  // namespace
 
@@ -55,7 +55,7 @@ std::shared_ptr<const HeldMinimum> Holds::find(Session& session, std::size_t ind
   return find_known(session, index)->found;
 }
 
-/// Where nobody knows the positions of the best iteration any more, there is no trial, and no number.
+/// Tries the switch found; does nothing if the positions of the best iteration are lost.
 void Holds::try_known(Session& session, std::size_t index, const TrialBudget& budget, const std::shared_ptr<ThreadPool>& pool,
                       Progress& progress) {
   Known& known = known_[static_cast<std::size_t>(find_known(session, index) - known_.data())];

@@ -1,5 +1,5 @@
 #pragma once
-// What holds the minima of a session's runs, worked out once for each moment.
+// Holds of the minima of a session's runs, found once for each moment.
 
 #include <functional>
 #include <memory>
@@ -14,28 +14,27 @@ class Session;
 
 class Holds {
  public:
-  /// Of a run as it stood when that was worked out last; null: it never was.
+  /// Latest hold found of a run; null: none was.
   struct Latest {
     std::shared_ptr<const HeldMinimum> found;
-    bool now = false;  // it is of the run as it stands
+    bool now = false;  // whether it is of the run's present moment
   };
   [[nodiscard]] Latest of(Session& session, std::size_t run) const;
-  /// Works it out where it is missing, with a trial of the switch unless `go_on` is given: nobody has asked then. Null where no element has
-  /// a quality. Throws Cancelled, also once `go_on` says no, and DeviceError.
+  /// Finds the hold of a run unless it is known, with a trial of the switch unless `go_on` is given, which means that the user did not ask.
+  /// Null if no element has a quality. Throws Cancelled, also once `go_on` returns false, and DeviceError.
   std::shared_ptr<const HeldMinimum> find(Session& session, std::size_t run, Progress& progress, const std::function<bool()>& go_on = {});
-  /// Works it out for the active run, of a mesh on which that takes no time to speak of. Returns whether there is something new. Throws
+  /// Finds the hold of the active run if its mesh is small enough to do so at once. Returns whether there is something new. Throws
   /// DeviceError.
   bool find_at_rest(Session& session, const std::function<bool()>& go_on);
-  /// Tries on a copy of the active run what it would come to by the switch that frees its worst element, see try_switch(): on one thread,
-  /// for some two seconds at most, and given up once `go_on` says no. Once for each moment. Returns whether there is something new. Throws
-  /// DeviceError.
+  /// Tries the switch that frees the worst element on a copy of the active run, see try_switch(): on one thread, for some two seconds at
+  /// most, and until `go_on` returns false. Once for each moment. Returns whether there is something new. Throws DeviceError.
   bool try_at_rest(Session& session, const std::function<bool()>& go_on);
 
  private:
   struct Known {
     StandingRun at;
     std::shared_ptr<const HeldMinimum> found;
-    bool tried = false;  // its switch, on the whole mesh
+    bool tried = false;  // whether its switch was tried on the whole mesh
   };
   struct KnownDomain {
     std::weak_ptr<const InputMesh> input;
@@ -46,8 +45,8 @@ class Holds {
   void try_known(Session& session, std::size_t run, const TrialBudget& budget, const std::shared_ptr<ThreadPool>& pool, Progress& progress);
   [[nodiscard]] std::shared_ptr<const Domain> domain(const std::shared_ptr<const InputMesh>& input, const StandingRule& rule);
 
-  std::vector<Known> known_;          // one a run
-  std::vector<KnownDomain> domains_;  // of what was tried last, latest last; they look into their meshes
+  std::vector<Known> known_;          // one for each run
+  std::vector<KnownDomain> domains_;  // domains of the latest trials, newest last; they refer to their meshes
 };
 
 }  // namespace dmoscope

@@ -30,7 +30,7 @@ std::string mark_of(const Group& group) {
   return hash.text();
 }
 
-/// Names that several things share, one of which differs, must not hide it.
+/// Marks by name: several may share one, and a change of one of these must not go unnoticed.
 std::multimap<std::string, std::string> by_name(const std::vector<DataMark>& marks) { return {marks.begin(), marks.end()}; }
 
 }  // namespace

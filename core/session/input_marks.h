@@ -1,5 +1,5 @@
 #pragma once
-// Hashes of what a run depends on besides positions and elements. A run that is continued must find the same in its input mesh.
+// Hashes of a run's inputs besides positions and elements. A run that is continued must find the same in its input mesh.
 
 #include <string>
 #include <utility>
@@ -10,19 +10,19 @@
 
 namespace dmoscope {
 
-/// Hash of the vertices that stay in place whatever a person fixes.
+/// Hash of the vertices that stay by rule, without those that the user fixes.
 [[nodiscard]] std::string standing_mark(const InputMesh& input, const StandingRule& rule);
 
-/// Hash of the nodal field that a size function reads; empty where it reads none.
+/// Hash of the nodal field that a size function reads; empty if it reads none.
 [[nodiscard]] std::string size_mark(const InputMesh& input, const SizeField* size);
 
-/// What a thing of the file is called, as a person reads it (group "steel", field "mat_id"), and its hash.
+/// Name of a group or field of the file, as the user reads it (group "steel", field "mat_id"), and its hash.
 using DataMark = std::pair<std::string, std::string>;
 
 /// Marks of all data that can fix vertices: groups, and fields that name materials; in the mesh's order.
 [[nodiscard]] std::vector<DataMark> data_marks(const Mesh& mesh);
 
-/// What differs: `group "steel" has changed, field "mat_id" is gone`; of much the first few. Empty where nothing does.
+/// Phrase on the differences: `group "steel" has changed, field "mat_id" is gone`; of many the first few. Empty if there are none.
 [[nodiscard]] std::string changed_data(const std::vector<DataMark>& then, const std::vector<DataMark>& now);
 
 }  // namespace dmoscope

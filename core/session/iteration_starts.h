@@ -1,5 +1,5 @@
 #pragma once
-// Where the vertices were at the begin of the iterations that runs stand in: what a history that is full no longer keeps.
+// Positions at the begin of the iterations that runs are in, for histories that are full and no longer keep them.
 
 #include <cstdint>
 #include <memory>
@@ -9,22 +9,22 @@
 
 namespace dmoscope {
 
-/// One copy of positions a run at most, and none of those that its history keeps.
+/// Positions at the begin of iterations, at most one copy for each run, and none that its history keeps.
 class IterationStarts {
  public:
   using Positions = std::shared_ptr<const std::vector<Vec3>>;
 
-  /// Of a run that stands at the end of an iteration: remembers its positions, unless they are known. Throws DeviceError.
+  /// Keeps the positions of a run that is at the end of an iteration, unless they are known. Throws DeviceError.
   void note(const std::weak_ptr<const Run>& run);
-  /// The positions at the begin of the iteration that it stands in; null where they are not known here, or are none of its path any more.
+  /// The positions at the begin of the run's present iteration; null if they are not known here, or do not belong to its path any more.
   [[nodiscard]] Positions of(const Run& run) const;
 
  private:
   struct Start {
     std::weak_ptr<const Run> run;
     std::uint64_t iteration = 0;
-    Backend backend = Backend::Cpu;  // the last bits may be others after a device failed
-    std::vector<Edit> edits;         // all of its path until then
+    Backend backend = Backend::Cpu;  // backend at that moment: the last bits may differ after a device failed
+    std::vector<Edit> edits;         // all edits of its path up to then
     Positions positions;
     [[nodiscard]] bool is_of(const Run& run) const;
   };

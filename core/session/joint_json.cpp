@@ -12,7 +12,7 @@ namespace dmoscope {
 
 namespace {
 
-constexpr std::array<std::string_view, 3> kEnds{"none", "certified", "no gain"};  // in the order of JointState::End
+constexpr std::array<std::string_view, 3> kEnds{"none", "certified", "no gain"};  // words in the order of JointState::End
 constexpr double kNoLevel = std::numeric_limits<double>::infinity();
 
 JointState::End to_end(const StateJson& json) {
@@ -74,7 +74,7 @@ JointState to_joint_state(const StateJson& json, std::size_t vertices) {
     const std::uint64_t of = to_whole(atoms.at(i)), count = to_whole(atoms.at(i + 1));
     if (of > static_cast<std::uint64_t>(JointState::Of::Closed) || count > kMostAtoms - state.atoms.size())
       throw UsageError("what joint moves know of elements is damaged");
-    // As many as the mesh can have: each vertex has its elements, and each element few parts.
+    // Bounds the number of atoms by the most that a mesh can have: each vertex has its elements, and each element few atoms.
     if (state.atoms.size() + count > 4096 * (vertices + 1)) throw UsageError("joint moves know of more elements than there are");
     state.atoms.insert(state.atoms.end(), count, static_cast<JointState::Of>(of));
   }
@@ -86,8 +86,8 @@ JointState to_joint_state(const StateJson& json, std::size_t vertices) {
   }
   state.clusters = to_index(json.at("clusters"));
   state.passes = to_index(json.at("passes"));
-  if (json.contains("mean raised")) state.mean_raised = json.at("mean raised").get<bool>();  // older files have none
-  if (json.contains("untanglings")) state.untanglings = to_index(json.at("untanglings"));    // older files have none
+  if (json.contains("mean raised")) state.mean_raised = json.at("mean raised").get<bool>();  // missing in older files
+  if (json.contains("untanglings")) state.untanglings = to_index(json.at("untanglings"));    // missing in older files
   state.pass_began_at = to_double(json.at("pass_began_at"));
   state.pushed = json.at("pushed").get<bool>();
   state.beyond = json.value("beyond", false);

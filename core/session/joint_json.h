@@ -8,14 +8,14 @@
 
 namespace dmoscope {
 
-/// ["none" | "certified" | "no gain", certified, is push, bound, gap, vertices, Newton steps]
+/// Figures as an array: ["none" | "certified" | "no gain", certified, is push, bound, gap, vertices, Newton steps].
 [[nodiscard]] StateJson joint_json(const JointFigures& figures);
-/// Throws UsageError, or what the JSON library throws.
+/// Reads such an array. Throws UsageError, and exceptions of the JSON library.
 [[nodiscard]] JointFigures to_joint_figures(const StateJson& json);
 
-/// Atoms in stretches, state and count one after another; levels as vertex and level where there is one.
+/// State as an object: atoms in stretches, state and count alternating; levels as pairs of vertex and level.
 [[nodiscard]] StateJson joint_json(const JointState& state);
-/// `vertices`: of the mesh. Throws likewise.
+/// Reads such an object. `vertices`: number of the mesh's vertices. Throws UsageError, and exceptions of the JSON library.
 [[nodiscard]] JointState to_joint_state(const StateJson& json, std::size_t vertices);
 
 }  // namespace dmoscope

@@ -12,9 +12,9 @@ namespace dmoscope {
 
 using StateJson = nlohmann::ordered_json;
 
-/// JSON has no number for what is not finite: "nan", "inf" and "-inf" are words.
+/// Number as JSON; as words "nan", "inf" and "-inf" if it is not finite, which JSON numbers cannot be.
 [[nodiscard]] StateJson number_in_json(double value);
-/// The way back. Throws UsageError for what is no number, or what the JSON library throws; so do those below.
+/// Reads such a number. Throws UsageError if it is none, and exceptions of the JSON library; so do the functions below.
 [[nodiscard]] double to_double(const StateJson& json);
 [[nodiscard]] std::uint64_t to_whole(const StateJson& json);
 [[nodiscard]] Index to_index(const StateJson& json);

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 fs::path original_name(const fs::path& file, unsigned number) {
   const std::string tag = number == 1 ? ".orig" : fmt::format(".orig{}", number);
   fs::path stem = file.stem(), ending = file.extension();
-  if (ending == ".gz") {  // "a.vtk.gz"
+  if (ending == ".gz") {  // file name like "a.vtk.gz"
     ending = stem.extension().string() + ending.string();
     stem = stem.stem();
   }
@@ -40,7 +40,7 @@ std::vector<fs::path> keep_originals(std::span<const fs::path> files) {
       continue;
     }
     std::error_code ignored;
-    if (error != std::errc::file_exists) fs::remove(copy, ignored);  // what there is of it
+    if (error != std::errc::file_exists) fs::remove(copy, ignored);  // removes the incomplete copy
     for (const fs::path& other : copies) fs::remove(other, ignored);
     throw OutputError(copy.string(), fmt::format("no copy can be kept of what is written over: {}", error.message()));
   }

@@ -1,5 +1,5 @@
 #pragma once
-// Parameters of a run as JSON: numbers as numbers, all else as words.
+// Parameters of a run as JSON: numbers as numbers, all others as words.
 
 #include <nlohmann/json.hpp>
 

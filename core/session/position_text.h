@@ -12,9 +12,9 @@
 
 namespace dmoscope {
 
-/// Positions as the base64 of their coordinates, x y z x y z ..., little-endian doubles: the very bits.
+/// Positions as the base64 of their coordinates, x y z x y z ..., little-endian doubles, without loss.
 [[nodiscard]] std::string pack_positions(std::span<const Vec3> positions);
-/// None unless the text holds exactly `count` finite positions.
+/// Reads such a text. None unless it holds exactly `count` finite positions.
 [[nodiscard]] std::optional<std::vector<Vec3>> unpack_positions(std::string_view text, std::size_t count);
 
 }  // namespace dmoscope

@@ -13,8 +13,8 @@
 namespace dmoscope {
 namespace {
 
-/// Commands whose words that are no options name files; the window's are among them. A session may be saved over what it was opened from; a
-/// mesh may not.
+/// Commands whose arguments, without the options, name files; those of the window are among them. A session may be saved over the file that
+/// it was opened from; a mesh may not.
 constexpr std::array<std::string_view, 3> kReading{"open", "open-beside", "surface"};
 constexpr std::array<std::string_view, 2> kReadingSessions{"open-state", "open-session"}, kSavingSessions{"save-state", "save-session"};
 constexpr std::array<std::string_view, 8> kWriting{"export",    "stats",       "elements",     "screenshot",
@@ -30,7 +30,7 @@ struct FileLine {
   std::vector<std::string> files;
 };
 
-/// No files for a line that names none, and for one that the script will end at.
+/// The command of a line and the files that it names; none for a line at which the script will fail.
 FileLine file_line(std::string_view line) {
   try {
     std::vector<std::string> words = split_words(line);
@@ -38,7 +38,7 @@ FileLine file_line(std::string_view line) {
     FileLine found{std::move(words[0]), {}};
     for (std::size_t i = 1; i < words.size(); ++i)
       if (!words[i].starts_with("--")) found.files.push_back(std::move(words[i]));
-    if (!among(kWriting, found.command)) found.files.resize(std::min<std::size_t>(found.files.size(), 1));  // a view may follow
+    if (!among(kWriting, found.command)) found.files.resize(std::min<std::size_t>(found.files.size(), 1));  // the others may be a view
     return found;
   } catch (const UsageError&) {
     return {};

@@ -1,5 +1,5 @@
 #pragma once
-// The files that a session was read from: nothing that it writes may take their place.
+// Files that a session was read from, which it must not overwrite.
 
 #include <filesystem>
 #include <set>
@@ -11,21 +11,21 @@ namespace dmoscope {
 
 class ReadFiles {
  public:
-  /// All files of a mesh, see mesh_files(). An empty path is none.
+  /// Adds all files of a mesh, see mesh_files(). An empty path is none.
   void add(const std::filesystem::path& path);
-  /// Throws UsageError when `target`, which `command` ("stats") would write, is one of them, also through links, or a mesh that is written
-  /// there would replace one. Sessions that are saved and `reload` need these files as they were.
+  /// Throws UsageError if `target`, which `command` ("stats") would write, is one of them, also through links, or if a mesh written there
+  /// would replace one. Saved sessions and `reload` need these files unchanged.
   void require_another(const std::filesystem::path& target, std::string_view command) const;
-  /// The same of all files that a line of commands writes.
+  /// Throws UsageError if a line of commands would overwrite one of them.
   void require_another(std::string_view line) const;
 
  private:
   std::set<std::filesystem::path> files_;
 };
 
-/// A line of a script that would overwrite what an earlier one reads, or the script itself.
+/// A line of a script that would overwrite a file which an earlier one reads, or the script itself.
 struct Overwriting {
-  std::size_t line = 0;  // from 1; 0: none
+  std::size_t line = 0;  // line number from 1; 0: none
   std::string what;
 };
 [[nodiscard]] Overwriting first_overwriting(const std::filesystem::path& script, std::span<const std::string> lines);

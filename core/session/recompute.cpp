@@ -7,7 +7,7 @@ std::optional<std::vector<Vec3>> positions_at(const Session& session, const Run&
   const History::Kept& kept = run.history().nearest(iteration);
   if (kept.iteration == iteration) return std::vector<Vec3>(kept.positions.begin(), kept.positions.end());
   RunParameters parameters = run.parameters();
-  if (run.backend() == Backend::Cpu) parameters.backend = Backend::Cpu;  // also where a device failed
+  if (run.backend() == Backend::Cpu) parameters.backend = Backend::Cpu;  // also after a device failed
   const auto other = session.make_run(run.shared_input(), std::move(parameters), run.begin());
   other->set_history_budget(0);
   Progress progress;

@@ -1,5 +1,5 @@
 #pragma once
-// Computes positions again that a run's history no longer keeps.
+// Recomputation of positions that a run's history no longer keeps.
 
 #include <cstdint>
 #include <functional>
@@ -10,8 +10,8 @@
 
 namespace dmoscope {
 
-/// Where the vertices were at the end of a recorded iteration: the kept positions, else computed again from the nearest kept ones by
-/// another run, the same bits, so that this one stays where it stands. Asks `go_on` every 100 ms or so; none once it says no. Throws Error.
+/// The positions at the end of a recorded iteration: those kept, or else the same bits recomputed from the nearest kept ones by another
+/// run, so that this one stays at its moment. Asks `go_on` every 100 ms or so; none once that returns false. Throws Error.
 [[nodiscard]] std::optional<std::vector<Vec3>> positions_at(const Session& session, const Run& run, std::uint64_t iteration,
                                                             const std::function<bool()>& go_on);
 

@@ -1,4 +1,4 @@
-// Another mesh in the place of one that has runs: its file read again, or the surface to slide on changed.
+// Replacement of a mesh that has runs: after its file was read again, or the surface to slide on changed.
 
 #include <algorithm>
 #include <string>
@@ -39,7 +39,7 @@ std::string Session::reload(Progress& progress) {
 std::string Session::slide_on_surface(const std::filesystem::path& path, Progress& progress) {
   const std::shared_ptr<const InputMesh> stale = input();
   IoContext of_all = reading(progress);
-  of_all.thin = Thin::Off;  // the boundary of all of its cells counts
+  of_all.thin = Thin::Off;  // the boundary of all cells counts
   const auto surface = path.empty() ? nullptr : load_input(path, Need::QualityOnly, of_all);
   std::string note = replace_in_runs(stale, slide_on(*stale, surface));
   if (surface) note_read(surface->path);
@@ -51,7 +51,7 @@ std::string Session::name_materials(std::span<const std::string> fields) {
   return replace_in_runs(stale, with_materials(*stale, fields));
 }
 
-/// exchange() with the same file's mesh, which is found where it was.
+/// Calls exchange() with another mesh from the same source, which is recorded for it.
 std::string Session::replace_in_runs(const std::shared_ptr<const InputMesh>& stale, const std::shared_ptr<const InputMesh>& fresh) {
   const std::filesystem::path source = source_path(stale);
   std::string note = exchange(stale, fresh);
@@ -59,7 +59,7 @@ std::string Session::replace_in_runs(const std::shared_ptr<const InputMesh>& sta
   return note;
 }
 
-/// Gives all runs on a mesh another one in its place, from which they start anew. Returns what could not be kept.
+/// Replaces a mesh in all runs on it, which start anew. Returns a sentence on what could not be kept.
 std::string Session::exchange(const std::shared_ptr<const InputMesh>& stale, const std::shared_ptr<const InputMesh>& fresh) {
   const bool same_vertices = fresh->mesh.vertex_count() == stale->mesh.vertex_count();
   std::string note;
@@ -84,7 +84,7 @@ std::string Session::exchange(const std::shared_ptr<const InputMesh>& stale, con
         run = make_run(fresh, std::move(parameters));
         run->set_id(runs_[i]->id());
         run->set_given_name(runs_[i]->given_name());
-      } catch (const Error& error) {  // such as a metric that is not defined for the elements of now
+      } catch (const Error& error) {  // for example a metric that is not defined for the new elements
         add_note(error.what());
         continue;
       }

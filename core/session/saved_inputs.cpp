@@ -28,7 +28,7 @@ std::string checksum(const Mesh& mesh) {
   return hash.text();
 }
 
-/// The path as the file says, or beside the state file where it is not there any more.
+/// The path in the file or, if nothing is there any more, the same name beside the state file.
 std::filesystem::path find_mesh(const std::filesystem::path& written, const std::filesystem::path& state) {
   std::error_code ignored;
   if (std::filesystem::exists(written, ignored)) return written;
@@ -36,7 +36,7 @@ std::filesystem::path find_mesh(const std::filesystem::path& written, const std:
   return std::filesystem::exists(beside, ignored) ? beside : written;
 }
 
-/// The mesh with its cell data that a person let name materials. `given`: whether the mesh was.
+/// The mesh with the cell data that the user let name materials. `given`: whether the mesh was passed in.
 std::shared_ptr<const InputMesh> of_materials(const Json& json, std::shared_ptr<const InputMesh> input, bool given) {
   const auto said = json.contains("materials") ? json.at("materials").get<std::vector<std::string>>() : std::vector<std::string>();
   if (said == said_materials(input->mesh)) return input;
@@ -57,7 +57,7 @@ std::shared_ptr<const InputMesh> to_input(const Json& json, const std::filesyste
   } else {
     const std::filesystem::path path = find_mesh(json.at("path").get<std::string>(), state);
     source = path.string();
-    IoContext as_saved = context;  // an older file says nothing: it was taken as it stands
+    IoContext as_saved = context;  // older files say nothing: their meshes were taken as they stand
     as_saved.geographic = json.value("geographic", false) ? Geographic::On : Geographic::Off;
     as_saved.thin = json.value("thin", false) ? Thin::On : Thin::Off;
     input = load_input(path, Need::Smoothing, as_saved);
@@ -71,7 +71,7 @@ std::shared_ptr<const InputMesh> to_input(const Json& json, const std::filesyste
   return of_materials(json, std::move(input), given);
 }
 
-/// The same with the surface that it slides on. `given`: whether the mesh was.
+/// The mesh with the surface that it slides on. `given`: whether the mesh was passed in.
 std::shared_ptr<const InputMesh> on_surface(const Json& json, const std::filesystem::path& state, const IoContext& context,
                                             const std::shared_ptr<const InputMesh>& input, bool given) {
   const bool slides = json.contains("surface");
@@ -82,7 +82,7 @@ std::shared_ptr<const InputMesh> on_surface(const Json& json, const std::filesys
   return given ? input : slide_on(*input, surface);
 }
 
-/// The marks of the mesh's groups and fields in the file; nothing in an older file, which has none.
+/// The marks of the mesh's groups and fields in the file; empty for an older file, which has none.
 std::vector<DataMark> to_data_marks(const Json& input) {
   std::vector<DataMark> marks;
   if (!input.contains("data")) return marks;
@@ -110,13 +110,13 @@ std::vector<OpenedMesh> to_meshes(const Json& json, const std::filesystem::path&
   return meshes;
 }
 
-StateJson input_json(const MeshStanding& mesh) {  // NOLINT(misc-no-recursion): a surface has none of its own
+StateJson input_json(const MeshStanding& mesh) {  // a surface has no surface of its own
   const InputMesh& input = *mesh.input;
   Json source{{"vertices", input.mesh.vertex_count()}, {"elements", input.mesh.elements.size()}, {"checksum", checksum(input.mesh)}};
   source["single"] = input.mesh.single_precision;
   if (input.mesh.degrees) source["geographic"] = true;
   if (input.mesh.thin) source["thin"] = true;
-  // To be able to say what it was where other vertices keep their place one day.
+  // Saves marks, to be able to name a difference if other vertices are fixed later.
   for (const DataMark& mark : data_marks(input.mesh)) source["data"].push_back({mark.first, mark.second});
   if (!input.generator.empty()) {
     source["generate"] = input.generator;

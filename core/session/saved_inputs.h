@@ -1,5 +1,5 @@
 #pragma once
-// What a saved session says of its meshes, to find them again.
+// Meshes in a saved session, and how to find them again.
 
 #include <filesystem>
 #include <memory>
@@ -17,11 +17,11 @@ struct OpenedMesh {
   std::vector<DataMark> data;
 };
 
-/// The meshes of a saved session: one as "input", several as "inputs". `input`: see open_state(). Throws UsageError and InputError.
+/// Opens the meshes of a saved session: one as "input", several as "inputs". `input`: see open_state(). Throws UsageError and InputError.
 [[nodiscard]] std::vector<OpenedMesh> to_meshes(const StateJson& json, const std::filesystem::path& path, const IoContext& context,
                                                 const std::shared_ptr<const InputMesh>& input);
 
-/// What a session says of a mesh, to find it again. Throws UsageError for one that cannot be found again.
+/// Description of a mesh in a saved session, to find it again. Throws UsageError for one that cannot be found again.
 [[nodiscard]] StateJson input_json(const MeshStanding& mesh);
 
 }  // namespace dmoscope

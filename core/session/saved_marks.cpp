@@ -8,7 +8,7 @@ namespace dmoscope {
 
 namespace {
 
-/// Whether a run's vertices are where its input has them, as far as its records tell.
+/// Whether a run's vertices have left their place in the input, as far as its records tell.
 bool has_moved(const Run& run) {
   const Moment& at = run.moment();
   if (at.visits > 0 || run.edits().done_by(at) > 0) return true;

@@ -1,5 +1,5 @@
 #pragma once
-// What of the runs is in files: where they stood when they were exported, or saved with the session.
+// States of runs that are in files: exported, or saved with the session.
 
 #include <filesystem>
 #include <memory>
@@ -11,14 +11,14 @@ namespace dmoscope {
 
 class SavedMarks {
  public:
-  enum class Kind { Mesh, Session };  // a session keeps the edits ahead, too
+  enum class Kind { Mesh, Session };  // a session also has the edits ahead
 
-  /// This file was written: whatever it held of any run before is no more.
+  /// Records that a file was written: its former contents are lost.
   void written(const std::filesystem::path& file);
-  /// The file holds this run as it stands now.
+  /// Records that a file holds this run in its present state.
   void add(const std::filesystem::path& file, Kind kind, const std::shared_ptr<const Run>& run);
-  /// Whether ending now would lose something of a run: vertices have moved to where no file has them, or visits of chosen vertices are on
-  /// its path that no file tells of. Of a run that stands at its input, or where none of its visits moved anything: no.
+  /// Whether ending now would lose something of a run: positions that no file has, or visits of chosen vertices on its path that no file
+  /// records. False for a run at its input, or if none of its visits moved anything.
   [[nodiscard]] bool would_lose(const Run& run) const;
 
  private:
@@ -27,9 +27,9 @@ class SavedMarks {
     Kind kind = Kind::Mesh;
     std::weak_ptr<const Run> run;
     Moment moment;
-    Backend backend = Backend::Cpu;  // the last bits may be others after a device failed
-    std::vector<Edit> edits;         // all of its path
-    std::size_t done = 0;            // of these, up to the moment
+    Backend backend = Backend::Cpu;  // backend at that moment: the last bits may differ after a device failed
+    std::vector<Edit> edits;         // all edits of its path
+    std::size_t done = 0;            // number of edits up to the moment
   };
   std::vector<Mark> marks_;
 };

@@ -13,7 +13,7 @@ namespace dmoscope {
 
 namespace {
 
-/// With all that its formula and target need.
+/// Whether a metric is defined for all elements, with all that its formula and target need.
 bool defined_for_all(Metric metric, const InputMesh& input) {
   try {
     require_defined(metric, input);
@@ -23,8 +23,8 @@ bool defined_for_all(Metric metric, const InputMesh& input) {
   }
 }
 
-/// Bytes for past positions, of the budget that somebody chose. The default is the most: of it a mesh takes as much as some iterations'
-/// positions need, and small ones a quarter.
+/// Bytes for past positions of a mesh, out of the chosen budget. The default budget is an upper limit: a mesh takes as much of it as the
+/// positions of some iterations need, a small one at most a quarter.
 std::size_t history_for(const InputMesh& input, std::size_t budget) {
   constexpr std::size_t kIterations = 4;
   if (budget != Session::kDefaultHistoryBytes) return budget;
@@ -74,14 +74,14 @@ std::shared_ptr<Run> Session::first_run(const std::shared_ptr<const InputMesh>& 
     parameters.fixed.clear();
     parameters.kinds = {};
     parameters.boundary = BoundaryRule::Fixed;
-    parameters.interfaces = InterfaceRule::Fixed;  // who freed those of one mesh has not seen the next one's
+    parameters.interfaces = InterfaceRule::Fixed;  // freed for the mesh before, not for this one
   }
   if (!defined_for_all(parameters.metric, *input)) parameters.metric = Metric::MeanRatio;
   if (!why_not_joint(*input, parameters.metric).empty()) {
     if (method_info(parameters.method).joint) parameters.method = RunParameters{}.method;
     parameters.then_joint.reset();
   }
-  parameters.combination.reset();  // its point, its field and its threshold are of the mesh before
+  parameters.combination.reset();  // belongs to the mesh before, with its point, field and threshold
   return make_run(input, std::move(parameters));
 }
 
@@ -109,7 +109,7 @@ void Session::open_beside(const std::filesystem::path& path, Progress& progress)
   share_history();
 }
 
-/// Makes a run the active one. The metric that is shown stays where its mesh has it.
+/// Makes a run the active one. The shown metric stays if its mesh has it.
 void Session::activate(std::size_t index) {
   active_ = index;
   input_ = runs_[index]->shared_input();
@@ -205,7 +205,7 @@ void Session::show(Metric metric) {
 
 namespace {
 
-/// Whether two metrics have the same values for the input, as far as some of its elements tell.
+/// Whether two metrics have equal values for the input, judged by some of its elements.
 bool judge_alike(const InputMesh& input, Metric a, Metric b) {
   constexpr Index kLooks = 64;
   const QualityContext context = input.quality_context();
@@ -282,7 +282,7 @@ std::string Session::redo(Progress& progress) {
   return entry->label;
 }
 
-/// `with_shown`: the metric that is shown, too; else that stays, where the mesh has it.
+/// Returns to a point. `with_shown`: also to its shown metric; else that stays, if the mesh has it.
 void Session::go_to(const SessionPoint& point, bool with_shown, Progress& progress) {
   const std::unique_ptr<Session, void (*)(Session*)> at_the_end(this, [](Session* session) { session->rest_retired_runs(); });
   for (const auto& [run, where, name] : point.runs) {
@@ -301,15 +301,15 @@ void Session::go_to(const SessionPoint& point, bool with_shown, Progress& progre
   share_history();
 }
 
-/// Runs that only undo knows keep no more than they must, and share among them as much memory for positions as the others do.
+/// Makes runs that only undo knows keep no more than they must, and share as much memory for positions as the others do.
 void Session::rest_retired_runs() {
   const auto retired = undo_.retired_runs(point());
   for (const auto& run : retired) {
     run->set_history_budget(history_for(run->input(), history_bytes_) / retired.size());
     try {
       run->rest();
-    } catch (const DeviceError&) {     // it has recovered, and goes on on the CPU
-    } catch (const std::bad_alloc&) {  // it keeps less
+    } catch (const DeviceError&) {     // the run has recovered, and continues on the CPU
+    } catch (const std::bad_alloc&) {  // the run keeps less
     }
   }
 }

@@ -1,5 +1,5 @@
 #pragma once
-// A session as it stands at one moment, to be written to a file while the session itself goes on.
+// Snapshot of a session, to be written to a file while the session itself goes on.
 
 #include <filesystem>
 #include <functional>
@@ -14,7 +14,7 @@
 
 namespace dmoscope {
 
-/// Of a run: all that its place in a saved session is made of.
+/// Snapshot of a run: everything that a saved session holds of it.
 struct RunStanding {
   RunParameters parameters;
   Moment moment;
@@ -22,9 +22,9 @@ struct RunStanding {
   SharedVector<IterationRecord> records;
   std::shared_ptr<const SizeField> size;
   std::string name;                              // see Run::given_name
-  std::size_t mesh = 0;                          // its place in SessionStanding::meshes
+  std::size_t mesh = 0;                          // index in SessionStanding::meshes
   std::span<const Vec3> start;                   // positions at the end of iteration moment.iteration; empty at the input
-  std::shared_ptr<const void> owner;             // of these
+  std::shared_ptr<const void> owner;             // owner of `start`
   std::shared_ptr<const JointStanding> joint{};  // see Run::joint_standing
   BeginPositions begin{};                        // see Run::begin
 };
@@ -35,7 +35,7 @@ struct MeshStanding {
 };
 
 struct SessionStanding {
-  std::vector<MeshStanding> meshes;  // in the order of their first runs
+  std::vector<MeshStanding> meshes;  // meshes in the order of their first runs
   std::vector<RunStanding> runs;
   std::size_t active = 0;
   Metric shown = Metric::MeanRatio;
@@ -43,14 +43,14 @@ struct SessionStanding {
   [[nodiscard]] const InputMesh& input() const { return *meshes[runs[active].mesh].input; }
 };
 
-/// The same but for the runs.
+/// Snapshot of a session without its runs.
 [[nodiscard]] SessionStanding without_runs(const Session& session);
-/// The same but for the positions. `meshes`: the session's.
+/// Snapshot of a run without positions. `meshes`: those of the session.
 [[nodiscard]] RunStanding without_positions(const Run& run, std::span<const MeshStanding> meshes);
 
-/// All of it, without moving any run. Positions that the history or `starts` keep are shared, others copied. None where a run stands in the
-/// midst of an iteration at whose begin nobody knows the positions any more, and `go_on`, by which they are computed again (see
-/// positions_at), is missing or says no. Throws DeviceError.
+/// Complete snapshot of a session, without moving any run. Positions that the history or `starts` keep are shared, others copied. None if a
+/// run is within an iteration at whose begin the positions are lost, and `go_on`, which allows to recompute them (see positions_at), is
+/// missing or returns false. Throws DeviceError.
 [[nodiscard]] std::optional<SessionStanding> standing_of(Session& session, const IterationStarts& starts,
                                                          const std::function<bool()>& go_on = {});
 

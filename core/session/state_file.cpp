@@ -33,19 +33,19 @@ constexpr int kVersion = 4;  // 1: without checksums but that of the mesh; 4: ru
 constexpr int kVersionOfSeveralMeshes = 3;
 constexpr int kVersionOfOneMesh = 2;
 
-/// The least version that can say all of it, so that programs of before read what they can.
+/// The lowest version that can express the session, so that older programs can read it if possible.
 int version_for(const SessionStanding& session) {
   const auto elsewhere = [](const RunStanding& run) { return run.begin != nullptr; };
   if (std::ranges::any_of(session.runs, elsewhere)) return kVersion;
   return session.meshes.size() > 1 ? kVersionOfSeveralMeshes : kVersionOfOneMesh;
 }
 
-/// One checksum for each part of an object, to tell which part is damaged. Taken from the part's compact JSON, so that the file's layout
+/// One checksum for each part of an object, to tell which part is damaged, taken from the part's compact JSON, so that the file's layout
 /// does not matter.
 Json checksums_of(const Json& object) {
   Json sums = Json::object();
   for (const auto& [key, part] : object.items()) {
-    if (key == "checksums" || key == "runs") continue;  // runs have their own
+    if (key == "checksums" || key == "runs") continue;  // runs have checksums of their own
     Fnv1a hash;
     if (part.is_string()) {
       hash.add_bytes(part.get_ref<const std::string&>());
@@ -57,8 +57,8 @@ Json checksums_of(const Json& object) {
   return sums;
 }
 
-/// Throws UsageError when a part of an object is not what was saved, lacks, or is one too many. `what`: "run 2", or empty for the session
-/// itself. A view is only looked at, and who shows it judges it: returns whether it, too, is what was saved.
+/// Throws UsageError if a part of an object is damaged, missing, or extra. `what`: "run 2", or empty for the session itself. A damaged view
+/// does not throw, since its owner judges it: returns whether it is undamaged.
 bool check_parts(const Json& object, const std::string& what) {
   if (!object.contains("checksums"))
     throw UsageError(fmt::format("{} is damaged: it has no checksums", what.empty() ? "the session" : what));
@@ -85,7 +85,7 @@ Moment to_moment(const Json& json) {
 
 Json json_of(const PhaseBegin& phase) {
   Json json{{"patience", phase.patience}, {"rise", phase.rise}};
-  if (phase.from_best) json["from_best"] = true;  // files of before do not have it
+  if (phase.from_best) json["from_best"] = true;  // older files do not have it
   return json;
 }
 
@@ -127,7 +127,7 @@ Json json_of(const RunParameters& p) {
     if (row.in_session) json[std::string(row.name)] = parameter_json(row, p);
   if (p.combination) json["combination"] = to_text(p.metric, *p.combination);
   if (p.combination && p.combination->size() != nullptr) json["size_function"] = to_text(*p.combination->size());
-  if (!p.kinds.empty()) json["kinds"] = json_of(p.kinds);  // files of before do not have it
+  if (!p.kinds.empty()) json["kinds"] = json_of(p.kinds);  // older files do not have it
   if (p.then_joint) json["then_joint"] = json_of(*p.then_joint);
   if (p.then_mean) {
     json["then_mean"] = json_of(*p.then_mean);
@@ -159,14 +159,14 @@ RunParameters to_parameters(const Json& json) {
   if (json.contains("kinds")) p.kinds = to_kinds(json.at("kinds"));
   p.then_joint = to_phase(json, "then_joint");
   p.then_mean = to_phase(json, "then_mean");
-  // Files of before the choice raise the arithmetic mean.
+  // Defaults to the arithmetic mean, which older files raise.
   if (p.then_mean) p.mean = parse_mean_kind(json.at("then_mean").value("raises", std::string(name(MeanKind::Arithmetic))));
   return p;
 }
 
-/// [minimum, mean, movable minimum, ceiling, worst element, inverted, moved, seconds]; of joint moves what joint_json() says; the second
-/// metric's movable minimum, where it is known; true of the phase that raises a mean; {} where vertices around the worst element move
-/// together next.
+/// Record of an iteration as an array: [minimum, mean, movable minimum, ceiling, worst element, inverted, moved, seconds]; after joint
+/// moves the array of joint_json(); the second metric's movable minimum, if known; true in the phase that raises a mean; {} if vertices
+/// around the worst element move together next.
 Json json_of(const IterationRecord& r) {
   const Statistics& s = r.statistics;
   Json json{number_in_json(s.minimum),
@@ -202,10 +202,10 @@ IterationRecord to_record(const Json& json, std::uint64_t iteration) {
   return record;
 }
 
-/// What is recorded of an iteration must be true of its positions.
+/// Throws UsageError unless the record of an iteration agrees with its positions.
 void require_record(const Run& run, const std::vector<IterationRecord>& records, std::uint64_t iteration, std::span<const Vec3> positions) {
-  if (iteration >= records.size()) return;  // adopt() refuses that
-  constexpr double kLastDigits = 1e-6;      // another version of this program, and a device, may round otherwise
+  if (iteration >= records.size()) return;  // refused by adopt()
+  constexpr double kLastDigits = 1e-6;      // tolerance: other versions of this program, and devices, may round differently
   const Statistics is = compute_statistics(run.input().quality_context(), positions, run.parameters().metric, run.immovable(), nullptr);
   const Statistics& said = records[iteration].statistics;
   const auto agree = [](double a, double b) {
@@ -218,11 +218,11 @@ void require_record(const Run& run, const std::vector<IterationRecord>& records,
       iteration, is.minimum, is.mean, is.inverted, said.minimum, said.mean, said.inverted));
 }
 
-/// The positions at the end of the iteration in which the run stands; brings the run there and back. Throws UsageError where, computed
-/// again, they are not those of the record, as in a run that an older version of this program made: what was written would not open.
+/// Recomputes the positions at the end of the run's present iteration; brings the run there and back. Throws UsageError if they do not
+/// agree with the record, as in a run made by an older version of this program: the file written could not be opened.
 std::vector<Vec3> start_computed_again(Run& run, Progress& progress) {
   const RunSnapshot here = run.point();
-  Progress unwatched;  // the way back is not for cancelling
+  Progress unwatched;  // not cancelled on the way back
   std::vector<Vec3> start;
   try {
     run.seek({here.moment.iteration}, progress);
@@ -241,7 +241,7 @@ RunStanding standing_of_run(Run& run, std::span<const MeshStanding> meshes, Prog
   const Moment& at = run.moment();
   if (at.iteration == 0) return standing;
   if (at.is_iteration_end()) {
-    standing.start = run.positions();  // it is written before the run goes on
+    standing.start = run.positions();  // written before the run goes on
   } else if (run.history().kept(at.iteration)) {
     standing.start = run.history().nearest(at.iteration).positions;
   } else {
@@ -252,7 +252,7 @@ RunStanding standing_of_run(Run& run, std::span<const MeshStanding> meshes, Prog
   return standing;
 }
 
-/// `several`: whether there are several meshes.
+/// Run as JSON. `several`: whether there are several meshes.
 Json json_of(const RunStanding& run, const InputMesh& input, bool several) {
   Json edits = Json::array();
   for (const Edit& edit : run.edits) edits.push_back({{"at", json_of(edit.at)}, {"vertices", edit.vertices}});
@@ -270,8 +270,8 @@ Json json_of(const RunStanding& run, const InputMesh& input, bool several) {
   return json;
 }
 
-/// Other vertices that stand, or other sizes wanted, would lead the run elsewhere. `then`: the data_marks() of when it was saved. A file of
-/// before there were these says nothing of them.
+/// Throws UsageError if other vertices are fixed by rule, or other sizes wanted, which would lead the run elsewhere. `then`: the
+/// data_marks() at saving. Older files have none of these marks.
 void require_same_data(const Json& json, const Run& run, const std::vector<DataMark>& then) {
   const InputMesh& input = run.input();
   if (json.contains("standing") && json.at("standing") != standing_mark(input, run.parameters().standing())) {
@@ -290,7 +290,7 @@ std::vector<Vec3> to_positions(const Json& json, const InputMesh& input) {
   return std::move(*unpacked);
 }
 
-/// A run as it is described, on a mesh.
+/// Recreates a run on its mesh.
 std::shared_ptr<Run> to_run(const Json& json, const Session& session, const std::shared_ptr<const InputMesh>& input,
                             const std::vector<DataMark>& data, Progress& progress) {
   BeginPositions begin;
@@ -364,7 +364,7 @@ Opened to_session(const Json& json, const std::filesystem::path& path, const Ses
 
 Json parse(std::string_view text, const std::string& file) {
   try {
-    // Nothing of a session lies deep, and what walks through it later calls itself.
+    // Limits the depth: sessions are not nested deeply, and later code that walks through them is recursive.
     return Json::parse(text, [&file](int depth, Json::parse_event_t /*event*/, Json& /*parsed*/) {
       constexpr int kDeepest = 64;
       if (depth > kDeepest) throw InputError(file, 0, "nested too deeply for a saved session");
@@ -374,7 +374,7 @@ Json parse(std::string_view text, const std::string& file) {
     const std::string_view before = text.substr(0, std::min<std::size_t>(text.size(), error.byte == 0 ? 0 : error.byte - 1));
     const auto line = static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n')) + 1;
     throw InputError(file, line, "this is not a saved session: it is not JSON");
-  } catch (const Json::exception&) {  // a number beyond all doubles
+  } catch (const Json::exception&) {  // a number beyond the range of double
     throw InputError(file, 0, "a number in it is too large for a saved session");
   }
 }
@@ -382,7 +382,7 @@ Json parse(std::string_view text, const std::string& file) {
 }  // namespace
 
 void save_state(const std::filesystem::path& path, Session& session, const std::string& view, Progress& progress) {
-  (void)session.input();  // there is one
+  (void)session.input();  // throws if no mesh is open
   SessionStanding standing = without_runs(session);
   for (std::size_t i = 0; i < session.run_count(); ++i) {
     progress.check();

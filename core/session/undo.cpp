@@ -7,7 +7,7 @@ namespace dmoscope {
 
 namespace {
 
-/// "seek 12": a place on the timeline, one of many that a hand passes while it drags.
+/// Whether a label is a plain "seek 12": a place on the timeline, one of many that dragging passes.
 bool plain_seek(std::string_view label) {
   constexpr std::string_view kSeek = "seek ";
   return label.starts_with(kSeek) && label.find(' ', kSeek.size()) == std::string_view::npos;
@@ -50,7 +50,7 @@ void UndoStack::record(std::string label, const SessionPoint& before, const Sess
   bound(after);
 }
 
-/// Forgets the oldest entries while there is too much to keep.
+/// Removes the oldest entries while there is too much to keep.
 void UndoStack::bound(const SessionPoint& now) {
   const auto too_much = [&] {
     return entries_.size() > kMostEntries || retired_inputs(now) > kMostInputs || retired_runs(now).size() > kMostRuns;

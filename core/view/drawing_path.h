@@ -1,5 +1,5 @@
 #pragma once
-// How what a run computes gets to the screen.
+// Path of computed positions to the screen.
 
 #include <string>
 #include <string_view>
@@ -10,13 +10,13 @@ namespace dmoscope {
 
 struct DrawingPath {
   std::string name;    // "cuda with interop", "cuda with host copy" or "cpu"
-  std::string reason;  // why nothing faster; empty for the fastest
-  /// "cuda with host copy: no interop: OpenGL is drawn by the processor"
+  std::string reason;  // reason why no faster path is used; empty for the fastest
+  /// Name and reason: "cuda with host copy: no interop: OpenGL is drawn by the processor".
   [[nodiscard]] std::string sentence() const { return reason.empty() ? name : name + ": " + reason; }
 };
 
-/// `backend`, `backend_reason`: what smooths, and on the CPU why nothing faster does (see Run). `no_interop`: why a device that smooths
-/// cannot write OpenGL's buffers; empty where it can.
+/// The drawing path of a run. `backend`, `backend_reason`: its backend, and on the CPU the reason for that (see Run). `no_interop`: reason
+/// why the device cannot write OpenGL's buffers; empty if it can.
 [[nodiscard]] inline DrawingPath drawing_path(Backend backend, std::string_view backend_reason, std::string_view no_interop) {
   if (backend == Backend::Cpu) return {"cpu", std::string(backend_reason)};
   if (no_interop.empty()) return {std::string(name(backend)) + " with interop", {}};

@@ -13,7 +13,7 @@ namespace dmoscope {
 
 namespace {
 
-/// Takes what a device knows of the run as it stands, if it lives on one. False: it must come from the host.
+/// Takes the device's data of the run's present state, if the run lives on one. False: they must come from the host.
 bool take_picture(Frame& frame, const Run& run) {
   try {
     frame.device = run.picture(frame.shown);
@@ -82,7 +82,7 @@ FrameBuilder::InputFacts& FrameBuilder::facts_of(Session& session, const std::sh
   return inputs_.back();
 }
 
-/// Of the metric that is shown; null where it is not known and `detail` leaves no time for it.
+/// Spread of the shown metric over the input; null if it is not known and `detail` leaves no time for it.
 std::shared_ptr<const InputSpread> FrameBuilder::spread_at(Session& session, InputFacts& facts, FrameDetail detail) {
   const auto known = facts.before.find(session.shown());
   if (known != facts.before.end()) return known->second;
@@ -106,7 +106,7 @@ FrameBuilder::FrameKey FrameBuilder::key_of(Session& session, std::size_t index,
   return key;
 }
 
-/// The mesh that frames with this key are of.
+/// The mesh of frames with this key.
 const std::shared_ptr<const InputMesh>& FrameBuilder::input_of(Session& session, const FrameKey& key) {
   return key.index == Frame::kNoRun ? session.input() : session.run(key.index).shared_input();
 }
@@ -125,7 +125,7 @@ std::shared_ptr<const Frame> FrameBuilder::keep(FrameKey key, std::shared_ptr<co
   return frame;
 }
 
-/// A frame that lacks nothing but its positions and what they tell.
+/// A frame with everything but its positions and what depends on them.
 std::shared_ptr<Frame> FrameBuilder::begin(Session& session, const FrameKey& key, FrameDetail detail) {
   InputFacts& facts = facts_of(session, input_of(session, key));
   auto frame = std::make_shared<Frame>();
@@ -164,7 +164,7 @@ std::shared_ptr<const Frame> FrameBuilder::standing(Session& session, std::size_
   return keep(std::move(key), std::move(frame));
 }
 
-/// A run that is not the active one. Where its device fails it, it goes on from where the host knows it, once nothing runs.
+/// Frame of a run that is not the active one. If its device fails, the run goes on from the state on the host, once nothing runs.
 WatchedFrame FrameBuilder::watch_standing(Session& session, const Watch& what, std::size_t index, FrameDetail detail) {
   try {
     return {what, standing(session, index, detail), {}};

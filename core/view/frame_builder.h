@@ -1,5 +1,5 @@
 #pragma once
-// Makes the immutable pictures of a session that the engine publishes.
+// Builder of the immutable views of a session that the engine publishes.
 
 #include <cstdint>
 #include <functional>
@@ -16,50 +16,50 @@
 
 namespace dmoscope {
 
-/// Whole: everything is in the frame. Live: what lives on a device stays there, see Frame. Quick: likewise, and what would take another
-/// look at all elements is left to the next frame, see Frame::provisional.
+/// Completeness of a frame. Whole: everything is in it. Live: data on a device stay there, see Frame. Quick: like Live, and data that need
+/// another pass over all elements are left to the next frame, see Frame::provisional.
 enum class FrameDetail { Whole, Live, Quick };
 
 class FrameBuilder {
  public:
-  /// The session as it stands, with a frame of its active run, and what is watched besides. Qualities are computed with the session's
-  /// pool. Throws DeviceError for the active run.
+  /// Builds a view of the session's present state, with frames of its active run and of what is watched. Qualities are computed with the
+  /// session's pool. Throws DeviceError for the active run.
   [[nodiscard]] std::shared_ptr<const SessionView> build(Session& session, FrameDetail detail = FrameDetail::Whole,
                                                          std::span<const Watch> watched = {});
-  /// Works out what takes long and nobody waits for, as long as `go_on`, which is asked every now and then, says so: what is watched but
-  /// no longer kept, and what views show besides frames, percentiles and summaries of all runs. Returns whether there is something new to
-  /// show. Throws DeviceError.
+  /// Computes data that take long and nobody waits for: watched states that are no longer kept, percentiles, and summaries of all runs.
+  /// Continues as long as `go_on`, which is asked now and then, returns true. Returns whether there is something new to show. Throws
+  /// DeviceError.
   bool work_at_rest(Session& session, std::span<const Watch> watched, const std::function<bool()>& go_on);
-  /// The same of what takes seconds and comes after all else.
+  /// Computes data that take seconds, after all others; see work_at_rest().
   bool work_long_at_rest(Session& session, const std::function<bool()>& go_on);
-  /// The same of what comes last of all: trials of what could be done.
+  /// Tries possible changes, last of all; see work_at_rest().
   bool try_at_rest(Session& session, const std::function<bool()>& go_on);
 
  private:
-  /// What a frame is of: as long as it is the same, so is the frame.
+  /// Key of a frame: as long as it is unchanged, so is the frame.
   struct FrameKey {
-    StandingRun at{};  // of no run: the input
+    StandingRun at{};  // moment of a run; without a run: the input
     std::size_t index = Frame::kNoRun;
     Metric shown = Metric::MeanRatio;
-    StandingRule rule{};  // of the input: what stays there, as for the active run
+    StandingRule rule{};  // for the input: rule of its fixed vertices, that of the active run
     [[nodiscard]] bool is(const FrameKey& other) const;
   };
   struct Known {
     FrameKey key;
     std::shared_ptr<const Frame> frame;
-    bool wanted = true;  // in the view that is being built
+    bool wanted = true;  // whether it belongs to the view being built
   };
-  /// What all frames of a mesh have in common.
+  /// Data that all frames of a mesh share.
   struct InputFacts {
     std::shared_ptr<const InputMesh> input;
     std::uint64_t serial = 0;
-    std::map<Metric, std::shared_ptr<const InputSpread>> before;  // of the metrics shown so far
+    std::map<Metric, std::shared_ptr<const InputSpread>> before;  // spreads by the metrics shown so far
   };
   static const std::shared_ptr<const InputMesh>& input_of(Session& session, const FrameKey& key);
   static FrameKey key_of(Session& session, std::size_t run);
-  /// Of the positions that the run had at the end of an iteration.
+  /// Key of a run's state at the end of an iteration.
   static FrameKey key_of(Session& session, std::size_t run, std::uint64_t iteration);
-  /// Provisional ones only where `detail` says so.
+  /// Finds a known frame; a provisional one only if `detail` allows that.
   [[nodiscard]] Known* find(Session& session, const FrameKey& key, FrameDetail detail = FrameDetail::Whole);
   std::shared_ptr<const Frame> keep(FrameKey key, std::shared_ptr<const Frame> frame);
   [[nodiscard]] std::shared_ptr<Frame> begin(Session& session, const FrameKey& key, FrameDetail detail);
@@ -76,14 +76,14 @@ class FrameBuilder {
 
   std::uint64_t serial_ = 0;
   std::uint64_t input_serial_ = 0;
-  std::vector<InputFacts> inputs_;  // of the meshes that are open
-  std::vector<Known> known_;        // frames of the last view, and what was worked out at rest since
+  std::vector<InputFacts> inputs_;  // facts of the open meshes
+  std::vector<Known> known_;        // frames of the last view, and those computed at rest since
   Summaries summaries_;
   Judgements judgements_;
   Endings endings_;
 };
 
-/// A frame of any run, for its qualities alone.
+/// A frame of any run with nothing but its qualities.
 [[nodiscard]] Frame judged(Session& session, std::size_t run);
 
 }  // namespace dmoscope

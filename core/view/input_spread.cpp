@@ -39,7 +39,7 @@ std::optional<std::pair<double, double>> InputSpread::percentiles(double low, do
 }
 
 std::pair<double, double> tidy_range(std::pair<double, double> range) {
-  constexpr double kNarrowest = 0.02;  // of a quality; and a hair, so that 0.7 in float is 0.7
+  constexpr double kNarrowest = 0.02;  // least width of the range in quality; and a tolerance, so that 0.7 in float is 0.7
   constexpr double kHair = 1e-6;
   auto [low, high] = range;
   if (high - low < kNarrowest) low = std::max(std::min(low, 0.0), high - kNarrowest);
@@ -51,7 +51,7 @@ std::pair<double, double> tidy_range(std::pair<double, double> range) {
     step = multiple * power;
     break;
   }
-  // Divided, not multiplied: 7 tenths are 0.7, 7 times 0.1 is not.
+  // Divides instead of multiplying: 7 tenths are 0.7, 7 times 0.1 is not.
   const double parts = std::round(1.0 / step);
   const auto times = [&](double n) { return parts >= 1.0 ? n / parts : n * step; };
   return {times(std::floor(low / step + kHair)), times(std::ceil(high / step - kHair))};

@@ -1,5 +1,5 @@
 #pragma once
-// How the qualities of a mesh are spread as it was read: what colours start from.
+// Spread of the qualities of a mesh as it was read, the initial range of colours.
 
 #include <array>
 #include <cstdint>
@@ -11,25 +11,25 @@
 
 namespace dmoscope {
 
-/// Of one metric, inverted elements and those without a quality apart.
+/// Spread of one metric, without inverted elements and those without a quality.
 struct InputSpread {
-  static constexpr std::size_t kBins = 1000;  // equally wide, from 0 to 1
+  static constexpr std::size_t kBins = 1000;  // number of bins of equal width, from 0 to 1
 
   double lowest = std::numeric_limits<double>::infinity(), highest = -std::numeric_limits<double>::infinity();
   std::uint64_t count = 0;
   std::array<std::uint32_t, kBins> bins{};
-  Histogram histogram;  // as plots show it, inverted elements and all
+  Histogram histogram;  // histogram for plots, with inverted elements
 
-  /// `quality`: of an element that is not inverted; NaN is left out.
+  /// Adds an element that is not inverted. `quality`: NaN is ignored.
   void add(double quality);
   void add(const InputSpread& other);
-  /// None where no element has a quality.
+  /// Least and greatest quality. None if no element has a quality.
   [[nodiscard]] std::optional<std::pair<double, double>> range() const;
-  /// The qualities that `low` and `high` per cent of the elements are not better than, to a bin; the extreme ones are exact.
+  /// Qualities at the percentiles `low` and `high`, accurate to a bin; the extreme ones are exact.
   [[nodiscard]] std::optional<std::pair<double, double>> percentiles(double low, double high) const;
 };
 
-/// The range rounded outwards, to numbers that can be read at a glance. One so narrow that its colours would tell of rounding is widened.
+/// The range rounded outwards to short numbers. A range so narrow that its colours would show rounding is widened.
 [[nodiscard]] std::pair<double, double> tidy_range(std::pair<double, double> range);
 
 }  // namespace dmoscope

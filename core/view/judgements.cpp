@@ -14,12 +14,12 @@ bool is_defined(Metric metric, const Mesh& mesh) {
   return std::ranges::all_of(mesh.elements.kinds(), [&](ElementKind kind) { return info(metric).defined_for(kind); });
 }
 
-/// A record may be another one since, of a path that was taken from before it.
+/// Whether a point belongs to a record, which a later path through the same iteration may have replaced.
 bool is_of(const JudgedPoint& point, const IterationRecord& record) {
   return point.iteration == record.iteration && point.own_minimum == record.statistics.minimum && point.own_mean == record.statistics.mean;
 }
 
-/// What of a course still is of the run's path.
+/// The points of a course that still belong to the run's path.
 std::vector<JudgedPoint> still_true(const std::vector<JudgedPoint>& course, const std::vector<IterationRecord>& records) {
   std::vector<JudgedPoint> kept;
   std::ranges::copy_if(course, std::back_inserter(kept), [&](const JudgedPoint& point) {

@@ -1,5 +1,5 @@
 #pragma once
-// How every run fares by every metric that a run optimises: what a comparison of metrics shows.
+// Judgements of every run by every metric that a run optimises, for comparisons of metrics.
 
 #include <cstdint>
 #include <functional>
@@ -11,24 +11,24 @@
 
 namespace dmoscope {
 
-/// The metrics that a comparison judges by: the one that is shown, then those that runs optimise, each once. Those that are not defined for
-/// a mesh judge no run on it.
+/// The metrics of a comparison: the shown one, then those that runs optimise, each once. A metric that is not defined for a mesh judges no
+/// run on it.
 [[nodiscard]] std::vector<Metric> compared_metrics(Session& session);
 
-/// Iterations at which the course of a run is judged by the metrics of others, ascending: of `count` records (the input is the first) all
-/// of the first ones, then fewer and fewer, and the last.
+/// Iterations at which the course of a run is judged by the metrics of others, ascending. Of `count` records (the first is the input) they
+/// are all of the first ones, then fewer and fewer, and the last.
 [[nodiscard]] std::vector<std::uint64_t> judged_iterations(std::uint64_t count);
 
-/// Judgements of a session's runs, worked out while it is at rest; of sessions of one run there are none.
+/// Judgements of a session's runs, computed while it is at rest; for sessions of one run there are none.
 class Judgements {
  public:
-  /// Null while nothing has been worked out.
+  /// The judgements of a run; null until some are computed.
   [[nodiscard]] std::shared_ptr<const std::vector<JudgedBy>> of(Session& session, std::size_t run) const;
   [[nodiscard]] std::shared_ptr<const std::vector<JudgedBy>> of_input(Session& session,
                                                                       const std::shared_ptr<const InputMesh>& input) const;
-  /// Of inputs, and of runs as they stand. Asks `go_on` before each. Returns whether there are new ones.
+  /// Judges inputs, and runs in their present state. Asks `go_on` before each. Returns whether there are new judgements.
   bool find(Session& session, const std::function<bool()>& go_on);
-  /// Of the iterations before, where their positions are kept.
+  /// Judges earlier iterations whose positions are kept. Asks `go_on` before each. Returns whether there are new judgements.
   bool find_courses(Session& session, const std::function<bool()>& go_on);
 
  private:

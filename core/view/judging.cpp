@@ -16,7 +16,7 @@ constexpr std::size_t kWorst = 100;
 
 constexpr std::size_t kElementsJudgedAtOnce = std::size_t{1} << 15U;
 
-/// A histogram that is being filled.
+/// A histogram under construction.
 class Bins {
  public:
   void add(double q) { ++counts_[histogram_slot(q)]; }
@@ -39,7 +39,7 @@ bool worse(const RankedElement& a, const RankedElement& b) {
   return a.quality < b.quality || (a.quality == b.quality && a.element < b.element);
 }
 
-/// The worst of the elements offered.
+/// The worst of the elements offered so far.
 class Worst {
  public:
   explicit Worst(std::size_t most) : most_(most) {}
@@ -57,7 +57,7 @@ class Worst {
   void offer_all_of(const Worst& other) {
     for (const RankedElement& ranked : other.heap_) offer(ranked);
   }
-  /// Worst first.
+  /// Returns the elements, worst first.
   [[nodiscard]] std::vector<RankedElement> take() {
     std::ranges::sort_heap(heap_, worse);
     return std::move(heap_);
@@ -65,10 +65,10 @@ class Worst {
 
  private:
   std::size_t most_;
-  std::vector<RankedElement> heap_;  // the best of the worst on top
+  std::vector<RankedElement> heap_;  // heap with the best of the worst on top
 };
 
-/// What a stretch of the elements shows.
+/// Results for a stretch of the elements.
 struct Part {
   Tally tally;
   Bins bins;

@@ -23,7 +23,7 @@ Patch patch_of(const Frame& frame, std::span<const Index> elements) {
     patch.vertices.insert(patch.vertices.end(), corners.begin(), corners.end());
   }
   std::ranges::sort(patch.vertices);
-  // Not std::ranges::unique: clang 14 does not compile this library's.
+  // Avoids std::ranges::unique, which clang 14 does not compile with this standard library.
   patch.vertices.erase(std::unique(patch.vertices.begin(), patch.vertices.end()), patch.vertices.end());
   std::vector<Index> renamed;
   for (const Index element : elements) {

@@ -39,7 +39,7 @@ constexpr std::array<RunColumn, 17> kColumns{{
     {"mesh", "mesh", "the mesh that the run is on, where several are open", &RunRow::mesh},
 }};
 
-/// Whether there is something to sort by.
+/// Whether a cell has a value to sort by.
 bool has_value(const std::variant<std::string_view, double>& cell) {
   if (const auto* word = std::get_if<std::string_view>(&cell)) return !word->empty();
   return std::isfinite(std::get<double>(cell));
@@ -62,7 +62,7 @@ void judge(RunRow& row, const Percentiles& percentiles) {
   row.p5 = percentiles.p5;
 }
 
-/// What both kinds of runs know alike.
+/// Begins a row with the data that live and published runs have in common.
 RunRow begin_row(const RunParameters& parameters, Metric judged, std::uint64_t iterations, std::span<const IterationRecord> records,
                  std::uint64_t visits_per_iteration) {
   RunRow row;

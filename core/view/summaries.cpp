@@ -13,7 +13,7 @@ namespace dmoscope {
 
 std::vector<float> sorted_choice(std::vector<float> values, std::size_t most) {
   std::erase_if(values, [](float q) { return std::isnan(q); });
-  radix_sort(values, 32, [](float q) {  // their bits, in the order of the numbers
+  radix_sort(values, 32, [](float q) {  // key: the bits in the order of the numbers
     const auto bits = std::bit_cast<std::uint32_t>(q);
     return (bits & 0x80000000U) != 0 ? ~bits : bits | 0x80000000U;
   });
@@ -74,7 +74,7 @@ SizeCourse Summaries::sizes_of(Session& session, std::size_t index, std::span<co
   const auto run = session.identity(index).lock();
   if (!run->size_field()) return {};
   SizeCourse sizes;
-  // What the mesh was at the input stays, wherever the run goes.
+  // Keeps the figure of the input, which never changes.
   const auto before = std::ranges::find_if(known_, [&](const Known& one) { return one.at.run.lock() == run; });
   sizes.before = before != known_.end() ? before->summary->sizes.before : size_correlation_at_input(*run);
   sizes.after = size_correlation(*run->size_field(), run->input(), positions, run->colouring().order);

@@ -36,7 +36,7 @@ Autosave::Autosave(AutosaveOptions options, std::function<void(const std::string
 Autosave::~Autosave() {
   thread_.request_stop();
   thread_.join();
-  std::error_code ignored;  // a lock without a session is of no use to anybody
+  std::error_code ignored;  // ignored: a lock without a session is of no use to anybody
   if (!std::filesystem::exists(place_.names.session, ignored)) remove_safe(place_.names);
 }
 
@@ -62,7 +62,7 @@ Autosave::Mark Autosave::mark_of(Session& session) {
   return mark;
 }
 
-/// An iteration begins, and nobody knows how long it takes: in its midst only its begin can be saved, and the visits done since then.
+/// Keeps the positions at the begin of an iteration, which may take long: within it only its begin and the visits since then can be saved.
 void Autosave::note_start(Session& session, const Run& run) {
   if (!run.moment().is_iteration_end() || run.history().kept(run.moment().iteration)) return;
   const auto begin = Clock::now();
@@ -77,14 +77,14 @@ void Autosave::while_running(Session& session, const Run& run) {
   try {
     note_start(session, run);
     if (Clock::now() >= next_) save(session, {});
-  } catch (const std::bad_alloc&) {  // the run needs it more
+  } catch (const std::bad_alloc&) {  // ignored: the run needs the memory more
   }
 }
 
 std::optional<Autosave::Clock::time_point> Autosave::due(Session& session) {
   if (!session.has_input()) return std::nullopt;
   const bool unsaved = anything_unsaved(session);
-  if (!unsaved && kept_) return Clock::now();  // what is kept is not needed any more
+  if (!unsaved && kept_) return Clock::now();  // the file that is kept is not needed any more
   if (!unsaved || (kept_ && !failed_ && known_.is(mark_of(session)))) return std::nullopt;
   return next_;
 }
@@ -103,7 +103,7 @@ void Autosave::save(Session& session, const std::function<bool()>& go_on) {
   }
   Mark mark = mark_of(session);
   if (kept_ && !failed_ && known_.is(mark)) return;
-  // Where it cannot be had, as in the midst of an iteration whose begin is not known any more, a moment a second later will do.
+  // Tries again a second later if that fails, as within an iteration whose begin is not known any more.
   constexpr std::chrono::milliseconds kAgain{1000};
   next_ = Clock::now() + std::min(kAgain, options_.every);
   auto standing = standing_of(session, starts_, go_on);
@@ -128,21 +128,21 @@ void Autosave::hand_over(Job job) {
 
 void Autosave::write(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
-  // What was handed over before the end is still written.
+  // Writes jobs, also those that were handed over before the stop.
   while (changed_.wait(lock, stop, [&] { return job_.has_value(); })) {
     Job job = std::move(*job_);
     job_.reset();
     writing_ = true;
     lock.unlock();
     carry_out(job);
-    job = {};  // its positions may be the last of their kind
+    job = {};  // frees its positions, which may be the last copy
     lock.lock();
     writing_ = false;
     changed_.notify_all();
   }
 }
 
-/// Never throws: what goes wrong is said, once, and tried again when it is time.
+/// Writes or removes the file. Never throws: an error is reported once, and the job is tried again when it is due.
 void Autosave::carry_out(Job& job) {
   std::string trouble;
   try {

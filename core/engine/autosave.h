@@ -1,5 +1,5 @@
 #pragma once
-// Saves a session by itself, so that little is lost when the program ends as nobody wished.
+// Autosave of sessions, so that little is lost if the program ends unexpectedly.
 
 #include <atomic>
 #include <chrono>
@@ -19,43 +19,43 @@
 namespace dmoscope {
 
 struct AutosaveOptions {
-  std::filesystem::path folder;             // one place there is this window's
-  std::chrono::milliseconds every{20'000};  // of work
-  double share = 0.05;                      // of a run's time, at most, for copies of positions in case they are needed
+  std::filesystem::path folder;             // folder in which this window gets a place of its own
+  std::chrono::milliseconds every{20'000};  // interval of work
+  double share = 0.05;                      // greatest share of a run's time for copies of positions that may be needed
 };
 
-/// Looks at the session on the engine's thread, where it takes no more than references and, at times, a copy of positions; writes on a
-/// thread of its own. What is in files already is not saved again: see SavedMarks.
+/// Observes the session on the engine's thread, where it takes only references and, at times, a copy of positions; writes on a thread of
+/// its own. States that are in files already are not saved again: see SavedMarks.
 class Autosave {
  public:
   using Clock = std::chrono::steady_clock;
-  /// `say`: called from any thread with what a person should know, such as a full disk, once. Throws OutputError.
+  /// Begins autosaving. `say`: called from any thread with messages for the user, such as on a full disk, each once. Throws OutputError.
   Autosave(AutosaveOptions options, std::function<void(const std::string&)> say);
   ~Autosave();
   Autosave(const Autosave&) = delete;
   Autosave& operator=(const Autosave&) = delete;
 
-  /// Of whoever shows the session, from any thread; see save_state.
+  /// Sets the JSON of the view, from any thread; see save_state.
   void set_view(std::string json);
 
-  // On the engine's thread:
-  /// The session came of these files: once it was saved by itself again, those that a window had saved by itself are removed.
+  // --- On the engine's thread ---
+  /// Names the autosaved files that the session was recovered from: they are removed once it has been autosaved again.
   void supersede(const std::vector<std::filesystem::path>& recovered);
-  /// Between two blocks of visits of `run`: saves where it is time, in the midst of an iteration too, so that no more is lost of one that
-  /// takes long. Throws DeviceError.
+  /// Saves if it is due, between two blocks of visits of `run`; also within an iteration, so that no more is lost of a long one. Throws
+  /// DeviceError.
   void while_running(Session& session, const Run& run);
-  /// When there is to be saved next; none: what there is is safe.
+  /// Time of the next save; none: everything is safe.
   [[nodiscard]] std::optional<Clock::time_point> due(Session& session);
-  /// Saves where it is time, or at once where `now`. Takes long only where positions must be computed again, as long as `go_on` says.
+  /// Saves if it is due, or at once with `now`. Takes long only if positions must be recomputed, as long as `go_on` returns true.
   void at_rest(Session& session, bool now, const std::function<bool()>& go_on);
 
-  /// Waits until what was to be written is; false: not within `patience`.
+  /// Waits until pending files are written; false: not within `patience`.
   bool flush(std::chrono::milliseconds patience);
-  /// A good end: nothing is saved from now on, and what was is removed.
+  /// Ends autosaving after a regular end of the program, and removes the file.
   void end();
 
  private:
-  /// Which state of a session it is.
+  /// Identity of a session's state.
   struct Mark {
     std::weak_ptr<const InputMesh> input;
     std::vector<StandingRun> runs;
@@ -65,7 +65,7 @@ class Autosave {
     SessionStanding session;
     std::string view;
     std::vector<std::filesystem::path> supersedes;
-    bool remove = false;  // there is nothing to be kept any more
+    bool remove = false;  // whether the file is not needed any more, and is removed
   };
   [[nodiscard]] static Mark mark_of(Session& session);
   void note_start(Session& session, const Run& run);
@@ -78,20 +78,20 @@ class Autosave {
   const std::function<void(const std::string&)> say_;
   const SafePlace place_;
   Clock::time_point next_;
-  Mark known_;  // the state that was looked at last
+  Mark known_;  // the last state that was examined
   IterationStarts starts_;
-  Clock::time_point next_start_{};  // when the next of these may be noted
-  bool kept_ = false;               // there is, or will be, a file of it
+  Clock::time_point next_start_{};  // earliest time for the next copy into starts_
+  bool kept_ = false;               // whether a file exists, or will soon
 
   std::mutex mutex_;
   std::condition_variable_any changed_;
   std::string view_;
   std::vector<std::filesystem::path> superseded_;
-  std::optional<Job> job_;  // the newest; what waits longer is of no use
+  std::optional<Job> job_;  // the newest job, which replaces older ones
   bool writing_ = false, ended_ = false;
-  std::atomic<bool> failed_{false};  // to write the newest
+  std::atomic<bool> failed_{false};  // whether writing the newest job failed
   std::string said_;
-  std::jthread thread_;  // last: everything above exists before it starts
+  std::jthread thread_;  // last member, so that all others exist before it starts
 };
 
 }  // namespace dmoscope

@@ -1,5 +1,5 @@
 #pragma once
-// How one posted command ended, for those who record a session.
+// Ends of posted commands, for recordings of a session.
 
 #include <cstdint>
 #include <string>
@@ -11,15 +11,15 @@ namespace dmoscope {
 
 struct CommandEnd {
   enum class Kind { Done, Failed, Cancelled, Dropped };  // Dropped: cancelled before it began
-  std::uint64_t id = 0;                                  // what Engine::post returned
+  std::uint64_t id = 0;                                  // number that Engine::post returned
   Kind kind = Kind::Done;
-  Moment at{};                       // of the active run afterwards
-  bool moved = false;                // that is another moment than before
-  std::vector<std::string> again{};  // commands that lead there from where it began, if it moved
+  Moment at{};                       // moment of the active run afterwards
+  bool moved = false;                // whether that moment differs from the one before
+  std::vector<std::string> again{};  // commands that lead from the moment before to this one, if it moved
 };
 
-/// Commands that lead a session from `before` to where it is: what it has `done` besides moving runs, then for every run that moved a seek,
-/// or the edits that it has come to be ahead by. Of another mesh than before: nothing.
+/// Commands that lead a session from `before` to its present state: what it has `done` besides moving runs, then for every run that moved a
+/// seek, or the edits that it is now ahead by. Empty if the mesh has changed.
 [[nodiscard]] std::vector<std::string> commands_from(Session& session, const SessionPoint& before, const std::vector<std::string>& done);
 
 }  // namespace dmoscope

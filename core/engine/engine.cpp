@@ -153,7 +153,7 @@ void Engine::work(const std::stop_token& stop) {
   constexpr std::chrono::milliseconds kQuiet{60};
   std::unique_lock lock(mutex_);
   while (wait_for_work(lock, stop)) {
-    resting_ = true;  // also while a view of what is newly watched is made
+    resting_ = true;  // also while a view for new watches is made
     if (queue_.empty()) {
       lock.unlock();
       publish_at_rest();
@@ -161,7 +161,7 @@ void Engine::work(const std::stop_token& stop) {
       work_off(lock);
     }
     lock.lock();
-    // Whoever drags along the timeline asks for the next at once, and shall not wait for what nobody looks at.
+    // Waits for a quiet moment: dragging along the timeline asks for the next state at once, and must not wait for other work.
     changed_.wait_for(lock, stop, kQuiet, [&] { return !queue_.empty() || watch_new_ || waiting_ > 0 || safe_wanted_; });
     lock.unlock();
     rest(stop);
@@ -171,7 +171,7 @@ void Engine::work(const std::stop_token& stop) {
   }
 }
 
-/// Until there is something to do, saving by itself what is to be saved meanwhile; false: the engine ends.
+/// Waits until there is something to do, autosaving meanwhile; false: the engine ends.
 bool Engine::wait_for_work(std::unique_lock<std::mutex>& lock, const std::stop_token& stop) {
   const auto wanted = [&] { return !queue_.empty() || watch_new_ || safe_wanted_; };
   while (!stop.stop_requested()) {
@@ -190,7 +190,7 @@ bool Engine::wait_for_work(std::unique_lock<std::mutex>& lock, const std::stop_t
   return false;
 }
 
-/// `lock` is held before and after. Never throws: what cannot be had now is tried again.
+/// Autosaves while nothing else is done. `lock` is held before and after. Never throws: a failure is tried again.
 void Engine::autosave_at_rest(std::unique_lock<std::mutex>& lock, const std::stop_token& stop, bool now) {
   lock.unlock();
   const auto go_on = [&] {
@@ -199,12 +199,12 @@ void Engine::autosave_at_rest(std::unique_lock<std::mutex>& lock, const std::sto
   };
   try {
     if (autosave_) autosave_->at_rest(session_, now, go_on);
-  } catch (const std::exception&) {  // such as a device that fails, of which the next command hears
+  } catch (const std::exception&) {  // such as a failing device, which the next command reports
   }
   lock.lock();
 }
 
-/// The first command of the queue; `lock` is held before and not after.
+/// Carries out the first command of the queue; `lock` is held before and not after.
 void Engine::work_off(std::unique_lock<std::mutex>& lock) {
   current_ = std::move(queue_.front());
   queue_.pop_front();
@@ -222,7 +222,7 @@ void Engine::work_off(std::unique_lock<std::mutex>& lock) {
   changed_.notify_all();
   const auto wake = wake_;
   lock.unlock();
-  if (wake) wake();  // idle now: the last look at progress
+  if (wake) wake();  // idle now: time for the last look at progress
 }
 
 CommandEnd Engine::run_one(const Posted& command) {
@@ -235,7 +235,7 @@ CommandEnd Engine::run_one(const Posted& command) {
       publish_if_due();
       if (autosave_) autosave_->while_running(session_, run);
     } catch (const DeviceError&) {
-      if (&run == &session_.active()) throw;  // another run's device fails: that one hears of it when it is asked next
+      if (&run == &session_.active()) throw;  // failure of another run's device: reported when that run is used next
     }
   });
   const Moment before = moment();
@@ -248,14 +248,14 @@ CommandEnd Engine::run_one(const Posted& command) {
   return end;
 }
 
-/// After a command: what it came to is saved by itself where it is time, unless that would take long.
+/// Autosaves the result of a command if it is due, unless that would take long.
 void Engine::safeguard() {
   const auto recovered = std::exchange(context_.recovered, {});
   if (!autosave_) return;
   try {
     autosave_->supersede(recovered);
     autosave_->at_rest(session_, false, {});
-  } catch (const std::exception&) {  // such as a device that fails, of which the next command hears
+  } catch (const std::exception&) {  // such as a failing device, which the next command reports
   }
 }
 
@@ -271,13 +271,14 @@ CommandEnd::Kind Engine::execute(const std::string& line) {
     say({Message::Kind::Error, error.what(), error.exit_code()});
   } catch (const std::bad_alloc&) {
     say({Message::Kind::Error, "not enough memory for: " + line, 3});
-  } catch (const std::exception& unforeseen) {  // a person's session must outlive our mistakes
+  } catch (const std::exception& unforeseen) {  // the user's session must survive errors of the program
     say({Message::Kind::Error, line + ": " + unforeseen.what(), 3});
   }
   return Kind::Failed;
 }
 
-/// The first of the queue that may be carried out in the midst of the command at work. Behind one that may change anything none may.
+/// The first command of the queue that may be carried out during the one at work; none behind one that may change anything. Called with
+/// `mutex_` held.
 /// `mutex_` is held.
 std::deque<Engine::Posted>::iterator Engine::next_look() {
   if (working_ && !looks_pass_) return queue_.end();
@@ -289,7 +290,7 @@ std::deque<Engine::Posted>::iterator Engine::next_look() {
   return queue_.end();
 }
 
-/// In the midst of the command at work. What they changed is published at once.
+/// Carries out commands that change only what is shown, during the one at work, and publishes their results at once.
 void Engine::carry_out_looks() {
   bool any = false;
   for (;;) {
@@ -309,11 +310,11 @@ void Engine::carry_out_looks() {
   }
   if (!any) return;
   publish(FrameDetail::Quick);
-  next_publication_ = std::chrono::steady_clock::now();  // what it left out follows as soon as it is taken
+  next_publication_ = std::chrono::steady_clock::now();  // publishes a complete frame as soon as this one is taken
 }
 
 void Engine::publish_if_due() {
-  bool asked_for = false;  // something else is watched
+  bool asked_for = false;  // whether there are new watches
   {
     const std::scoped_lock lock(mutex_);
     asked_for = watch_new_;
@@ -322,12 +323,12 @@ void Engine::publish_if_due() {
   publish(FrameDetail::Live);
 }
 
-/// Never throws: what cannot be shown is said, and what was published before stays.
+/// Publishes a view of the session at rest. Never throws: an error is reported, and the last view stays.
 void Engine::publish_at_rest() {
   try {
     try {
       publish(FrameDetail::Whole);
-    } catch (const DeviceError&) {  // the run goes on from where the host knows it
+    } catch (const DeviceError&) {  // the run goes on from the state on the host
       session_.active().recover();
       say({Message::Kind::Warning, session_.active().take_warning(), 0});
       publish(FrameDetail::Whole);
@@ -339,7 +340,7 @@ void Engine::publish_at_rest() {
   }
 }
 
-/// Works out what views show besides frames, until somebody asks for something. Never throws.
+/// Computes what views show besides frames, until the next command. Never throws.
 void Engine::rest(const std::stop_token& stop) {
   const auto go_on = [&] {
     const std::scoped_lock lock(mutex_);
@@ -356,7 +357,7 @@ void Engine::rest(const std::stop_token& stop) {
   }
 }
 
-/// On a thread that gives way to all others, for which this one waits: nobody has asked for it.
+/// Runs trials that nobody asked for, on a thread of lower priority, and waits for it.
 bool Engine::try_at_rest(const std::function<bool()>& go_on) {
   const auto attempt = [&] {
     ThreadPool alone(1);

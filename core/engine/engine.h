@@ -1,6 +1,6 @@
 #pragma once
-// A session on a thread of its own. Whoever drives it (window, script, test) posts command lines and reads views; nobody else
-// touches the session, so nothing that takes long can block the window.
+// A session on a thread of its own. Window, script or test post command lines and read views; no other code touches the session, so long
+// operations never block the window.
 
 #include <atomic>
 #include <chrono>
@@ -22,67 +22,66 @@
 
 namespace dmoscope {
 
-/// How long a worker that took `cost` to publish goes on before it publishes again: so long that publishing takes at most a sixth of its
-/// time, and that a screen can show all there is (60 a second of light frames, 10 of whole ones).
+/// Pause after a publication that took `cost`, before the next one: so long that publishing takes at most a sixth of the worker's time, at
+/// 60 light frames a second or 10 whole ones at most.
 [[nodiscard]] std::chrono::steady_clock::duration publication_pause(bool light, std::chrono::steady_clock::duration cost);
 
 class Engine {
  public:
-  /// See Session.
+  /// Starts the engine with an empty session, see Session.
   explicit Engine(unsigned threads = 0, Acceleration acceleration = {}, Backend backend = Backend::Auto);
-  /// Cancels what runs, drops what waits, joins.
+  /// Cancels the command at work, drops the waiting ones, and joins the thread.
   ~Engine();
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;
 
-  /// Queues one command line of the table in commands.h. Returns at once the command's number (1, 2, ...); whatever goes wrong becomes a
-  /// Message. One that changes only what is shown (CommandReach::Look) passes those that only change paths, also the one at work: it is
-  /// carried out, and a view with it published, after the block of visits under way. Where it
-  /// is another metric, its statistics and the like follow with the next view (Frame::provisional).
+  /// Queues one command line of the table in commands.h. Returns at once the command's number (1, 2, ...); errors become Messages. A
+  /// command that changes only what is shown (CommandReach::Look) passes those that only change paths, also the one at work: it is carried
+  /// out, and a view with its result published, after the present block of visits. Statistics and the like for another metric follow with
+  /// the next view (Frame::provisional).
   std::uint64_t post(std::string command_line);
-  /// Commands posted and not yet finished, the one at work included.
+  /// Number of commands posted and not yet finished, with the one at work.
   [[nodiscard]] std::size_t pending() const;
   [[nodiscard]] bool busy() const { return pending() != 0; }
-  /// What views show besides the active run from now on: see SessionView::watched. Returns at once; a new view follows.
+  /// Sets the states that views show besides the active run from now on: see SessionView::watched. Returns at once; a new view follows.
   void watch(std::vector<Watch> watched);
-  /// Blocks until nothing is pending and all is worked out that is while the session rests (for scripts and tests; the window never calls
-  /// it).
+  /// Blocks until nothing is pending and all work at rest is done (for scripts and tests; the window never calls it).
   void wait_idle();
-  /// Cancels the command at work and drops the waiting ones, but for those that would have passed them (see post).
+  /// Cancels the command at work and drops the waiting ones, except those that would have passed them (see post).
   void cancel();
   [[nodiscard]] const Progress& progress() const noexcept { return progress_; }
-  /// What runs now, as typed; empty when idle.
+  /// The command at work, as typed; empty when idle.
   [[nodiscard]] std::string current_command() const;
 
-  /// From the next command that smooths on whatever computes gives way to the program's other threads, see give_way(ThreadPool&): for a
-  /// window.
+  /// Lets computing threads give way to the program's other threads, from the next command that smooths on, see give_way(ThreadPool&): for
+  /// a window.
   void give_way() { give_way_ = true; }
-  /// From now on what takes long is not worked out while the session rests, such as what holds the minimum: views show it where it was
-  /// asked for.
+  /// Turns off long work at rest, such as the search for the hold of a minimum: views show its results only if a command asked for them.
   void rest_without_long_work() { long_work_ = false; }
 
   /// Sets the function behind `save-report`, which runs on the engine's thread: core writes no pages. To be called before the first post.
   using ReportWriter = std::function<void(Session&, const std::filesystem::path&, Progress&)>;
   void set_report_writer(ReportWriter writer);
 
-  /// From now on the session is saved by itself; see Autosave. Before the first post. Throws OutputError.
+  /// Turns on autosave; see Autosave. To be called before the first post. Throws OutputError.
   void autosave(AutosaveOptions options);
-  /// What goes along with it: see save_state. Without autosave() it is of no use.
+  /// Sets the view's JSON that is autosaved: see save_state. Without effect before autosave().
   void set_autosaved_view(std::string json);
   [[nodiscard]] bool autosaves() const noexcept { return autosave_ != nullptr; }
-  /// Saves by itself at once, what there is to save, as soon as no command is at work, and waits for that; false: not within `patience`.
+  /// Autosaves at once, as soon as no command is at work, and waits for that; false: not within `patience`.
   bool autosave_now(std::chrono::milliseconds patience);
-  /// A good end: what was saved by itself is removed.
+  /// Ends autosaving after a regular end, and removes the autosaved file.
   void end_autosave();
 
-  /// The latest state; never null. While a command goes on new frames are published (of a run on a device light ones, see Frame), each
+  /// The latest state; never null. During a command new frames are published (light ones of a run on a device, see Frame), each
   /// publication_pause() after the one before and only once that was taken by view(); at its end a whole one.
   [[nodiscard]] std::shared_ptr<const SessionView> view();
   /// Messages since the last call, oldest first.
   [[nodiscard]] std::vector<Message> take_messages();
-  /// How the commands ended that did since the last call, in the order in which they did.
+  /// Ends of the commands that finished since the last call, in their order.
   [[nodiscard]] std::vector<CommandEnd> take_ends();
-  /// Called from the worker whenever a view or message is new (the window wakes its event loop with it). Set before the first post.
+  /// Sets the function that the worker calls for every new view or message (the window wakes its event loop with it). To be called before
+  /// the first post.
   void set_wake(std::function<void()> wake);
 
  private:
@@ -108,7 +107,7 @@ class Engine {
   void say(Message message);
 
   Progress progress_;
-  Session session_;  // touched by the worker alone
+  Session session_;  // used by the worker alone
   CommandContext context_;
   CommandTable commands_;
   std::function<void()> wake_;
@@ -120,20 +119,20 @@ class Engine {
   std::uint64_t last_id_ = 0;
   std::vector<CommandEnd> ends_;
   std::vector<Watch> watched_;
-  bool watch_new_ = false;  // there is no view with them yet
+  bool watch_new_ = false;  // no view has these watches yet
   bool working_ = false;
-  bool safe_wanted_ = false;  // somebody waits in autosave_now()
-  bool looks_pass_ = false;   // the command at work only changes paths
-  bool resting_ = false;      // works out what nobody waits for
-  int waiting_ = 0;           // in wait_idle()
+  bool safe_wanted_ = false;  // whether autosave_now() waits
+  bool looks_pass_ = false;   // whether the command at work only changes paths
+  bool resting_ = false;      // whether the worker does work at rest
+  int waiting_ = 0;           // number of callers in wait_idle()
   std::vector<Message> messages_;
   std::shared_ptr<const SessionView> view_;
   std::atomic<bool> taken_{true};
   std::atomic<bool> give_way_{false}, long_work_{true};
   FrameBuilder frames_;
   std::chrono::steady_clock::time_point next_publication_;
-  std::unique_ptr<Autosave> autosave_;  // null: nothing is saved by itself
-  std::jthread thread_;                 // last: everything above exists before it starts
+  std::unique_ptr<Autosave> autosave_;  // null: autosave is off
+  std::jthread thread_;                 // last member, so that all others exist before it starts
 };
 
 }  // namespace dmoscope

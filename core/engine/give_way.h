@@ -1,12 +1,12 @@
 #pragma once
-// Who computes lets those go first who draw.
+// Priority of computing threads below that of drawing ones.
 
 #include "core/base/thread_pool.h"
 
 namespace dmoscope {
 
-/// The calling thread, those of the pool, and all that they start later give way to the program's other threads where there are more than
-/// processors (a lower priority; a thread cannot take it back). Where the system has no priorities of threads nothing happens.
+/// Lowers the priority of the calling thread, those of the pool, and all that they start later, so that they give way to the program's
+/// other threads if there are too few processors. A thread cannot raise it again. Without effect if the system has no thread priorities.
 void give_way(ThreadPool& pool);
 
 }  // namespace dmoscope

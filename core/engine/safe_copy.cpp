@@ -29,7 +29,7 @@ std::int64_t written_at(const fs::path& file) {
   return ::stat(file.c_str(), &status) == 0 ? static_cast<std::int64_t>(status.st_mtime) : 0;
 }
 
-/// Of a text that makes no sense: as it was.
+/// Reads the description of a session; a text that makes no sense changes nothing.
 void take_about(const fs::path& file, Recoverable& what) {
   constexpr std::size_t kMost = std::size_t{1} << 20U;
   nlohmann::json json;
@@ -52,7 +52,7 @@ std::unique_ptr<FileLock> FileLock::take(const fs::path& file, bool create) {
   if (descriptor < 0) return nullptr;
   struct stat status {};
   const bool locked = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
-  // Who looks for what dead windows left may have removed it in the moment before it was locked.
+  // Checks that the file still exists: another process may have removed it as a leftover just before it was locked.
   if (locked && ::fstat(descriptor, &status) == 0 && status.st_nlink > 0) return std::unique_ptr<FileLock>(new FileLock(descriptor));
   ::close(descriptor);
   return nullptr;
@@ -71,7 +71,7 @@ bool is_safe_name(const fs::path& file, const fs::path& folder) {
 }
 
 void remove_safe(const SafeNames& names) noexcept {
-  // The lock last: without it the others would belong to nobody.
+  // Removes the lock last: without it the other files would belong to nobody.
   for (const fs::path* file : {&names.session, &names.about, &names.lock}) ::unlink(file->c_str());
 }
 
@@ -90,7 +90,7 @@ std::vector<Recoverable> find_recoverable(const fs::path& folder) {
   }
   for (const fs::path& file : locks) {
     std::shared_ptr<const FileLock> lock = FileLock::take(file, false);
-    if (!lock) continue;  // its window lives
+    if (!lock) continue;  // skips the files of a living window
     Recoverable one{safe_names(file), {}, 0, 0, 1, std::move(lock)};
     std::error_code unknown;
     if (!fs::exists(one.names.session, unknown)) {
@@ -112,7 +112,7 @@ SafePlace make_safe_place(const fs::path& folder) {
   constexpr unsigned kTries = 100;
   int reason = 0;
   for (unsigned k = 0; k < kTries; ++k) {
-    // Numbers of processes come again.
+    // Adds the time to the process number, since numbers are reused.
     const auto ticks = std::chrono::system_clock::now().time_since_epoch().count() + static_cast<std::int64_t>(k);
     SafeNames names = safe_names(folder / fmt::format("{}{}-{:x}.lock", kStem, ::getpid(), static_cast<std::uint64_t>(ticks)));
     errno = 0;

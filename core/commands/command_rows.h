@@ -1,5 +1,5 @@
 #pragma once
-// What the files of the session's commands share. Only session_commands.cpp and those files need it.
+// Interfaces that the files of the session's commands share. Only session_commands.cpp and those files need it.
 
 #include <functional>
 #include <span>
@@ -11,9 +11,9 @@
 namespace dmoscope {
 
 struct CommandAction {
-  std::size_t least, most;  // words after the command's name
+  std::size_t least, most;  // numbers of words after the command's name
   std::function<void(CommandContext&, Arguments)> handler;
-  bool remembered = true;  // what it changes can be undone
+  bool remembered = true;  // whether its changes can be undone
   CommandReach reach = CommandReach::Session;
 };
 struct CommandRow {
@@ -21,8 +21,8 @@ struct CommandRow {
   CommandAction action;
 };
 
-/// Meshes and files; parameters of the active run; kinds of its vertices and edges; its second aims; its steps; runs and the session; all
-/// runs at once.
+/// Tables of commands: meshes and files; parameters of the active run; kinds of its vertices and edges; its second aims; its steps; runs
+/// and the session; all runs at once.
 [[nodiscard]] std::span<const CommandRow> file_commands();
 [[nodiscard]] std::span<const CommandRow> parameter_commands();
 [[nodiscard]] std::span<const CommandRow> kind_commands();
@@ -33,14 +33,14 @@ struct CommandRow {
 
 void tell(CommandContext& context, std::string text, Message::Kind kind = Message::Kind::Info);
 
-/// Says what the active run holds on interfaces, if anything.
+/// Reports the vertices that the active run holds on interfaces, if any.
 void tell_interfaces(CommandContext& context);
 
-/// Says who slides in the active run, if anybody does.
+/// Reports the vertices that slide in the active run, if any.
 void tell_sliding(CommandContext& context);
 
-/// Changes the active run's parameters; says so when that made a new run beside the old one. From the best state of the active run where
-/// the context says so, and then no more.
+/// Changes the active run's parameters; reports if that made a new run beside the old one. If the context says so, the new run begins from
+/// the active run's best state; that setting is then cleared.
 void change_run(CommandContext& context, const std::function<void(RunParameters&)>& edit);
 
 /// The vertices that words such as "7" or "10-20" name, in their order. Throws WrongArguments, and UsageError for one that does not exist.

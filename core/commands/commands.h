@@ -15,20 +15,20 @@ namespace dmoscope {
 
 struct CommandInfo {
   std::string name;   // first word, "step"
-  std::string usage;  // "step vertex|class|iteration [COUNT]"
+  std::string usage;  // usage, such as "step vertex|class|iteration [COUNT]"
   std::string doc;    // one line
 };
 
-/// "unknown command 'stpe'; did you mean step?": there are too many to list; the help lists them.
+/// Message "unknown command 'stpe'; did you mean step?": there are too many to list; the help lists them.
 [[nodiscard]] std::string unknown_command(std::string_view word, std::span<const CommandInfo> known);
 
 inline constexpr std::size_t kAnyWords = std::numeric_limits<std::size_t>::max();
-/// How many words may stand behind a command's name.
+/// Range for the number of words after a command's name.
 struct WordCount {
   std::size_t least = 0, most = kAnyWords;
 };
 
-/// Commands and what they do. Each module that has commands fills its own table.
+/// Commands and their handlers. Each module that has commands fills its own table.
 class CommandTable {
  public:
   using Handler = std::function<void(Arguments)>;
@@ -42,7 +42,7 @@ class CommandTable {
 
  private:
   std::vector<CommandInfo> infos_;
-  std::vector<std::pair<WordCount, Handler>> handlers_;  // of infos_
+  std::vector<std::pair<WordCount, Handler>> handlers_;  // word counts and handlers of infos_
 };
 
 }  // namespace dmoscope

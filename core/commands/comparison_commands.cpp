@@ -1,4 +1,4 @@
-// The session's commands about all runs at once: steps of every run, and runs that differ in one thing.
+// Commands about all runs at once: steps of every run, and runs that differ in one respect.
 
 #include <algorithm>
 #include <array>
@@ -15,9 +15,9 @@ namespace dmoscope {
 namespace {
 
 constexpr std::uint64_t kMostOrders = 200;
-constexpr std::uint64_t kUsualIterations = 20;  // of runs that are to be compared, where nobody said how many
+constexpr std::uint64_t kUsualIterations = 20;  // iterations of runs to be compared, unless given
 
-/// What a device still has of each run is brought to the host, so that a failure later takes nothing away.
+/// Calls `body` with each run and downloads its state afterwards, so that a later device failure loses nothing.
 template <class Body>
 void for_runs(CommandContext& context, const Body& body) {
   const std::size_t count = context.session.run_count();
@@ -32,7 +32,7 @@ std::uint64_t count_or(Arguments arguments, std::size_t index, std::uint64_t oth
   return arguments.size() > index ? to_count(arguments[index]) : otherwise;
 }
 
-/// By turns, so that all of them are seen to go on.
+/// Iterates all runs in turn, so that all visibly make progress.
 void iterate_each(CommandContext& context, std::uint64_t iterations) {
   for (std::uint64_t i = 0; i < iterations; ++i) {
     const Progress::Part part(context.progress, i, iterations);
@@ -86,8 +86,8 @@ bool has_run(Session& session, const RunParameters& parameters) {
   return false;
 }
 
-/// Adds those runs that the session does not have yet, all or none, and leaves the active run the active one. A run that cannot be is left
-/// out, and told of, with the reason.
+/// Adds those runs that the session does not have yet, all or none, and leaves the active run the active one. Runs that are impossible are
+/// left out and reported, with the reason.
 void add_missing(CommandContext& context, const std::vector<RunParameters>& wanted) {
   Session& session = context.session;
   const std::size_t active = session.active_index(), before = session.run_count();
@@ -110,7 +110,7 @@ void add_missing(CommandContext& context, const std::vector<RunParameters>& want
   session.select(active);
 }
 
-/// Takes every run that is not as far yet to the end of an iteration, by turns.
+/// Takes every run that is behind to the end of an iteration, in turn.
 void bring_to(CommandContext& context, std::uint64_t iteration) {
   std::uint64_t least = iteration;
   for (std::size_t k = 0; k < context.session.run_count(); ++k) least = std::min(least, context.session.run(k).moment().iteration);
@@ -153,7 +153,7 @@ std::vector<RunParameters> orders(const RunParameters& like, std::uint64_t count
   return wanted;
 }
 
-/// "dmo:min-angle" is a run like another one by this method for this metric.
+/// Parameters of a run like another one, with the method and metric of words such as "dmo:min-angle".
 RunParameters run_like(RunParameters parameters, const std::string& words) {
   const std::size_t colon = words.find(':');
   parameters.method = method_info(words.substr(0, colon)).name;

@@ -1,4 +1,4 @@
-// The session's commands: meshes and files.
+// Commands about meshes and files.
 
 #include <algorithm>
 
@@ -67,7 +67,7 @@ void generate(CommandContext& context, Arguments arguments) {
   tell_report(context);
 }
 
-/// The active run's mesh; says so, and what else a person should know.
+/// Writes the active run's mesh, and reports that and all that the user should know.
 void write_active(CommandContext& context, const std::string& file, const std::string& said) {
   const Run& run = context.session.active();
   const MovedFields fields =
@@ -77,7 +77,7 @@ void write_active(CommandContext& context, const std::string& file, const std::s
   context.session.note_exported(file);
   tell(context, said);
   if (const std::string sentence = fields.sentence(); !sentence.empty()) tell(context, fmt::format("fields: {}", sentence));
-  for (std::string& note : notes) tell(context, std::move(note), Message::Kind::Warning);  // last, where the status bar shows it
+  for (std::string& note : notes) tell(context, std::move(note), Message::Kind::Warning);  // last, so that the status bar shows them
 }
 
 void export_mesh(CommandContext& context, Arguments arguments) {
@@ -91,7 +91,7 @@ void export_over(CommandContext& context, Arguments arguments) {
   if (input.path.empty() || !same_mesh(arguments[0], input.path))
     throw UsageError(fmt::format("{} is not the file that the mesh was read from: 'export' writes to another one", arguments[0]));
   std::vector<std::filesystem::path> files = mesh_files(input.path);
-  if (input.mesh.source)  // what is never written
+  if (input.mesh.source)  // leaves out a file that is never written
     std::erase_if(files, [&](const auto& file) { return file.filename() == input.mesh.source->beside(); });
   if (std::ranges::any_of(files, [&](const auto& file) { return !same_mesh(file, input.path); }))
     throw UsageError(fmt::format("{} is read together with {}, of which no copy is kept: 'export' writes to another file", arguments[0],

@@ -1,4 +1,4 @@
-// The session's commands: corners and feature edges that a person says, against what file and angles say.
+// Commands about corners and feature edges that the user gives by hand, against file and angles.
 
 #include <functional>
 #include <vector>
@@ -14,7 +14,7 @@ namespace dmoscope {
 
 namespace {
 
-/// `said`: what is asked for now, of which at least something must come true.
+/// Changes the kinds of the active run. `said`: the kinds asked for now, of which at least one must have an effect.
 void change_kinds(CommandContext& context, const Kinds& said, const std::function<void(Kinds&)>& edit) {
   Session& session = context.session;
   RunParameters parameters = session.active().parameters();

@@ -1,5 +1,5 @@
 #pragma once
-// One line of the session's log.
+// Lines of the session's log.
 
 #include <string>
 
@@ -9,7 +9,7 @@ struct Message {
   enum class Kind { Info, Warning, Error };
   Kind kind = Kind::Info;
   std::string text;
-  int exit_code = 0;  // of an Error
+  int exit_code = 0;  // exit code of an Error
 };
 
 }  // namespace dmoscope

@@ -1,4 +1,4 @@
-// The session's commands: what the active run aims at besides its metric's minimum.
+// Commands about aims of the active run besides its metric's minimum.
 
 #include <array>
 #include <tuple>
@@ -9,7 +9,7 @@ namespace dmoscope {
 
 namespace {
 
-/// What is to be known of the size function that was chosen.
+/// Reports the note of the chosen size function, if it has one.
 void tell_note(CommandContext& context) {
   const auto& size = context.session.active().size_field();
   if (size && !size->note().empty()) tell(context, size->note(), Message::Kind::Warning);
@@ -41,7 +41,7 @@ void set_size_point(CommandContext& context, Arguments arguments) {
 void then(CommandContext& context, Arguments arguments) {
   PhaseBegin begin;
   if (arguments.size() > 1) begin.patience = to_count(arguments[1], 1);
-  RunParameters tried;  // a wrong word is told before anything is done
+  RunParameters tried;  // reports a wrong word before anything is changed
   try {
     set_then(tried, arguments[0], begin);
   } catch (const UsageError& error) {
@@ -51,7 +51,7 @@ void then(CommandContext& context, Arguments arguments) {
   change_run(context, [&](RunParameters& p) { set_then(p, arguments[0], begin); });
 }
 
-/// Of the active run's metric, and of the second one of a combination.
+/// Sets the target of the active run's metric, and of the second one of a combination.
 void set_target(CommandContext& context, Arguments arguments) {
   const Target target = parse_target(arguments[0]);
   const bool follows = context.session.shown() == context.session.active().parameters().metric;

@@ -1,4 +1,4 @@
-// The session's commands: parameters of the active run, and the metric that is shown.
+// Commands about parameters of the active run, and the shown metric.
 
 #include <algorithm>
 #include <vector>
@@ -22,7 +22,7 @@ void set_metric(CommandContext& context, Arguments arguments) {
   const Metric metric = parse_metric(arguments[0]);
   const bool follows = context.session.shown() == context.session.active().parameters().metric;
   change_run(context, [&](RunParameters& p) { p.metric = metric; });
-  if (follows) context.session.show(metric);  // what is shown follows what is optimised until it was chosen apart
+  if (follows) context.session.show(metric);  // the shown metric follows the optimised one until it is chosen separately
 }
 void show_metric(CommandContext& context, Arguments arguments) {
   if (arguments[0] == "next") {
@@ -43,7 +43,7 @@ void set_method(CommandContext& context, Arguments arguments) {
 /// Sets a parameter of the table.
 void set(const ParameterInfo& row, CommandContext& context, Arguments arguments) {
   RunParameters checked;
-  row.from_text(checked, arguments[0]);  // what is no such value changes nothing
+  row.from_text(checked, arguments[0]);  // throws for an invalid value before anything is changed
   change_run(context, [&](RunParameters& p) { row.from_text(p, arguments[0]); });
 }
 void set_backend(CommandContext& context, Arguments arguments) {
@@ -60,7 +60,7 @@ void set_interfaces(CommandContext& context, Arguments arguments) {
   tell_sliding(context);
 }
 
-/// A command for every row of the table; three tell more.
+/// Adds a command for every row of the table; three of them report more.
 void add_parameters(std::vector<CommandRow>& table) {
   for (const ParameterInfo& row : parameter_table()) {
     if (!row.in_session) continue;

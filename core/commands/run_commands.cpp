@@ -1,4 +1,4 @@
-// The session's commands: the runs, the session, and what scripts need.
+// Commands about the runs and the session, and commands for scripts.
 
 #include <array>
 #include <string_view>
@@ -78,7 +78,7 @@ void say(CommandContext& context, Arguments arguments) {
   tell(context, std::move(text));
 }
 
-/// Says what holds the active run's minimum, and what would free it.
+/// Reports what holds the active run's minimum, and what would free it.
 void tell_hold(CommandContext& context, Arguments) {
   Session& session = context.session;
   (void)session.active();

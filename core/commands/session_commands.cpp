@@ -13,14 +13,14 @@ namespace dmoscope {
 
 namespace {
 
-/// What the runs have to tell of their backends.
+/// Reports the runs' warnings about their backends.
 void tell_warnings(CommandContext& context) {
   for (std::size_t i = 0; i < context.session.run_count(); ++i)
     if (std::string warning = context.session.run(i).take_warning(); !warning.empty())
       tell(context, std::move(warning), Message::Kind::Warning);
 }
 
-/// Calls `take` with every command, theme after theme.
+/// Calls `take` with every command, topic by topic.
 template <class Take>
 void for_command_rows(const Take& take) {
   for (const std::span<const CommandRow> theme : {file_commands(), parameter_commands(), kind_commands(), objective_commands(),
@@ -28,7 +28,7 @@ void for_command_rows(const Take& take) {
     for (const CommandRow& command : theme) take(command);
 }
 
-/// What a person reads of a command: "visit 12 13 14…".
+/// Short text of a command for people: "visit 12 13 14…".
 std::string label_of(const std::string& command, Arguments arguments) {
   constexpr std::size_t kLongest = 48;
   std::string label = command;
@@ -39,8 +39,8 @@ std::string label_of(const std::string& command, Arguments arguments) {
   return label;
 }
 
-/// Whatever `work` changes can be undone, even when it fails half-way. `looks_apart`: what is shown is not its doing, and may have been
-/// changed while it was at work.
+/// Runs `work` and records its changes for undo, even if it fails half-way. `looks_apart`: the shown metric is not changed by it, but
+/// perhaps by another command meanwhile.
 template <class Work>
 void remembering(Session& session, std::string label, bool looks_apart, const Work& work) {
   SessionPoint before = session.point();
@@ -57,7 +57,7 @@ void remembering(Session& session, std::string label, bool looks_apart, const Wo
   remember();
 }
 
-/// The vertices "A-B" names, or the one.
+/// The range of vertices that "A-B" names, or a single one.
 std::pair<std::uint64_t, std::uint64_t> to_range(const std::string& word) {
   const std::size_t dash = word.find('-');
   if (dash == std::string::npos) return {to_count(word), to_count(word)};
@@ -135,7 +135,7 @@ void add_session_commands(CommandTable& table, CommandContext& context) {
       const auto carry_out = [&context, &act = handler, arguments] {
         act(context, arguments);
         if (context.session.has_input())
-          context.session.active().sync_to_host();  // a device that fails later takes nothing of what was asked for
+          context.session.active().sync_to_host();  // downloads the results, so that a device that fails later loses none
       };
       if (remembered) {
         remembering(context.session, label_of(command.info.name, arguments), reach == CommandReach::Paths, carry_out);

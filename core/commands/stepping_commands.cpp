@@ -1,4 +1,4 @@
-// The session's commands: steps of the active run, forwards and back.
+// Commands about steps of the active run, forwards and backwards.
 
 #include <algorithm>
 #include <array>
@@ -31,7 +31,7 @@ void back(CommandContext& context, Arguments arguments) {
   for (std::uint64_t i = 0; i < count && context.session.active().back(unit, context.progress); ++i) {
   }
 }
-/// Says what a person should know of a run that has come to its end.
+/// Reports what the user should know of a run that has come to its end.
 void tell_ending(CommandContext& context, const Run& run, const Outcome& outcome) {
   if (outcome.inverted > 0)
     if (const auto left = find_left_inverted(run)) tell(context, left->sentence(), Message::Kind::Warning);
@@ -87,7 +87,7 @@ void make_good(CommandContext& context, Arguments arguments) {
   }
   until_converged(context, std::array<std::string, 1>{"best"});
 }
-/// Those that change parameters, of which each goes by change_run().
+/// The row of a command that changes parameters by change_run(); null: it does not.
 const CommandRow* row_that_changes(const std::string& name) {
   for (const std::span<const CommandRow> rows : {parameter_commands(), kind_commands(), objective_commands()})
     for (const CommandRow& row : rows)
@@ -114,7 +114,7 @@ void best(CommandContext& context, Arguments) {
   active.seek({iteration}, context.progress);
   tell(context, iteration == 0 ? "the start is the best" : fmt::format("the best iteration is {}", iteration));
 }
-/// Those among `vertices` that may move; tells of the others, which stay where they are.
+/// Those among `vertices` that may move; reports the others.
 std::vector<Index> free_among(CommandContext& context, const Run& run, const std::vector<Index>& vertices) {
   constexpr std::size_t kNamed = 8;
   std::vector<Index> free, fixed;

@@ -36,7 +36,7 @@ std::string round_to_declared(Mesh& mesh, const std::string& file) {
   const auto declared = [&](std::size_t axis, double value) {
     return layout.scalar[axis] == CoordinateScalar::Float32 ? nearest_float(value) : value;
   };
-  const double shortest = layout.binary ? 0.0 : shortest_edge(mesh);  // of the digits; binary coordinates are such numbers already
+  const double shortest = layout.binary ? 0.0 : shortest_edge(mesh);  // error in the text's digits; binary coordinates are exact
   double furthest = 0.0;
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     Vec3& p = mesh.positions[v];

@@ -11,17 +11,17 @@
 namespace dmoscope {
 namespace {
 
-constexpr Index kElementsBetweenLooks = 1U << 14U;  // elements between two looks for a cancel
+constexpr Index kElementsBetweenLooks = 1U << 14U;  // elements between two checks for a cancel
 
 bool has_area(const Mesh& mesh, Index e) { return info(mesh.elements.kind(e)).dimension == 2; }
 
-/// A corner twice, or no corner whose two edges span more area than rounding makes of a straight line.
+/// Whether a planar element has a repeated corner, or no corner whose two edges span more area than the rounding of a straight line.
 bool degenerate_face(const Mesh& mesh, const Plane& plane, Index e) {
   constexpr double kRounding = 1e-15;
   const auto c = mesh.elements.corners(e);
   const std::size_t n = c.size();
   const auto way = [&](std::size_t from, std::size_t to) { return plane.difference(mesh.positions[c[to]], mesh.positions[c[from]]); };
-  double extent = 0.0;  // edges are divided by it: nothing over- or underflows, whatever the mesh's units
+  double extent = 0.0;  // divides the edges, so that nothing over- or underflows in any mesh units
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = i + 1; j < n; ++j) {
       if (c[i] == c[j]) return true;
@@ -39,10 +39,10 @@ bool degenerate_face(const Mesh& mesh, const Plane& plane, Index e) {
   return largest <= kRounding;
 }
 
-/// Is an element of a planar mesh neither degenerate nor inverted, by so much more than rounding that nobody needs to look closer?
+/// Whether an element of a planar mesh is neither degenerate nor inverted by so much more than rounding that no closer look is needed.
 bool clearly_positive(const Mesh& mesh, const Plane& plane, Index e) {
   constexpr double kClear = 1e-9;
-  constexpr double kSmallest = 1e-280;  // below, products lose digits
+  constexpr double kSmallest = 1e-280;  // area below which products lose digits
   const auto c = mesh.elements.corners(e);
   const std::size_t n = c.size();
   Vec3 before = plane.difference(mesh.positions[c[0]], mesh.positions[c[n - 1]]);
@@ -57,7 +57,7 @@ bool clearly_positive(const Mesh& mesh, const Plane& plane, Index e) {
   return extent * extent > kSmallest && smallest > kClear * extent * extent;
 }
 
-/// A corner twice, or no volume but what rounding makes of a flat element.
+/// Whether a volume element has a repeated corner, or no volume beyond the rounding of a flat one.
 bool degenerate_volume(const Mesh& mesh, Index e) {
   constexpr double kRounding = 1e-15;
   const auto corners = mesh.elements.corners(e);
@@ -75,7 +75,7 @@ bool is_degenerate(const Mesh& mesh, const Geometry& geometry, Index e) {
   return geometry.shape == Shape::Volume ? degenerate_volume(mesh, e) : degenerate_face(mesh, geometry.plane, e);
 }
 
-/// Does a vertex lie outside the box of the others of its star? In a sound star it never does.
+/// Whether a vertex lies outside the bounding box of its star's other vertices; in a sound star it never does.
 bool is_stray(const Mesh& mesh, const Geometry& geometry, const Topology& topology, Index vertex) {
   PointBox box;
   for (const Incidence& at : topology.star(vertex))

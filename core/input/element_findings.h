@@ -1,5 +1,5 @@
 #pragma once
-// What is wrong with single elements of a mesh that was read.
+// Findings about single elements of a mesh that was read.
 
 #include <functional>
 
@@ -10,10 +10,11 @@
 
 namespace dmoscope {
 
-/// Adds the elements without area or volume, and the others that are inverted, to the report. Throws Cancelled.
+/// Adds the degenerate elements, and the others that are inverted, to the report. Throws Cancelled.
 void find_bad_elements(const Mesh& mesh, const Geometry& geometry, MeshReport& report, Progress& progress);
 
-/// See InputMesh::has_strays; `report`: with the inverted elements. Only vertices are looked at of which `asked` is true.
+/// Whether the mesh has strays, see InputMesh::has_strays. `report`: with the inverted elements. Only vertices for which `asked` is true
+/// are examined.
 [[nodiscard]] bool find_strays(const Mesh& mesh, const Geometry& geometry, const Topology& topology, const MeshReport& report,
                                const std::function<bool(Index)>& asked);
 

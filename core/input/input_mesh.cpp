@@ -44,8 +44,8 @@ MeshReport examine(const Mesh& mesh, const Geometry& geometry, const Topology& t
 }  // namespace
 
 void require_computable(const Geometry& geometry, const std::string& file, Need need) {
-  // Products of four lengths must stay finite and normal; of a volume, of eight.
-  // What is smoothed may grow a little, where vertices lie outside of the boundary, and shall be read again.
+  // Bounds sizes so that products of four lengths stay finite and normal; in a volume mesh, of eight. A mesh may grow a little when it is
+  // smoothed, if vertices lie outside of the boundary, and must be readable again.
   const double possible = geometry.shape == Shape::Volume ? 1e36 : 1e75;
   const double largest = need == Need::Smoothing ? 0.1 * possible : possible;
   if (geometry.size > largest || (geometry.size > 0.0 && geometry.size < 1.0 / possible)) {

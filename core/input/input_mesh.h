@@ -1,5 +1,5 @@
 #pragma once
-// The mesh of a session, with everything derived from it once. Immutable: runs, frames and views share it.
+// The mesh of a session, with all that is derived from it once. Immutable: runs, frames and views share it.
 
 #include <filesystem>
 #include <memory>
@@ -23,30 +23,31 @@ namespace dmoscope {
 class MeshShare;
 
 struct InputMesh {
-  Mesh mesh;  // orientation normalised
+  Mesh mesh;  // mesh with consistent orientation
   Geometry geometry;
   Topology topology;
-  FaceNeighbours faces;  // of a volume, and the elements of a surface, each of which is a face
+  FaceNeighbours faces;  // neighbours in a volume mesh; also for the elements of a surface mesh, each of which is a face
   MeshReport report;
   std::filesystem::path path;             // empty for a generated mesh
-  std::vector<double> reference_measure;  // > 0, divides an element's Jacobian while untangling: mean over its corners of the mean |area|
-                                          // or |volume| in their stars, at input; of a volume the Jacobian of an ideal element of that size
-  std::string generator{};                // "coast 4000 1": the words that make this mesh again; empty for any other
+  std::vector<double> reference_measure;  // positive size that divides an element's Jacobian while untangling: mean over its corners of the
+                                          // mean |area| or |volume| in their stars, at input; in a volume mesh the Jacobian of an ideal
+                                          // element of that size
+  std::string generator{};                // words that generate this mesh again, such as "coast 4000 1"; empty for others
   Interfaces interfaces{};
-  std::shared_ptr<const InputMesh> surface{};  // on which vertices slide instead of on the mesh's own; null: that. See slide_on()
-  std::vector<Vec3> surface_normals{};  // of a curved surface, by element: which way it looks where that surface says so; zero: unknown
-  std::vector<Index> layers{};          // vertices of boundary layers: see layer_vertices(); none of a share
-  bool has_strays = false;  // a vertex of an inverted element, off the boundary, that lies outside the box of its star's other vertices
-  std::shared_ptr<const MeshShare> share{};  // of a mesh that several processes have together; null: this is all of it
-  /// Elements of the whole mesh, whichever processes have them.
+  std::shared_ptr<const InputMesh> surface{};  // mesh on whose surface vertices slide; null: their own. See slide_on()
+  std::vector<Vec3> surface_normals{};         // by element of a surface mesh, the normal that that surface gives it; zero: unknown
+  std::vector<Index> layers{};                 // vertices of boundary layers: see layer_vertices(); empty for a share
+  bool has_strays = false;  // whether a vertex of an inverted element, off the boundary, is outside the box of its star's other vertices
+  std::shared_ptr<const MeshShare> share{};  // share of a mesh that several processes smooth together; null: the whole mesh
+  /// Number of elements of the whole mesh, on all processes.
   [[nodiscard]] std::uint64_t whole_element_count() const;
-  std::shared_ptr<const DefinedJudges> judges = make_defined_judges();  // of metrics that are defined by formulas and targets
+  std::shared_ptr<const DefinedJudges> judges = make_defined_judges();  // judges of defined metrics
   [[nodiscard]] QualityContext quality_context() const { return {mesh, geometry, surface_normals, judges.get()}; }
   [[nodiscard]] bool is_volume() const noexcept { return geometry.shape == Shape::Volume; }
-  /// Drawn in space: a volume or a curved surface.
+  /// Whether the mesh is drawn in space: a volume or surface mesh.
   [[nodiscard]] bool in_space() const noexcept { return geometry.shape != Shape::Planar; }
   [[nodiscard]] bool is_surface() const noexcept { return geometry.shape == Shape::Surface; }
-  /// The mesh as kernels read it. Frame: Plane for a planar mesh, Space for a volume mesh, Curved for a surface.
+  /// The mesh in the form that kernels read. Frame: Plane for a planar mesh, Space for a volume mesh, Curved for a surface mesh.
   template <class Frame>
   [[nodiscard]] MeshView<Frame> view() const {
     MeshView<Frame> view{topology.star_offsets().data(),     topology.incidences().data(), mesh.elements.offsets().data(),
@@ -59,34 +60,35 @@ struct InputMesh {
   [[nodiscard]] PlanarView planar_view() const { return view<Plane>(); }
 };
 
-/// Throws UsageError where the metric is not defined for the mesh, or its target or fields are missing there; InputError where a metric
-/// field has what is no metric.
+/// Throws UsageError if the metric is not defined for the mesh, or its target or fields are missing there; InputError if a metric field
+/// holds invalid metrics.
 void require_defined(Metric metric, const InputMesh& input);
 
 enum class Need { Smoothing, QualityOnly };
 
-/// Throws InputError for a mesh so large or so small that numbers do not suffice.
+/// Throws InputError for a mesh so large or so small that the range of numbers does not suffice.
 void require_computable(const Geometry& geometry, const std::string& file, Need need);
 
-/// Classifies, orients, examines and indexes a mesh. With Need::Smoothing a curved surface is refused (InputError that names the file).
+/// Classifies, orients, examines and indexes a mesh. With Need::Smoothing a surface mesh is refused (InputError that names the file).
 [[nodiscard]] std::shared_ptr<const InputMesh> prepare_input(Mesh mesh, std::filesystem::path path, Need need, Progress& progress,
                                                              std::string generator = {});
 
-/// The same of a share of a mesh; every process prepares its own. `geometry`: of the whole mesh, planar or a volume, which does not wrap.
+/// Prepares a share of a mesh; every process prepares its own. `geometry`: that of the whole mesh, which is planar or a volume mesh and
+/// does not wrap.
 [[nodiscard]] std::shared_ptr<const InputMesh> prepare_share(Mesh mesh, const Geometry& geometry, std::shared_ptr<const MeshShare> share,
                                                              std::filesystem::path path, Progress& progress);
 
-/// A sample for smoothing: `words` is "KIND [SIZE [SEED]]", see generate_mesh. Throws UsageError.
+/// Generates a sample for smoothing: `words` is "KIND [SIZE [SEED]]", see generate_mesh. Throws UsageError.
 [[nodiscard]] std::shared_ptr<const InputMesh> generate_input(const std::string& words, Progress& progress);
 
-/// read_mesh, name_materials with `materials`, then prepare_input.
+/// Reads a mesh (read_mesh), names `materials` (name_materials) and prepares it (prepare_input).
 [[nodiscard]] std::shared_ptr<const InputMesh> load_input(const std::filesystem::path& path, Need need, const IoContext& context,
                                                           std::span<const std::string> materials = {});
 
-/// The mesh after name_materials() with these names. Throws UsageError.
+/// Copy of the mesh after name_materials() with these names. Throws UsageError.
 [[nodiscard]] std::shared_ptr<const InputMesh> with_materials(const InputMesh& input, std::span<const std::string> materials);
 
-/// The elements' findings (inverted, duplicates, ...); called by prepare_input, exposed for tests.
+/// Findings about the elements (inverted, duplicates, ...); called by prepare_input, exposed for tests.
 [[nodiscard]] MeshReport examine(const Mesh& mesh, const Geometry& geometry);
 
 }  // namespace dmoscope

@@ -1,5 +1,5 @@
 #pragma once
-// The vertices of boundary layers that somebody has made on purpose, so that they are kept unless told otherwise.
+// Vertices of boundary layers that were made on purpose, so that they are kept unless the user says otherwise.
 
 #include <vector>
 
@@ -8,7 +8,7 @@
 
 namespace dmoscope {
 
-/// The vertices of pronounced layers (core/target/boundary_layers.h), ascending, but of elements that are inverted.
+/// The vertices of pronounced layers (core/target/boundary_layers.h), ascending, without those of inverted elements.
 [[nodiscard]] std::vector<Index> layer_vertices(const Mesh& mesh, const Geometry& geometry);
 
 }  // namespace dmoscope

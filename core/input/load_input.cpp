@@ -18,7 +18,7 @@
 namespace dmoscope {
 namespace {
 
-/// Maps a mesh that is in degrees; returns what a person should know of it.
+/// Maps a mesh that is in degrees; returns sentences for the user.
 std::vector<std::string> take_degrees(Mesh& mesh, const std::filesystem::path& path, Geographic choice) {
   if (choice == Geographic::Off) return {};
   if (choice == Geographic::On) {
@@ -35,7 +35,7 @@ std::vector<std::string> take_degrees(Mesh& mesh, const std::filesystem::path& p
       "its coordinates are degrees of longitude and latitude, and it is judged on the Earth (--geographic off takes them as they stand)"};
 }
 
-/// Takes a mesh one cell thick for that of its front; returns what a person should know of it.
+/// Replaces a mesh one cell thick by that of its front; returns sentences for the user.
 std::vector<std::string> take_thin(Mesh& mesh, const std::filesystem::path& path, const IoContext& context) {
   if (context.thin == Thin::Off) return {};
   if (const std::string why = take_front(mesh, context.progress); !why.empty()) {

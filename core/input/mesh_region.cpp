@@ -7,7 +7,7 @@
 namespace dmoscope {
 namespace {
 
-/// By vertex: 1 + its distance from the seeds in rings of elements, 0 beyond `rings`.
+/// For each vertex 1 + its distance from the seeds in rings of elements, or 0 beyond `rings`.
 std::vector<std::uint8_t> rings_around(const InputMesh& input, std::span<const Index> seeds, int rings) {
   const ElementTable& elements = input.mesh.elements;
   std::vector<std::uint8_t> marks(input.mesh.vertex_count(), 0);

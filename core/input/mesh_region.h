@@ -1,5 +1,6 @@
 #pragma once
-// A part of a mesh as a mesh of its own: what is to be solved there is the same whether one process has the mesh or several have shares.
+// A part of a mesh as a mesh of its own, so that a problem there has the same solution whether one process has the mesh or several have
+// shares.
 
 #include <array>
 #include <cstdint>
@@ -12,16 +13,16 @@
 
 namespace dmoscope {
 
-/// Vertices and elements are in the order of the whole mesh.
+/// A region of a mesh. Vertices and elements are in the order of the whole mesh.
 struct MeshRegion {
-  std::shared_ptr<const InputMesh> input;  // what quality and joint moves ask for: no fields, groups, neighbours
-  std::vector<std::uint64_t> vertices;     // their numbers in the whole mesh
-  std::vector<std::uint8_t> fixed, rim;    // by vertex; rim: fixed here alone, since elements around it are missing
-  /// Has the element a corner on the rim?
+  std::shared_ptr<const InputMesh> input;  // mesh with the data that quality and joint moves need: no fields, groups, neighbours
+  std::vector<std::uint64_t> vertices;     // numbers of the vertices in the whole mesh
+  std::vector<std::uint8_t> fixed, rim;    // by vertex; rim: fixed in the region only, since elements around it are missing
+  /// Whether the element has a corner on the rim.
   [[nodiscard]] bool touches_rim(Index element) const;
 };
 
-/// What a process has of a region; numbers are those of the whole mesh.
+/// One process's part of a region; numbers are those of the whole mesh.
 struct RegionParts {
   struct Vertex {
     std::uint64_t number;
@@ -37,13 +38,14 @@ struct RegionParts {
   std::vector<Element> elements;
 };
 
-/// The elements around all vertices within so many rings, below 255, of the seeds: elements that a process has; each process with one of
-/// its corners must name it. All processes of a share together; the same for all. None: without seeds, or with more than `most` vertices.
+/// Gathers the elements around all vertices within so many rings, below 255, of the seeds. The seeds are elements of the process; each
+/// process that owns one of a seed's corners must name it. All processes of a share call this together, with equal results. None: without
+/// seeds, or with more than `most` vertices.
 [[nodiscard]] std::optional<MeshRegion> region_around(const InputMesh& input, std::span<const Vec3> positions,
                                                       std::span<const std::uint8_t> fixed, std::span<const Index> seeds, int rings,
                                                       std::size_t most);
 
-/// The vertex of this process with a number in the whole mesh; kNoIndex: others have it.
+/// The vertex of this process with a number in the whole mesh; kNoIndex: it is on other processes.
 [[nodiscard]] Index find_vertex(const InputMesh& input, std::uint64_t number);
 
 }  // namespace dmoscope

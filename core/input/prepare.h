@@ -1,5 +1,5 @@
 #pragma once
-// Prepares a mesh that was read or made: orients, examines and indexes it; used by prepare_input() and load_input().
+// Preparation of a mesh that was read or made: orients, examines and indexes it; used by prepare_input() and load_input().
 
 #include <filesystem>
 #include <memory>
@@ -10,7 +10,7 @@
 
 namespace dmoscope {
 
-/// prepare_input(); `notes`: sentences of the report that come first.
+/// Prepares a mesh like prepare_input(); `notes`: sentences that come first in the report.
 [[nodiscard]] std::shared_ptr<const InputMesh> prepare(Mesh mesh, std::filesystem::path path, Need need, Progress& progress,
                                                        std::string generator, std::vector<std::string> notes);
 

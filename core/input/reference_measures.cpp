@@ -9,9 +9,9 @@
 namespace dmoscope {
 namespace {
 
-constexpr Index kVerticesBetweenLooks = 1U << 16U;  // vertices between two looks for a cancel
+constexpr Index kVerticesBetweenLooks = 1U << 16U;  // vertices between two checks for a cancel
 
-/// Area or volume, at least 0.
+/// Area or volume of an element, at least 0.
 double measure(const Mesh& mesh, const Geometry& geometry, Index e) {
   if (geometry.shape == Shape::Volume) return std::abs(signed_volume(mesh, e));
   const Vec3 twice = area_vector(mesh, e, geometry.plane);
@@ -23,19 +23,19 @@ double measure(const Mesh& mesh, const Geometry& geometry, Index e) {
 std::vector<double> reference_measures(const Mesh& mesh, const Geometry& geometry, const Topology& topology, const MeshShare* share,
                                        Progress& progress) {
   const Index count = mesh.elements.size();
-  auto reference = large_vector<double>(count);  // at first each element's own area
+  auto reference = large_vector<double>(count);  // at first the measure of each element itself
   double largest = 0.0;
   for (Index e = 0; e < count; ++e) {
     reference[e] = measure(mesh, geometry, e);
     largest = std::max(largest, reference[e]);
   }
   if (share != nullptr) largest = share->greatest(largest);
-  const double fallback = largest > 0.0 ? largest : 1.0;  // where all around is flat
-  // An ideal element's corner Jacobian over its volume; in the plane areas are compared as they are.
+  const double fallback = largest > 0.0 ? largest : 1.0;  // for elements in flat surroundings
+  // Ratio of an ideal element's corner Jacobian to its volume; in the plane areas are compared directly.
   constexpr auto kCorner = [](ElementKind kind) {
     return kind == ElementKind::Tetrahedron ? 6.0 : kind == ElementKind::Pyramid ? 3.0 : kind == ElementKind::Wedge ? 2.0 : 1.0;
   };
-  // First around each vertex, then over the corners of each element: linear whatever the valence.
+  // Averages around each vertex first, then over the corners of each element: linear for any valence.
   auto around = large_vector<double>(mesh.positions.size());
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     if (v % kVerticesBetweenLooks == 0) progress.check();

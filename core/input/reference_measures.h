@@ -1,5 +1,5 @@
 #pragma once
-// The size of what lies around an element, by which its Jacobian is divided while it is untangled.
+// Size of an element's surroundings, by which its Jacobian is divided while it is untangled.
 
 #include <vector>
 
@@ -10,7 +10,7 @@
 
 namespace dmoscope {
 
-/// See InputMesh::reference_measure. `share`: null of a whole mesh. Throws Cancelled.
+/// Reference measures of all elements, see InputMesh::reference_measure. `share`: null for a whole mesh. Throws Cancelled.
 [[nodiscard]] std::vector<double> reference_measures(const Mesh& mesh, const Geometry& geometry, const Topology& topology,
                                                      const MeshShare* share, Progress& progress);
 

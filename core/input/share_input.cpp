@@ -9,7 +9,7 @@
 namespace dmoscope {
 namespace {
 
-/// With the whole mesh's boundary, elements being turned over.
+/// Topology with the whole mesh's boundary; orients the elements.
 Topology planar_topology(Mesh& mesh, const Geometry& geometry, const MeshShare& share, Progress& progress) {
   EdgeSurvey unused;
   Topology topology(mesh, unused, progress);
@@ -30,7 +30,7 @@ std::shared_ptr<const InputMesh> prepare_share(Mesh mesh, const Geometry& geomet
   progress.begin("finding neighbours");
   Topology topology = geometry.shape == Shape::Volume ? volume_topology(mesh, geometry, *share, progress)
                                                       : planar_topology(mesh, geometry, *share, progress);
-  // Of the elements around others' vertices only some are here: their owners know whether they lie on the boundary.
+  // Takes the boundary from the owners of vertices: elements around others' vertices are not all here.
   std::vector<std::uint8_t> boundary(topology.boundary().begin(), topology.boundary().end());
   share->agree(boundary);
   topology.set_boundary(std::move(boundary));

@@ -9,15 +9,15 @@ namespace dmoscope {
 
 namespace {
 
-constexpr Index kCellsBetweenLooks = 1U << 14U;  // elements between two looks for a cancel
+constexpr Index kCellsBetweenLooks = 1U << 14U;  // elements between two checks for a cancel
 
-/// Elements with the very corners (as a set) of an earlier one.
+/// Elements with exactly the corners (as a set) of an earlier one.
 std::vector<Index> duplicates(const Mesh& mesh, const Topology& topology, Progress& progress) {
   const ElementTable& elements = mesh.elements;
   std::vector<Index> found;
   for (Index e = 0; e < elements.size(); ++e) {
     if (e % kCellsBetweenLooks == 0) progress.check();
-    // At the corner of the smallest star: a hub of all elements must not be looked at from each.
+    // Looks at the corner with the smallest star: a hub of all elements must not be examined from each.
     const auto star = topology.star(std::ranges::min(elements.corners(e), {}, [&](Index v) { return topology.star(v).size(); }));
     const auto twin = [&](const Incidence& at) {
       return at.element < e && elements.kind(at.element) == elements.kind(e) && same_corners(mesh, at.element, e);

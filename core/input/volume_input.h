@@ -1,5 +1,5 @@
 #pragma once
-// What prepare_input() finds out about a volume mesh.
+// Findings of prepare_input() about a volume mesh.
 
 #include "core/base/progress.h"
 #include "core/mesh/faces.h"

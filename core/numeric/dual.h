@@ -1,5 +1,5 @@
 #pragma once
-// A scalar that carries its derivatives by the coordinates of a point: with it the formulas give the exact gradient of every metric.
+// A scalar with its derivatives by the coordinates of a point: with it the formulas give the exact gradient of every metric.
 
 #include <cmath>
 
@@ -17,8 +17,8 @@ namespace dual {
 [[nodiscard]] constexpr Vec3 over(Vec3 g, double s) { return {g.x / s, g.y / s, g.z / s}; }
 }  // namespace dual
 
-/// Gradient: Vec2<double> or Vec3, as the point; double on a line. Comparisons are those of the values. Where a formula has a kink (the
-/// lesser of two angles) the derivatives are those of the branch that it takes.
+/// A value with its gradient. Gradient: Vec2<double> or Vec3, like the point; double on a line. Comparisons are those of the values. At a
+/// kink of a formula (the lesser of two angles) the derivatives are those of the branch that it takes.
 template <class Gradient>
 struct DualOf {
   double value = 0.0;
@@ -28,7 +28,7 @@ struct DualOf {
   constexpr explicit DualOf(double v) : value(v) {}
   constexpr DualOf(double v, Gradient g) : value(v), by(g) {}
 
-  /// f(value), where f has the slope `slope`.
+  /// Applies a function with the value `f` and the slope `slope` here.
   [[nodiscard]] constexpr DualOf through(double f, double slope) const { return {f, dual::times(slope, by)}; }
 
   friend constexpr DualOf operator+(DualOf a, DualOf b) { return {a.value + b.value, a.by + b.by}; }
@@ -49,12 +49,12 @@ struct DualOf {
   friend constexpr DualOf min(DualOf a, DualOf b) { return b < a ? b : a; }
   friend constexpr DualOf max(DualOf a, DualOf b) { return a < b ? b : a; }
   friend constexpr DualOf abs(DualOf a) { return a.value < 0.0 ? a.through(-a.value, -1.0) : a; }
-  /// At 0, where its slope is infinite, the derivatives are 0.
+  /// Square root; at 0, where its slope is infinite, the derivatives are 0.
   friend DualOf sqrt(DualOf a) {
     const double root = std::sqrt(a.value);
     return a.through(root, root > 0.0 ? 0.5 / root : 0.0);
   }
-  /// Likewise.
+  /// Cube root; at 0, where its slope is infinite, the derivatives are 0.
   friend constexpr DualOf cube_root(DualOf a) {
     const double root = scalar::cube_root(a.value), square = root * root;
     return a.through(root, square > 0.0 ? 1.0 / (3.0 * square) : 0.0);
@@ -70,7 +70,7 @@ using Dual = DualOf<Vec2<double>>;  // in a plane
 using SolidDual = DualOf<Vec3>;     // in space
 using LineDual = DualOf<double>;    // on a line
 
-/// The point that derivatives are taken by.
+/// The point as a variable that derivatives are taken by.
 [[nodiscard]] constexpr Vec2<Dual> variable(Vec2<double> p) { return {{p.x, {1, 0}}, {p.y, {0, 1}}}; }
 [[nodiscard]] constexpr Vec3Of<SolidDual> variable(Vec3 p) { return {{p.x, {1, 0, 0}}, {p.y, {0, 1, 0}}, {p.z, {0, 0, 1}}}; }
 

@@ -1,6 +1,7 @@
 #pragma once
-// Elementary functions with the same bits on every processor, unlike the library's: by operations that IEEE 754 defines alone. Each is
-// right to a few units in the last place and defined for every number; what has no value has the nearest that has one.
+// Elementary functions with equal bits on every processor, unlike the library's, as they use only operations that IEEE 754 defines. Each is
+// right to a few units in the last place and defined for every number; an argument outside of the domain has the value of the nearest
+// inside.
 
 #include <bit>
 #include <cstdint>
@@ -12,17 +13,17 @@ namespace dmoscope::elementary {
 namespace parts {
 
 inline constexpr double kMost = 700.0;
-// ln 2 and pi / 2 in parts: the first have so few digits that a whole number times them is exact.
+// Constants ln 2 and pi / 2 in parts: the first have so few digits that a whole number times them is exact.
 inline constexpr double kLn2High = 0x1.62e42feep-1, kLn2Low = 0x1.a39ef35793c76p-33;
 inline constexpr double kHalfPi1 = 0x1.921fb544p+0, kHalfPi2 = 0x1.0b4611a6p-34, kHalfPi3 = 0x1.3198a2e037073p-69;
 
-/// The nearest whole number, of two the greater one, of what is below 1e15.
+/// The nearest whole number, of two the greater one, for |x| below 1e15.
 [[nodiscard]] DMOSCOPE_ANYWHERE std::int64_t nearest_whole(double x) {
   const double above = x + 0.5;
   const auto cut = static_cast<std::int64_t>(above);
   return static_cast<double>(cut) > above ? cut - 1 : cut;
 }
-/// x * 2^exponent, where neither 2^exponent nor the product is subnormal or too large.
+/// The product x * 2^exponent, if neither 2^exponent nor the product is subnormal or too large.
 [[nodiscard]] DMOSCOPE_ANYWHERE double scaled(double x, std::int64_t exponent) {
   return x * std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52U);
 }
@@ -54,7 +55,7 @@ inline constexpr double kHalfPi1 = 0x1.921fb544p+0, kHalfPi2 = 0x1.0b4611a6p-34,
 
 }  // namespace parts
 
-/// e^x; of what is beyond +-700 as of +-700.
+/// The function e^x; beyond +-700 its value at +-700.
 [[nodiscard]] DMOSCOPE_ANYWHERE double exponential(double x) {
   using namespace parts;
   if (!(x < kMost)) x = x != x ? 0.0 : kMost;
@@ -66,7 +67,7 @@ inline constexpr double kHalfPi1 = 0x1.921fb544p+0, kHalfPi2 = 0x1.0b4611a6p-34,
   return scaled(sum, whole);
 }
 
-/// The natural logarithm; of 0 and less -700.
+/// The natural logarithm; -700 for numbers that are not positive.
 [[nodiscard]] DMOSCOPE_ANYWHERE double logarithm(double x) {
   using namespace parts;
   if (!(x > 0.0)) return -kMost;
@@ -88,11 +89,11 @@ inline constexpr double kHalfPi1 = 0x1.921fb544p+0, kHalfPi2 = 0x1.0b4611a6p-34,
   return value < kMost ? (value > -kMost ? value : -kMost) : kMost;
 }
 
-/// In radians; 0 for more than 1e9 either way, whose angle a double hardly tells.
+/// The sine of an angle in radians; 0 beyond +-1e9, where a double hardly determines the angle.
 [[nodiscard]] DMOSCOPE_ANYWHERE double sine(double x) { return parts::sine_after(x, 0); }
 [[nodiscard]] DMOSCOPE_ANYWHERE double cosine(double x) { return parts::sine_after(x, 1); }
 
-/// x^y by way of the logarithm; 0 for x <= 0.
+/// The power x^y by way of the logarithm; 0 for x <= 0.
 [[nodiscard]] DMOSCOPE_ANYWHERE double power(double x, double y) {
   if (!(x > 0.0)) return 0.0;
   return exponential(y * logarithm(x));

@@ -16,7 +16,7 @@
 
 #if defined(__aarch64__)
 namespace xsimd {
-// xsimd 8 divides and takes roots of floats on ARM by approximation, though the processor has instructions that round as IEEE 754 asks.
+// xsimd 8 approximates division and roots of floats on ARM, though the processor has instructions that round as IEEE 754 demands.
 template <>
 inline batch<float, neon64>& batch<float, neon64>::operator/=(const batch<float, neon64>& other) noexcept {
   return *this = batch<float, neon64>(vdivq_f32(*this, other));
@@ -40,7 +40,7 @@ struct Constant<xsimd::batch<T, Arch>> {
   static xsimd::batch<T, Arch> of(double value) { return xsimd::batch<T, Arch>(static_cast<T>(value)); }
 };
 
-/// a * 1 + b rounds once, as a + b does. The compiler must not see the 1, or it would make it a + b again.
+/// The sum as a * 1 + b, which rounds once, like a + b. The compiler must not see the 1, or it would make it a + b again.
 template <>
 struct Sum<Pack<float>> {
   using R = Pack<float>;
@@ -59,7 +59,7 @@ struct Sum<Pack<float>> {
   }
 };
 
-/// As those of a double, to the bit; declared for this one type, so that they are taken before xsimd's own.
+/// The arc tangent with the bits of a double's; declared for this one type, so that it is taken before xsimd's own.
 inline Pack<double> atan2(Pack<double> y, Pack<double> x) {
   using R = Pack<double>;
   const R width = xsimd::abs(x), height = xsimd::abs(y);
@@ -67,7 +67,7 @@ inline Pack<double> atan2(Pack<double> y, Pack<double> x) {
   const R large = xsimd::select(steep, height, width), small = xsimd::select(steep, width, height);
   const auto none = large == R(0.0);
   const R r = xsimd::select(none, R(0.0), small / xsimd::select(none, R(1.0), large));
-  // Not by xsimd's floor: where a processor has none it goes by way of integers, and slots that nobody reads may hold NaN.
+  // Rounds without xsimd's floor: without an instruction for it that converts to integers, and slots that nobody reads may hold NaN.
   const R eighths = r * R(8.0) + R(0.5);
   R nearest(0.0), known_angle(KnownAngles::kTable[0]);
   for (std::size_t k = 1; k <= 8; ++k) {
@@ -92,7 +92,7 @@ inline Pack<double> cube_root(Pack<double> a) {
   return xsimd::select(size > R(0.0), xsimd::select(a < R(0.0), R(0.0) - root, root), a);
 }
 
-/// Of a pack without NaN.
+/// Least slot of a pack without NaN.
 inline float least_slot(Pack<float> a) {
 #if defined(__AVX512F__)
   return _mm512_reduce_min_ps(a);
@@ -112,7 +112,7 @@ inline float least_slot(Pack<float> a) {
   return least;
 #endif
 }
-/// A bit for each slot, the first lowest.
+/// Bits of the slots, the first lowest.
 inline std::uint32_t bits_of(xsimd::batch_bool<float, xsimd::default_arch> slots) {
 #if defined(__AVX512F__)
   return static_cast<std::uint32_t>(slots.data);

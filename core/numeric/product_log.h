@@ -1,16 +1,16 @@
 #pragma once
-// The sum of the logarithms of many numbers, with the same bits on every processor: the libraries' log differs in its last bits.
+// The sum of the logarithms of many numbers, with equal bits on every processor: library logarithms differ in their last bits.
 
 #include <cmath>
 #include <numbers>
 
 namespace dmoscope {
 
-/// Multiplies, keeping mantissa and power of two apart, so that nothing over- or underflows; one logarithm at the end. It needs nothing but
+/// A product whose mantissa and power of two are kept apart, so that nothing over- or underflows; one logarithm at the end. It uses only
 /// multiplications and divisions, which every processor rounds alike.
 class ProductLog {
  public:
-  /// A finite number above 0.
+  /// Multiplies the product by a finite positive number.
   void multiply(double factor) {
     int power = 0, carry = 0;
     const double part = std::frexp(factor, &power);  // exact
@@ -19,7 +19,7 @@ class ProductLog {
   }
   /// The natural logarithm of the product so far, right to a few last places of its parts.
   [[nodiscard]] double value() const {
-    const bool low = mantissa_ < std::numbers::sqrt2 / 2.0;  // [sqrt(1/2), sqrt(2)): where the series is short
+    const bool low = mantissa_ < std::numbers::sqrt2 / 2.0;  // range [sqrt(1/2), sqrt(2)), where the series is short
     const double m = low ? 2.0 * mantissa_ : mantissa_;
     const double z = (m - 1.0) / (m + 1.0), square = z * z;
     double series = 1.0 / 23.0;  // ln m = 2 artanh z, |z| < 0.172

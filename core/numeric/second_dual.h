@@ -1,6 +1,6 @@
 #pragma once
-// A scalar that carries its first and second derivatives by N variables: with it the formulas give the exact gradient and Hessian of every
-// metric, as dual.h gives the gradient.
+// A scalar with its first and second derivatives by N variables: with it the formulas give the exact gradient and Hessian of every metric,
+// as dual.h gives the gradient.
 
 #include <array>
 #include <cmath>
@@ -10,13 +10,13 @@
 
 namespace dmoscope {
 
-/// Comparisons are those of the values. Where a formula has a kink (the lesser of two angles) the derivatives are those of the branch that
-/// it takes; where a slope is infinite (a root at 0) they are 0.
+/// A value with first and second derivatives. Comparisons are those of the values. At a kink of a formula (the lesser of two angles) the
+/// derivatives are those of the branch that it takes; where a slope is infinite (a root at 0) they are 0.
 template <std::size_t N>
 struct SecondDual {
   double value = 0.0;
-  std::array<double, N> first{};               // by variable i
-  std::array<double, N*(N + 1) / 2> second{};  // by variables i and j <= i, at i (i + 1) / 2 + j
+  std::array<double, N> first{};               // derivatives by variable i
+  std::array<double, N*(N + 1) / 2> second{};  // derivatives by variables i and j <= i, at i (i + 1) / 2 + j
 
   constexpr SecondDual() = default;
   constexpr explicit SecondDual(double v) : value(v) {}
@@ -30,7 +30,7 @@ struct SecondDual {
     return i < j ? second[j * (j + 1) / 2 + i] : second[i * (i + 1) / 2 + j];
   }
 
-  /// f(value), where f has the slope `slope` and the second derivative `bend`.
+  /// Applies a function with the value `f`, the slope `slope` and the second derivative `bend` here.
   [[nodiscard]] constexpr SecondDual through(double f, double slope, double bend) const {
     SecondDual result(f);
     for (std::size_t i = 0, k = 0; i < N; ++i) {
@@ -52,7 +52,7 @@ struct SecondDual {
     }
     return result;
   }
-  /// From a = q b: a'' = q'' b + q' b' + b' q' + q b''.
+  /// The quotient q, by differentiation of a = q b: a'' = q'' b + q' b' + b' q' + q b''.
   friend constexpr SecondDual operator/(const SecondDual& a, const SecondDual& b) {
     SecondDual q(a.value / b.value);
     for (std::size_t i = 0, k = 0; i < N; ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-// The positive semidefinite matrix that is nearest to a small symmetric one.
+// The nearest positive semidefinite matrix to a small symmetric one.
 
 #include <array>
 #include <cmath>
@@ -7,13 +7,13 @@
 
 namespace dmoscope {
 
-/// Sets the negative eigenvalues of a symmetric matrix to 0, which is the nearest in the Frobenius norm (Higham 1988). `a`: N x N, row by
-/// row. By Jacobi's rotations in a fixed order: the same bits on every processor.
+/// Sets the negative eigenvalues of a symmetric matrix to 0, which gives the nearest positive semidefinite one in the Frobenius norm
+/// (Higham 1988). `a`: N x N, row by row. By Jacobi's rotations in a fixed order: equal bits on every processor.
 template <std::size_t N>
 void make_semidefinite(std::array<double, N * N>& a) {
   std::array<double, N*N> work = a, vectors{};
   for (std::size_t i = 0; i < N; ++i) vectors[i * N + i] = 1.0;
-  // Rotates rows and columns p and q of `work` so that what couples them is 0, and the vectors with them.
+  // Rotates rows and columns p and q of `work` so that their off-diagonal entry is 0, and the vectors with them.
   const auto rotate = [&work, &vectors](std::size_t p, std::size_t q) {
     const double coupling = work[p * N + q];
     const double ratio = (work[q * N + q] - work[p * N + p]) / (2.0 * coupling);

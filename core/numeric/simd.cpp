@@ -15,7 +15,7 @@ namespace {
 constexpr std::array kAll{SimdLevel::Baseline, SimdLevel::Avx2, SimdLevel::Avx512};
 constexpr std::array<std::string_view, kAll.size()> kNames{"baseline", "avx2", "avx512"};
 
-/// How many of kAll there are here; each needs the ones before it.
+/// Number of levels of kAll that this processor has; each needs the ones before it.
 std::size_t supported_count() {
 #if defined(__x86_64__)
   __builtin_cpu_init();

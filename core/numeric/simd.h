@@ -1,5 +1,5 @@
 #pragma once
-// Which vector instructions the search uses. The result has the same bits for any.
+// Vector instructions that the search uses. The result has the same bits for any.
 
 #include <cstdint>
 #include <span>
@@ -7,16 +7,17 @@
 
 namespace dmoscope {
 
-/// Baseline is what every processor of the architecture has: SSE2 on x86-64, NEON on 64-bit ARM. The others exist on x86-64 only.
+/// Levels of vector instructions. Baseline is on every processor of the architecture: SSE2 on x86-64, NEON on 64-bit ARM. The others exist
+/// on x86-64 only.
 enum class SimdLevel : std::uint8_t { Baseline, Avx2, Avx512 };
 
 /// The levels that this program has and this processor runs, lowest first; never empty.
 [[nodiscard]] std::span<const SimdLevel> supported_simd_levels();
-/// The highest of them.
+/// The highest of the supported levels.
 [[nodiscard]] SimdLevel best_simd_level();
-/// "baseline", "avx2", "avx512".
+/// Word of a level: "baseline", "avx2", "avx512".
 [[nodiscard]] std::string_view name(SimdLevel level);
-/// Throws UsageError for an unknown name (listing the known ones) and for a level this processor lacks.
+/// Parses the word of a level. Throws UsageError for an unknown one (listing the known ones) and for a level that this processor lacks.
 [[nodiscard]] SimdLevel parse_simd_level(std::string_view name);
 
 }  // namespace dmoscope

@@ -82,7 +82,7 @@ double condition(const SmallMatrix& a) {
 }
 
 Eigen eigen(const SmallMatrix& symmetric) {
-  constexpr int kMostSweeps = 40;  // each squares what is left; a few suffice
+  constexpr int kMostSweeps = 40;  // limit of sweeps: each squares the remaining off-diagonal part, so a few suffice
   SmallMatrix a = symmetric, v = SmallMatrix::identity(a.n);
   for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
     bool rotated = false;

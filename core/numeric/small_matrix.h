@@ -1,11 +1,11 @@
 #pragma once
-// Matrices of 2 x 2 and 3 x 3, in double: those that a map of the plane or of space is, and symmetric ones, such as metric tensors.
+// Small matrices, 2 x 2 and 3 x 3, in double: linear maps of the plane or of space, and symmetric ones, such as metric tensors.
 
 #include <array>
 
 namespace dmoscope {
 
-/// Of dimension `n`, 2 or 3: at[row][column].
+/// A square matrix of dimension `n`, 2 or 3: at[row][column].
 struct SmallMatrix {
   int n = 2;
   std::array<std::array<double, 3>, 3> at{};
@@ -18,22 +18,22 @@ struct SmallMatrix {
 [[nodiscard]] SmallMatrix scaled(double factor, const SmallMatrix& a);
 [[nodiscard]] SmallMatrix transposed(const SmallMatrix& a);
 [[nodiscard]] double determinant(const SmallMatrix& a);
-/// Of a matrix whose determinant is not 0.
+/// The inverse of a matrix whose determinant is not 0.
 [[nodiscard]] SmallMatrix inverse(const SmallMatrix& a);
-/// How far it stretches one way more than another, by Frobenius norms: at least 1. Likewise.
+/// Condition number by Frobenius norms, divided by the dimension, of a matrix whose determinant is not 0: at least 1.
 [[nodiscard]] double condition(const SmallMatrix& a);
 
-/// Of a symmetric matrix: values in no order, and vectors of length 1 as columns, by Jacobi's rotations.
+/// Eigenvalues, in no order, and unit eigenvectors, as columns, of a symmetric matrix, by Jacobi's rotations.
 struct Eigen {
   std::array<double, 3> values{};
   SmallMatrix vectors;
 };
 [[nodiscard]] Eigen eigen(const SmallMatrix& symmetric);
-/// f of a symmetric matrix: the same vectors, f of the values.
+/// The function f of a symmetric matrix: the same eigenvectors, f of the eigenvalues.
 [[nodiscard]] SmallMatrix apply(const SmallMatrix& symmetric, double (*f)(double));
-/// L, upper triangular with positive diagonal, with L^T L the symmetric positive definite matrix (Cholesky).
+/// The upper triangular L with positive diagonal for which L^T L is the symmetric positive definite matrix (Cholesky).
 [[nodiscard]] SmallMatrix upper_root(const SmallMatrix& positive);
-/// a = stretch * rotation, the stretch symmetric and positive definite, of a matrix with positive determinant.
+/// Polar decomposition a = stretch * rotation, with a symmetric positive definite stretch, of a matrix with positive determinant.
 struct Polar {
   SmallMatrix stretch, rotation;
 };

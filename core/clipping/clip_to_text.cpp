@@ -12,7 +12,7 @@
 namespace dmoscope {
 namespace {
 
-/// A finite number and nothing else.
+/// The finite number that a word is; none for any other word.
 std::optional<double> number(std::string_view word) {
   double value = 0.0;
   const char* end = word.data() + word.size();
@@ -21,7 +21,7 @@ std::optional<double> number(std::string_view word) {
   return value;
 }
 
-/// The word before `separator`, which is taken off the text with it; all of it where there is none.
+/// The word before `separator`, which is removed from the text with it; all of the text if there is none.
 std::string_view take(std::string_view& text, char separator) {
   const std::size_t at = text.find(separator);
   const std::string_view word = text.substr(0, at);
@@ -29,7 +29,7 @@ std::string_view take(std::string_view& text, char separator) {
   return word;
 }
 
-/// NaN for what is none.
+/// Fraction in a text; NaN if it is none.
 double fraction_of(std::string_view rest, bool given) {
   if (!given) return 0.5;
   const auto fraction = number(rest);

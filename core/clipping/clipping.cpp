@@ -12,7 +12,7 @@ namespace dmoscope {
 
 namespace {
 
-/// Above that share of cells that changed, all are looked at.
+/// Divisor: if more than 1 / kFewChanges of the cells changed, all are examined.
 constexpr std::size_t kFewChanges = 8;
 
 }  // namespace
@@ -20,7 +20,7 @@ constexpr std::size_t kFewChanges = 8;
 Clipping::Clipping(const ElementTable& elements, const FaceNeighbours& faces)
     : elements_(elements), faces_(faces), cells_(elements, faces), open_(large_vector<std::uint8_t>(elements.size())) {}
 
-/// A bit for each face of the cell that is to be drawn.
+/// Bits of the cell's faces that are to be drawn.
 std::uint8_t Clipping::open_faces(Index cell) const noexcept {
   const auto visible = cells_.visible();
   if (visible[cell] == 0) return 0;
@@ -39,7 +39,7 @@ void Clipping::open_all(ThreadPool* pool) {
   });
 }
 
-/// Only a cell that changed and its neighbours can have other faces than before. Two threads may find the same for the same neighbour.
+/// Updates the cells that changed and their neighbours; no others can have other faces. Two threads may find the same for one neighbour.
 void Clipping::open_changed(ThreadPool* pool) {
   const auto refresh = [&](Index e) { std::atomic_ref(open_[e]).store(open_faces(e), std::memory_order_relaxed); };
   for_chunks(pool, cells_.chunks().size(), 1, [&](std::size_t first, std::size_t last) {
@@ -54,10 +54,10 @@ void Clipping::open_changed(ThreadPool* pool) {
   });
 }
 
-/// Makes the list of faces of the bits: counts, then writes.
+/// Lists the faces of the bits: counts, then writes.
 void Clipping::gather(ThreadPool* pool) {
   const std::size_t chunks = cells_.chunks().size();
-  // Eight cells at once: most have no face to draw.
+  // Tests eight cells at once: most have no face to draw.
   const auto eight = [&](std::size_t e, std::size_t last) {
     std::uint64_t word = 0;
     std::memcpy(&word, open_.data() + e, std::min<std::size_t>(8, last - e));

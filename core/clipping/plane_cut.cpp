@@ -8,19 +8,19 @@ namespace {
 
 constexpr std::size_t kMostCorners = 8;
 
-/// A line across a face: it runs from one cut edge to another, each named by its local corners, the kept one first.
+/// A line across a face, from one cut edge to another, each given by its local corners, the kept one first.
 struct Crossing {
   std::array<Index, 2> from, to;
 };
 
-/// An element of 6 faces has at most two lines in each.
+/// Lines across the faces of an element: up to 6 faces with at most two lines each.
 struct Crossings {
   std::array<Crossing, 12> all{};
   std::size_t count = 0;
 };
 
-/// Lines across all faces. Running round a face seen from outside, a line begins where the walk comes back from beyond and ends where it
-/// went there, so that the lines of neighbouring faces run on from each other: each cut edge is walked in both directions.
+/// Finds the lines across all faces. Around a face seen from outside, a line begins where the walk returns from beyond and ends where it
+/// went there, so the lines of neighbouring faces join: each cut edge is walked in both directions.
 Crossings crossings_of(ElementKind kind, const std::array<bool, kMostCorners>& beyond) {
   Crossings crossings;
   for (const LocalFace& face : faces_of(kind)) {
@@ -65,7 +65,7 @@ void cut_element(const ElementTable& elements, std::span<const Vec3> positions, 
   if (!any || all) return;
   Crossings crossings = crossings_of(elements.kind(element), beyond);
   const auto point_on = [&](const std::array<Index, 2>& edge) {
-    // The same bits whichever of the elements around an edge asks.
+    // Orders the ends, so that all elements around an edge get the same bits.
     auto [a, b] = edge;
     if (corners[a] > corners[b]) std::swap(a, b);
     return points[a] + height[a] / (height[a] - height[b]) * (points[b] - points[a]);
@@ -80,7 +80,7 @@ void cut_element(const ElementTable& elements, std::span<const Vec3> positions, 
       if (at.to == start) break;
       std::size_t next = 0;
       while (next < crossings.count && crossings.all[next].from != at.to) ++next;
-      if (next == crossings.count) break;  // never in an element whose faces close
+      if (next == crossings.count) break;  // impossible in an element whose faces close
       at = crossings.all[next];
       crossings.all[next] = crossings.all[--crossings.count];
     }

@@ -1,5 +1,5 @@
 #pragma once
-// Cells cut through by a plane.
+// Cuts through cells by a plane.
 
 #include <span>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace dmoscope {
 
-/// Where a plane cuts a cell: points [first, first + count) of a list, counter-clockwise seen from where the cell was taken away.
+/// A polygon in which a plane cuts a cell: points [first, first + count) of a list, counter-clockwise seen from the removed side.
 struct CutPolygon {
   Index element;
   Index first, count;
@@ -25,8 +25,8 @@ struct PlaneCuts {
   }
 };
 
-/// Appends the polygons in which `plane` cuts an element, shrunk about the mean of its vertices; more than one where the element is not
-/// convex, none where it lies on one side. Its edges are taken as straight, and its faces as cut in straight lines from edge to edge.
+/// Appends the polygons in which `plane` cuts an element that is shrunk about the mean of its vertices; more than one if the element is not
+/// convex, none if it lies on one side. Edges count as straight, and faces as cut in straight lines from edge to edge.
 void cut_element(const ElementTable& elements, std::span<const Vec3> positions, Index element, const ClipPlane& plane, double shrink,
                  PlaneCuts& cuts);
 

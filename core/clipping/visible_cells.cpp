@@ -31,7 +31,7 @@ void require_sense(const ClippingView& view, const CellState& state, const Eleme
   }
 }
 
-/// What of a view speaks of single cells by their quality.
+/// Settings of a view that decide on single cells by their quality.
 class QualityRule {
  public:
   QualityRule(const ClippingView& view, const CellState& state) : view_(view), state_(state) {}
@@ -84,7 +84,7 @@ std::size_t VisibleCells::visible_count() const noexcept {
   return std::accumulate(chunks_.begin(), chunks_.end(), std::size_t{0}, [](auto sum, const auto& c) { return sum + c.visible; });
 }
 
-/// Heights of all vertices, and of every cell the lowest and the highest.
+/// Computes the heights of all vertices, and the lowest and highest of every cell.
 void VisibleCells::measure(Vec3 normal, const CellState& state, ThreadPool* pool) {
   if (measured_normal_ == normal && measured_serial_ == state.serial) return;
   if (heights_.size() != state.positions.size()) heights_ = large_vector<double>(state.positions.size());
@@ -110,7 +110,7 @@ void VisibleCells::measure(Vec3 normal, const CellState& state, ThreadPool* pool
   measured_serial_ = state.serial;
 }
 
-/// Inverted cells come first, whatever the metric says of them, undefined ones never; of either the lowest, and equals by their number.
+/// Ranks the worst cells: inverted ones first, whatever their metric, undefined ones never; then by quality, and equal ones by number.
 void VisibleCells::rank_worst(std::size_t count, const CellState& state) {
   if (ranked_count_ == count && ranked_serial_ == state.serial) return;
   const auto key = [&](Index e) {

@@ -17,7 +17,7 @@ std::string_view name(Drawing::Anchor anchor) {
   return anchor == Drawing::Anchor::Middle ? "middle" : "end";
 }
 
-/// The end of an element, around its title where it has one.
+/// The end of an SVG element, with a title element before it if there is a title.
 std::string close(std::string_view element, const std::string& title) {
   return title.empty() ? "/>\n" : fmt::format("><title>{}</title></{}>\n", xml_escaped(title), element);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// A picture as lines, boxes, dots and words, for whatever draws it: a file's writer, a painter of pixels, the window.
+// A picture as lines, boxes, dots and words, independent of its output: a file, pixels, the window.
 
 #include <cstdint>
 #include <string>
@@ -11,8 +11,8 @@ struct DrawingColour {
   std::uint8_t r = 0, g = 0, b = 0;
 };
 
-/// One unit of length is about a pixel of a screen; x to the right, y downwards, from the left upper corner. The lists are drawn over each
-/// other in their order here.
+/// A picture. One unit of length is about a pixel of a screen; x to the right, y downwards, from the upper left corner. The lists are drawn
+/// over each other in their order here.
 struct Drawing {
   struct Point {
     double x = 0.0, y = 0.0;
@@ -22,10 +22,10 @@ struct Drawing {
     DrawingColour colour;
     double width = 1.0;
     double dash = 0.0;      // length of a dash and of the gap after it; 0: solid
-    std::string name = {};  // what it stands for, may be empty
+    std::string name = {};  // meaning of the line, may be empty
   };
   struct Box {
-    Point from, to;  // left upper and right lower corner
+    Point from, to;  // upper left and lower right corner
     DrawingColour colour;
     double opacity = 1.0;
     std::string name = {};
@@ -37,21 +37,21 @@ struct Drawing {
   };
   enum class Anchor { Start, Middle, End };
   struct Label {
-    Point at;  // on the baseline
+    Point at;  // point on the baseline
     std::string text;
     double size = 12.0;
     DrawingColour colour;
     Anchor anchor = Anchor::Start;
   };
   double width = 0.0, height = 0.0;
-  std::vector<Line> rules;  // a plot's grid
+  std::vector<Line> rules;  // grid of a plot
   std::vector<Box> boxes;
   std::vector<Line> lines;
   std::vector<Disc> discs;
   std::vector<Label> labels;
 };
 
-/// The drawing on white as SVG text; names become titles, which browsers show where the mouse rests.
+/// The drawing on white as SVG text; names become titles, which browsers show under the mouse.
 [[nodiscard]] std::string svg_of(const Drawing& drawing);
 
 }  // namespace dmoscope

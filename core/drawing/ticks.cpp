@@ -11,7 +11,7 @@ namespace {
 double nice_step(double least) {
   const double power = std::pow(10.0, std::floor(std::log10(least)));
   const double mantissa = least / power;
-  // A hair of tolerance: 0.2 / 0.1 may come out as 2.0000000000000004.
+  // Tolerance for rounding: 0.2 / 0.1 may come out as 2.0000000000000004.
   constexpr double kSlack = 1.0 + 1e-9;
   if (mantissa <= kSlack) return power;
   if (mantissa <= 2.0 * kSlack) return 2.0 * power;
@@ -38,7 +38,7 @@ std::vector<Tick> ticks_at(double lowest, double highest, double step) {
 }
 
 bool drawable(double lowest, double highest) {
-  // Below one part in 1e12 of the values' size, ticks would be rounding noise.
+  // Refuses ranges below one part in 1e12 of the values, where ticks would be rounding noise.
   return std::isfinite(lowest) && std::isfinite(highest) && highest > lowest &&
          highest - lowest > 1e-12 * std::max(std::abs(lowest), std::abs(highest));
 }
@@ -82,7 +82,7 @@ std::vector<Tick> log_ticks(double lowest, double highest, int most) {
     }
   }
   if (std::ranges::count_if(ticks, [](const Tick& tick) { return !tick.label.empty(); }) >= 2) return ticks;
-  // Over so short a stretch the axis is all but linear; over a longer one every power of ten has to have its label.
+  // Uses linear ticks over so short a range, where the axis is nearly linear; over a longer one every power of ten needs its label.
   if (highest < 10.0 * lowest) {
     for (int n = most; n < most + 5; ++n) {
       if (std::vector<Tick> even = linear_ticks(lowest, highest, n); even.size() >= 2) return even;

@@ -46,7 +46,7 @@ FieldRules parse_field_rules(std::string_view text) {
     const auto rule = rule_of(equals == std::string_view::npos ? word : word.substr(equals + 1));
     if (!rule || equals == 0) refuse(word);
     if (equals == std::string_view::npos) {
-      if (rest.data() != text.data()) refuse(text);  // the rule for all comes first
+      if (rest.data() != text.data()) refuse(text);  // the rule for all fields must come first
       rules.all = *rule;
     } else {
       const std::string name(word.substr(0, equals));

@@ -1,5 +1,5 @@
 #pragma once
-// Which nodal fields belong to places and which to vertices.
+// Rules by which nodal fields belong to places or to vertices.
 
 #include <string>
 #include <string_view>
@@ -10,7 +10,7 @@
 
 namespace dmoscope {
 
-/// Place: a vertex that moved has what the input has at its new place. Carry: it takes along what it had.
+/// Rule for a field. Place: a vertex that moved gets the input's value at its new place. Carry: it keeps its value.
 enum class FieldRule { Place, Carry };
 
 /// A rule for all fields, and for some by their names.
@@ -20,16 +20,16 @@ struct FieldRules {
   friend bool operator==(const FieldRules&, const FieldRules&) = default;
 };
 
-/// "place", "carry", "depth=carry,temp=place", "carry,depth=place".
+/// Text of the rules: "place", "carry", "depth=carry,temp=place", "carry,depth=place".
 [[nodiscard]] std::string to_text(const FieldRules& rules);
-/// Throws UsageError.
+/// Parses such a text. Throws UsageError.
 [[nodiscard]] FieldRules parse_field_rules(std::string_view text);
-/// Throws UsageError where a rule names a field that no vertex has.
+/// Throws UsageError if a rule names a field that no vertex has.
 void require_fields(const FieldRules& rules, const Mesh& mesh);
 
-/// Whether a field holds whole numbers: flags, ids and counts, between which nothing lies. A depth or an elevation never does.
+/// Whether a field holds whole numbers: flags, ids and counts, which cannot be interpolated. A depth or an elevation never does.
 [[nodiscard]] bool holds_whole_numbers(const Field& field);
-/// The rule for a field of vertices: its own, else that for all, by which whole numbers are carried in any case.
+/// The rule for a field of vertices: its own, else that for all; without a rule of its own, whole numbers are carried in any case.
 [[nodiscard]] FieldRule rule_for(const Field& field, const FieldRules& rules);
 
 }  // namespace dmoscope

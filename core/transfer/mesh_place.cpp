@@ -10,7 +10,7 @@
 namespace dmoscope {
 namespace {
 
-constexpr double kRoundings = 64.0;  // of the largest coordinate, in a distance
+constexpr double kRoundings = 64.0;  // rounding of a distance, in roundings of the largest coordinate
 
 double square_length(Vec3 v) { return dot(v, v); }
 
@@ -28,7 +28,7 @@ PlaceSearch<N>::PlaceSearch(const Mesh& mesh, std::span<const Vec3> positions, c
   rounding_ = std::pow(kRoundings * std::numeric_limits<double>::epsilon() * largest, 2);
 }
 
-/// The corners of a part, on a mesh that wraps as the first of them sees the others.
+/// The corners of a part, on a mesh that wraps unwrapped from the first of them.
 template <std::size_t N>
 std::array<Vec3, N> PlaceSearch<N>::points(const Part& part) const {
   std::array<Vec3, N> points;
@@ -39,8 +39,8 @@ std::array<Vec3, N> PlaceSearch<N>::points(const Part& part) const {
   return points;
 }
 
-/// Volume elements: from the corner of the lowest number to the faces that do not have it, each of which is split from its own such corner.
-/// So the elements on both sides of a face split it in one way.
+/// Splits a volume element from its corner of the lowest number to the faces without that corner, each of which is split from its own such
+/// corner. So the elements on both sides of a face split it equally.
 template <std::size_t N>
 template <class Visit>
 void PlaceSearch<N>::for_parts(Index element, const Visit& visit) const {
@@ -100,8 +100,8 @@ const typename PlaceSearch<N>::Tree& PlaceSearch<N>::tree() const {
   return *tree_;
 }
 
-/// From element to element as long as that leads nearer; that mostly ends in the element that has the place. Where it does not, a part far
-/// along the mesh may be nearer, which the tree finds.
+/// Walks from element to element as long as that leads nearer, which mostly ends in the element that has the place. Otherwise a distant
+/// part of the mesh may be nearer, which the tree finds.
 template <std::size_t N>
 MeshPlace<N> PlaceSearch<N>::at(Index near, Vec3 place) const {
   Found best{kNoIndex, {}, std::numeric_limits<double>::infinity()};

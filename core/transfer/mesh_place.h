@@ -1,5 +1,5 @@
 #pragma once
-// Where a place lies in a mesh: found from a vertex near it.
+// Search for a place in a mesh, beginning at a vertex near it.
 
 #include <array>
 #include <cstddef>
@@ -15,8 +15,8 @@
 
 namespace dmoscope {
 
-/// The part of an element that a place lies in, or the nearest: a triangle (N = 3) or a tetrahedron (4), and the weights of its corners,
-/// which are >= 0 and add up to 1.
+/// The part of an element that a place lies in, or the nearest part: a triangle (N = 3) or a tetrahedron (4), and the weights of its
+/// corners, which are >= 0 and add up to 1.
 template <std::size_t N>
 struct MeshPlace {
   std::array<Index, N> corners{};
@@ -28,11 +28,11 @@ struct MeshPlace {
 template <std::size_t N>
 class PlaceSearch {
  public:
-  /// `positions`: of the mesh, as the places are that are looked for.
+  /// Prepares the search. `positions`: those of the mesh, in the coordinates of the places.
   PlaceSearch(const Mesh& mesh, std::span<const Vec3> positions, const Topology& topology, const Geometry& geometry);
 
-  /// The nearest part of the mesh. `near`: a vertex of an element; the nearer, the faster. Of parts that are equally near, one that does
-  /// not depend on what was asked before.
+  /// The nearest part of the mesh. `near`: a vertex of an element; the nearer, the faster. Of several equally near parts the choice does
+  /// not depend on earlier calls.
   [[nodiscard]] MeshPlace<N> at(Index near, Vec3 place) const;
 
  private:
@@ -45,7 +45,7 @@ class PlaceSearch {
   struct Tree {
     SimplexTree<N> simplices;
     std::vector<Part> parts;
-    std::vector<Index> first_of;  // by element, as far as it has one
+    std::vector<Index> first_of;  // by element, its first part, or kNoIndex
   };
   template <class Visit>
   void for_parts(Index element, const Visit& visit) const;
@@ -58,7 +58,7 @@ class PlaceSearch {
   const Topology& topology_;
   Plane plane_;
   bool wraps_ = false;
-  double rounding_ = 0.0;  // of a distance, squared
+  double rounding_ = 0.0;  // rounding of a distance, squared
   mutable std::once_flag planted_;
   mutable std::unique_ptr<Tree> tree_;
 };

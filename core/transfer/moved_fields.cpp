@@ -17,8 +17,8 @@
 namespace dmoscope {
 namespace {
 
-/// The dimension of a field's tensors; nothing where it has none. Symmetric and positive definite at every vertex: what else has as many
-/// components is a vector, or any matrix.
+/// The dimension of a field's metric tensors; none if it has none. They must be symmetric and positive definite at every vertex: other
+/// fields with as many components are vectors, or any matrices.
 std::optional<int> metric_dimension(const Field& field, bool planar) {
   constexpr double kSymmetric = 1e-9;
   if (field.role == "VECTORS" || field.role == "NORMALS" || field.role == "TENSORS6") return std::nullopt;
@@ -46,17 +46,17 @@ std::optional<int> metric_dimension(const Field& field, bool planar) {
   return std::nullopt;
 }
 
-/// Puts a tensor where metric_tensor() takes it from.
+/// Stores a tensor in the order that metric_tensor() reads.
 void put_tensor(const SmallMatrix& m, int components, double* at) {
   const auto n = static_cast<std::size_t>(m.n);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j) {
       if (components == 9) at[3 * i + j] = m.at[i][j];
-      if (components != 9 && j <= i) at[i * (i + 1) / 2 + j] = m.at[i][j];  // 11 12 22 13 23 33
+      if (components != 9 && j <= i) at[i * (i + 1) / 2 + j] = m.at[i][j];  // order 11 12 22 13 23 33
     }
 }
 
-/// A field that is taken anew.
+/// A field that is interpolated at new places.
 class PlacedField {
  public:
   PlacedField(const Field& field, std::size_t number, bool planar) : field_(field), values_{number, field.values} {
@@ -70,7 +70,7 @@ class PlacedField {
     double* const to = values_.values.data() + std::size_t{vertex} * n;
     for (std::size_t c = 0; c < n; ++c) {
       const double first = field_.values[place.corners[0] * n + c];
-      double value = first;  // so that what is the same everywhere stays so
+      double value = first;  // keeps a constant field constant
       for (std::size_t k = 1; k < N; ++k) value += place.weights[k] * (field_.values[place.corners[k] * n + c] - first);
       if (std::isfinite(value) && std::isfinite(to[c])) to[c] = value;
     }
@@ -84,7 +84,7 @@ class PlacedField {
   [[nodiscard]] FieldValues& values() noexcept { return values_; }
 
  private:
-  /// The mean of the logarithms (Arsigny et al. 2006).
+  /// Interpolates tensors by the mean of their logarithms (Arsigny et al. 2006).
   template <std::size_t N>
   void take_tensor(const MeshPlace<N>& place, double* to) {
     SmallMatrix sum{*tensors_, {}};
@@ -103,7 +103,7 @@ class PlacedField {
   std::optional<int> tensors_;
 };
 
-/// The place of the back behind one of the front; none where the mesh has no back.
+/// The place on the back behind one on the front; none if the mesh has no back.
 template <std::size_t N>
 std::optional<MeshPlace<N>> place_behind(const Mesh& mesh, MeshPlace<N> place) {
   if (!mesh.thin) return std::nullopt;

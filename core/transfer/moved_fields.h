@@ -1,5 +1,5 @@
 #pragma once
-// The nodal fields of a mesh where its vertices have gone.
+// Nodal fields of a mesh at the new positions of its vertices.
 
 #include <span>
 #include <string>
@@ -13,19 +13,18 @@
 
 namespace dmoscope {
 
-/// What became of the fields of vertices.
+/// Fields of vertices after a move.
 struct MovedFields {
-  std::vector<FieldValues> values;                  // of those that changed
-  std::vector<std::string> placed, whole, carried;  // names: taken anew; carried as whole numbers; carried as a rule says
-  /// "depth was taken anew at the new places (linear in the input's elements); id was carried (whole numbers)"; empty without fields.
+  std::vector<FieldValues> values;                  // values of the fields that changed
+  std::vector<std::string> placed, whole, carried;  // names of fields interpolated, carried as whole numbers, carried by a rule
   [[nodiscard]] std::string sentence() const;
 };
 
-/// What the input has at the vertices' new places: linear in the triangle or tetrahedron that holds it, on a curved surface in the nearest
-/// one; outside of the mesh what it has at the nearest place. Metric tensors are interpolated by their logarithms, and stay positive
-/// definite. What the back of a mesh one cell thick (thin.h) has is taken from the back. A vertex that has not moved keeps every bit; one
-/// without a value (not a number) gets none, and one keeps its own where a corner has none. Throws UsageError for rules of fields that are
-/// not there, Cancelled.
+/// Interpolates the input's nodal fields at the vertices' new places: linearly in the triangle or tetrahedron that holds it, on a curved
+/// surface in the nearest one; outside of the mesh at the nearest place. Metric tensors are interpolated by their logarithms, and stay
+/// positive definite. Fields on the back of a mesh one cell thick (thin.h) are interpolated on the back. A vertex that has not moved keeps
+/// every bit; one without a value (not a number) gets none, and one keeps its own if a corner has none. Throws UsageError for rules of
+/// missing fields, Cancelled.
 [[nodiscard]] MovedFields move_fields(const InputMesh& input, const FieldRules& rules, std::span<const Vec3> positions, ThreadPool* pool,
                                       Progress& progress);
 

@@ -7,7 +7,7 @@
 namespace dmoscope {
 namespace {
 
-/// A coordinate of the back: its own bits where neither the front's nor the way between them is another.
+/// A coordinate of the back: its own bits if neither the front's coordinate nor the difference between them has changed.
 double behind(double front, double was_front, double way, double was_back) {
   return same_bits(front, was_front) && way == was_back - was_front ? was_back : front + way;
 }
@@ -33,7 +33,7 @@ std::vector<Vec3> places_with_back(const InputMesh& input, std::span<const Vec3>
       if (back[v] == kNoIndex || back[v] == v || same_bits(positions[v], mesh.positions[v])) continue;
       const MeshPlace<3> place = search.at(v, positions[v]);
       const Vec3 one = way_at(place.corners[0]);
-      Vec3 way = one;  // so that what is the same everywhere stays so
+      Vec3 way = one;  // keeps a constant offset constant
       for (std::size_t k = 1; k < 3; ++k) way = way + place.weights[k] * (way_at(place.corners[k]) - one);
       const Vec3 to = positions[v], from = mesh.positions[v], was = mesh.positions[back[v]];
       const Vec3 at{behind(to.x, from.x, way.x, was.x), behind(to.y, from.y, way.y, was.y), behind(to.z, from.z, way.z, was.z)};

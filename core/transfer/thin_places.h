@@ -1,5 +1,5 @@
 #pragma once
-// Where the back of a mesh one cell thick goes when its front has moved.
+// Positions of the back of a mesh one cell thick after its front has moved.
 
 #include <span>
 #include <vector>
@@ -10,9 +10,9 @@
 
 namespace dmoscope {
 
-/// The positions with each vertex of the back behind its partner, as far and in the direction as the input's back is behind that place of
-/// its front: linear in the triangles of the front, so that a back that is parallel, or a plane of its own, stays so. What has not moved
-/// keeps every bit. Of a mesh that is not of front faces alone (thin.h) the positions themselves. Throws Cancelled.
+/// The positions with each vertex of the back behind its partner, at the offset of the input's back from that place of its front: linear in
+/// the triangles of the front, so that a back that is parallel, or a plane of its own, stays so. Vertices that have not moved keep every
+/// bit. For a mesh that does not consist of front faces (thin.h) the positions themselves. Throws Cancelled.
 [[nodiscard]] std::vector<Vec3> places_with_back(const InputMesh& input, std::span<const Vec3> positions, ThreadPool* pool,
                                                  Progress& progress);
 

@@ -52,7 +52,7 @@ std::optional<std::vector<std::uint8_t>> from_base64(std::string_view text) {
 
 bool Base64Reader::next_group() {
   std::uint32_t group = 0;
-  std::size_t digits = 0;  // of the four, those that are no padding
+  std::size_t digits = 0;  // number of digits in the group that are no padding
   for (std::size_t k = 0; k < 4; ++k) {
     while (at_ < text_.size() && (text_[at_] == ' ' || (text_[at_] >= '\t' && text_[at_] <= '\r'))) ++at_;
     if (at_ == text_.size()) return false;

@@ -1,5 +1,5 @@
 #pragma once
-// Bytes as text (RFC 4648).
+// Bytes as base64 text (RFC 4648).
 
 #include <cstddef>
 #include <cstdint>
@@ -12,17 +12,17 @@
 namespace dmoscope {
 
 [[nodiscard]] std::string to_base64(std::span<const std::uint8_t> bytes);
-/// None where the text is not base64.
+/// Decodes a text. None if it is not base64.
 [[nodiscard]] std::optional<std::vector<std::uint8_t>> from_base64(std::string_view text);
 
-/// Reads base64 piece by piece. Blanks and line ends between the digits are passed over, and where one run of base64 ends with its padding
-/// the next may follow (VTK's XML files do so).
+/// Reads base64 piece by piece. Skips blanks and line ends between the digits, and after the padding of one run of base64 another one may
+/// follow (as in VTK's XML files).
 class Base64Reader {
  public:
   explicit Base64Reader(std::string_view text) : text_(text) {}
-  /// Appends the next `count` bytes to `out`. False when the text ends before, or at what is no base64; `out` is then as it was.
+  /// Appends the next `count` bytes to `out`. False if the text ends before that, or is no base64; `out` is then unchanged.
   [[nodiscard]] bool read(std::size_t count, std::vector<char>& out);
-  /// How much of the text was read; a group of four digits is read whole.
+  /// Number of characters read; a group of four digits is read whole.
   [[nodiscard]] std::size_t position() const noexcept { return at_; }
 
  private:
@@ -32,7 +32,7 @@ class Base64Reader {
   std::string_view text_;
   std::size_t at_ = 0;
   char group_[3] = {};
-  std::size_t used_ = 0;   // bytes of the group that were given out
+  std::size_t used_ = 0;   // bytes of the group that were already returned
   std::size_t count_ = 0;  // bytes in the group
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// The axis-parallel box of points.
+// Axis-parallel bounding boxes.
 
 #include <algorithm>
 #include <limits>
@@ -9,7 +9,7 @@
 
 namespace dmoscope {
 
-/// Empty until there is a point.
+/// Bounding box of points, empty until one is added.
 struct PointBox {
   Vec3 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   Vec3 high{-low.x, -low.y, -low.z};

@@ -16,7 +16,7 @@ std::uint64_t parse_byte_size(std::string_view word) {
   std::string unit(end, word.data() + word.size());
   for (char& c : unit) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   constexpr std::string_view kLetters = "kmgt";
-  const std::size_t power = unit.empty() ? 0 : kLetters.find(unit.front()) + 1;  // npos + 1 is 0
+  const std::size_t power = unit.empty() ? 0 : kLetters.find(unit.front()) + 1;  // 0 without a known letter, as npos + 1 is 0
   const bool plain = unit.empty() || unit == "b";
   const bool known = plain || (power > 0 && (unit.size() == 1 || unit.substr(1) == "b" || unit.substr(1) == "ib"));
   const unsigned shift = plain ? 0 : 10U * static_cast<unsigned>(power);

@@ -6,8 +6,8 @@
 
 namespace dmoscope {
 
-/// "500000000", "500M", "2G": bytes, or KiB, MiB, GiB, TiB with a letter (of either case, "B" or "iB" may follow); at least 1. Throws
-/// UsageError.
+/// Parses a number of bytes, at least 1: "500000000", "500M", "2G", with a letter KiB, MiB, GiB, TiB (of either case, "B" or "iB" may
+/// follow). Throws UsageError.
 [[nodiscard]] std::uint64_t parse_byte_size(std::string_view word);
 
 }  // namespace dmoscope

@@ -6,7 +6,7 @@
 
 namespace dmoscope {
 
-/// The word as it stands in a cell: in quotes where it must be.
+/// The word as the content of a cell, in quotes if necessary.
 [[nodiscard]] inline std::string csv_text(std::string_view word) {
   if (word.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(word);
   std::string out = "\"";

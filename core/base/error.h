@@ -1,5 +1,5 @@
 #pragma once
-// Every error the program reports to a person. Each class says which exit code it maps to.
+// Errors that the program reports to the user, each class with an exit code.
 
 #include <cstddef>
 #include <stdexcept>
@@ -7,7 +7,7 @@
 
 namespace dmoscope {
 
-/// Base of all errors that are meant to be read by a person.
+/// Base of all errors that are meant for the user.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -15,13 +15,13 @@ class Error : public std::runtime_error {
   [[nodiscard]] virtual int exit_code() const noexcept { return 3; }
 };
 
-/// A file's content is wrong. what() is "file:line: what is wrong" (line 0: "file: what is wrong").
+/// Wrong content of a file. what() is "file:line: reason" (line 0: "file: reason").
 class InputError : public Error {
  public:
   InputError(std::string file, std::size_t line, const std::string& what)
       : Error(line == 0 ? file + ": " + what : file + ":" + std::to_string(line) + ": " + what), file_(std::move(file)), line_(line) {}
   [[nodiscard]] const std::string& file() const noexcept { return file_; }
-  /// 1-based line, 0 where a line makes no sense (binary data, missing file).
+  /// Line number from 1; 0 if lines make no sense (binary data, missing file).
   [[nodiscard]] std::size_t line() const noexcept { return line_; }
 
  private:
@@ -29,34 +29,33 @@ class InputError : public Error {
   std::size_t line_;
 };
 
-/// A file could not be written; the old one, if any, is untouched. what() is "file: why".
+/// Failure to write a file; the old one, if any, is unchanged. what() is "file: reason".
 class OutputError : public Error {
  public:
   OutputError(const std::string& file, const std::string& what) : Error(file + ": " + what) {}
 };
 
-/// The caller asked for something that does not exist or does not fit (unknown metric, bad parameter).
+/// Request for something that does not exist or does not fit (unknown metric, bad parameter).
 class UsageError : public Error {
  public:
   using Error::Error;
   [[nodiscard]] int exit_code() const noexcept override { return 2; }
 };
 
-/// A device (GPU) failed or lacks what was asked of it, such as memory. what() says what failed and, for memory, how much was asked for and
-/// how much is free.
+/// Failure of a device (GPU), or lack of a resource such as memory. what() names it and, for memory, the requested and the free amount.
 class DeviceError : public Error {
  public:
   using Error::Error;
 };
 
-/// The work was done but what was asked for was not reached (not converged, expectation failed).
+/// Work that ended without reaching its aim (not converged, expectation failed).
 class NotReached : public Error {
  public:
   using Error::Error;
   [[nodiscard]] int exit_code() const noexcept override { return 1; }
 };
 
-/// The person cancelled long work: what was being built is discarded, and what was there before is unchanged.
+/// Cancelled long work: its unfinished result is discarded, and the former state is unchanged.
 class Cancelled : public Error {
  public:
   Cancelled() : Error("cancelled") {}

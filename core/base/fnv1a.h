@@ -1,5 +1,5 @@
 #pragma once
-// A short hash of bytes (FNV-1a, 64 bits): finds damage, but no intended forgery.
+// A short hash of bytes (FNV-1a, 64 bits): detects damage, but no intended forgery.
 
 #include <cstdint>
 #include <string>
@@ -14,11 +14,11 @@ class Fnv1a {
   void add_bytes(std::string_view bytes) noexcept {
     for (const char byte : bytes) add(static_cast<unsigned char>(byte));
   }
-  /// Its eight bytes, the lowest first.
+  /// Adds the number's eight bytes, the lowest first.
   void add_number(std::uint64_t value) noexcept {
     for (unsigned k = 0; k < 8; ++k) add(value >> 8U * k & 255U);
   }
-  /// 16 digits.
+  /// The hash as 16 hexadecimal digits.
   [[nodiscard]] std::string text() const { return fmt::format("{:016x}", hash_); }
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// Code that runs on any processor, a GPU's among them.
+// Macros for code that runs on any processor, a GPU included.
 
 /// Marks a function that a GPU may run as well; replaces constexpr. nvcc can be told to compile constexpr functions for a GPU, too, but
 /// then silently drops their calls to functions of the host. In a marked function such a call is an error.
@@ -10,7 +10,7 @@
 #else
 #define DMOSCOPE_ANYWHERE constexpr
 #define DMOSCOPE_INLINE         // inlined in a device's code: a call would put values into memory that registers hold otherwise
-#define DMOSCOPE_INLINE_LAMBDA  // the same behind a lambda's parameters
+#define DMOSCOPE_INLINE_LAMBDA  // inlines a lambda; stands behind its parameters
 #endif
 
 /// Unrolls loops over a few numbers that a GPU's lane must keep in registers, which takes indices that the compiler knows. Elsewhere the

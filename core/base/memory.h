@@ -6,11 +6,11 @@
 
 namespace dmoscope {
 
-/// Asks the system for large pages in memory that was allocated and not yet touched: touching it then takes a fraction of the time.
-/// Nothing happens where there is little of it or the system has none.
+/// Requests large pages for memory that was allocated and not yet touched: touching it then takes a fraction of the time. Without effect
+/// for little memory or if the system has none.
 void advise_large_pages(void* memory, std::size_t bytes) noexcept;
 
-/// Reserves as std::vector does, in large pages. For vectors that are going to be filled.
+/// Reserves memory of a std::vector in large pages, for vectors that will be filled.
 template <class T>
 void reserve_large(std::vector<T>& vector, std::size_t count) {
   if (count <= vector.capacity()) return;

@@ -7,7 +7,7 @@
 
 namespace dmoscope {
 
-/// The number that a word is, all of it; none where it is no Number or lies beyond its range.
+/// The number that a whole word represents; none if it is no Number or out of range.
 template <class Number>
 [[nodiscard]] std::optional<Number> number_in(std::string_view word) {
   Number value{};

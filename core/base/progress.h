@@ -1,5 +1,5 @@
 #pragma once
-// Long work reports its progress here, and learns here that it shall stop.
+// Progress and cancellation of long work.
 
 #include <atomic>
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace dmoscope {
 
-/// Shared between the thread that works and the one that watches. All members may be used from any thread.
+/// Progress shared between the working thread and one that watches. All members may be used from any thread.
 class Progress {
  public:
   /// Names the work ("reading east.14") and sets the fraction to 0.
@@ -19,7 +19,7 @@ class Progress {
     label_ = std::move(label);
     fraction_ = 0.0;
   }
-  /// Fraction done, 0 to 1; of the part under way, if there is one.
+  /// Sets the fraction done, 0 to 1; that of the current part, if there is one.
   void set(double fraction) noexcept { fraction_ = base_ + span_ * fraction; }
   [[nodiscard]] double fraction() const noexcept { return fraction_; }
   [[nodiscard]] std::string label() const {
@@ -28,13 +28,13 @@ class Progress {
   }
   void request_cancel() noexcept { cancel_ = true; }
   void clear_cancel() noexcept { cancel_ = false; }
-  /// Throws Cancelled when a cancel was requested. Call it at least every 50 ms of work.
+  /// Throws Cancelled if a cancel was requested. To be called at least every 50 ms of work.
   void check() const {
     if (cancel_) throw Cancelled();
   }
 
-  /// While it lives, set() counts within one of `all` equal parts of the work, the one after the first `done`. Parts nest. Made and
-  /// destroyed by the thread that works, while no other one reports.
+  /// Restricts set(), for its lifetime, to one of `all` equal parts of the work, the one after the first `done`. Parts nest. To be made and
+  /// destroyed by the working thread, while no other one reports.
   class Part {
    public:
     Part(Progress& progress, std::uint64_t done, std::uint64_t all) noexcept
@@ -59,7 +59,7 @@ class Progress {
   std::string label_;
   std::atomic<double> fraction_{0.0};
   std::atomic<bool> cancel_{false};
-  double base_ = 0.0, span_ = 1.0;  // of the part under way
+  double base_ = 0.0, span_ = 1.0;  // range of the current part
 };
 
 }  // namespace dmoscope

@@ -10,7 +10,7 @@
 
 namespace dmoscope {
 
-/// Sorts items by `key(item)`, an unsigned number of at most `bits` bits; stably, digit by digit. Takes as much memory again.
+/// Sorts items by `key(item)`, an unsigned number of at most `bits` bits; stably, digit by digit. Needs as much memory again.
 template <class Item, class Key>
 void radix_sort(std::vector<Item>& items, unsigned bits, const Key& key) {
   constexpr unsigned kDigit = 11, kDigits = 1U << kDigit;

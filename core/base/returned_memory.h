@@ -1,10 +1,10 @@
 #pragma once
-// What becomes of memory that is freed.
+// Return of freed memory to the system.
 
 namespace dmoscope {
 
-/// Memory of large arrays goes back to the system at once when it is freed, whichever thread frees it; for programs that run long. Else
-/// the C library keeps what it was given back to serve the next allocation of the same thread with it.
+/// Makes the C library return memory of large arrays to the system as soon as it is freed, by whichever thread; for programs that run long.
+/// Otherwise it keeps the memory for the next allocation of the same thread.
 void return_large_memory() noexcept;
 
 }  // namespace dmoscope

@@ -7,8 +7,8 @@
 
 namespace dmoscope {
 
-/// The nearest 32-bit float, as a double. Through memory, one number at a time: where g++ 12 packs two such conversions into one
-/// vector it leaves both out and returns the numbers as they were. Always inlined: see core/smooth/displace.h.
+/// The nearest 32-bit float, as a double. Through memory, one number at a time: if g++ 12 packs two such conversions into one vector, it
+/// leaves both out and returns the numbers unrounded. Always inlined: see core/smooth/displace.h.
 [[nodiscard, gnu::always_inline]] DMOSCOPE_ANYWHERE double nearest_float(double value) noexcept {
   auto rounded = static_cast<float>(value);
 #if !defined(__CUDA_ARCH__)

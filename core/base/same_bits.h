@@ -1,5 +1,5 @@
 #pragma once
-// Equal to the last bit: 0 differs from -0, and a NaN is the same as itself.
+// Equality to the last bit: 0 differs from -0, and a NaN equals itself.
 
 #include <bit>
 #include <cstdint>

@@ -48,7 +48,7 @@ std::string sha256(std::string_view bytes) {
   State state{0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a, 0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
   const std::size_t whole = bytes.size() / kBlock * kBlock;
   for (std::size_t at = 0; at < whole; at += kBlock) take_block(state, bytes.data() + at);
-  // The rest, a bit 1, zeros, and the length in bits: one block or two.
+  // Appends a bit 1, zeros, and the length in bits to the rest: one block or two.
   std::string rest(bytes.substr(whole));
   rest += '\x80';
   rest.resize(rest.size() <= kBlock - 8 ? kBlock - 8 : 2 * kBlock - 8);

@@ -1,5 +1,5 @@
 #pragma once
-// SHA-256 (FIPS 180-4), by which others can tell that a file is the very one.
+// SHA-256 (FIPS 180-4), which proves that two files are equal.
 
 #include <string>
 #include <string_view>

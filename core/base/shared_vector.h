@@ -1,5 +1,5 @@
 #pragma once
-// A vector that one thread makes longer and others read: what they read never changes.
+// A vector that one thread extends and others read: the part that they read never changes.
 
 #include <cstddef>
 #include <iterator>
@@ -9,7 +9,7 @@
 
 namespace dmoscope {
 
-/// Values that never change; copies share them. Reads as a const std::vector does.
+/// Values that never change; copies share them. Reads like a const std::vector.
 template <class T>
 class SharedVector {
  public:
@@ -30,14 +30,14 @@ class SharedVector {
     static const std::vector<T> none;
     return values_ ? *values_ : none;
   }
-  /// Whether both are one and the same memory: cheaper than a comparison.
+  /// Whether both are the same memory: cheaper than a comparison.
   [[nodiscard]] bool is(const SharedVector& other) const noexcept { return values_ == other.values_; }
 
  private:
   std::shared_ptr<const std::vector<T>> values_;
 };
 
-/// The owner's side: copies what was shared before changing it.
+/// The owner's side: copies shared values before changing them.
 template <class T>
 class GrowingVector {
  public:
@@ -47,7 +47,7 @@ class GrowingVector {
     shared_ = true;
     return SharedVector<T>(values_);
   }
-  /// To be changed at once, and not to be kept.
+  /// The values for an immediate change; the reference must not be kept.
   [[nodiscard]] std::vector<T>& change() {
     if (std::exchange(shared_, false)) values_ = std::make_shared<std::vector<T>>(*values_);
     return *values_;

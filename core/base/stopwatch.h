@@ -1,5 +1,5 @@
 #pragma once
-// How long something took, by a clock that only goes forwards.
+// Elapsed time, by a clock that only goes forwards.
 
 #include <chrono>
 

@@ -1,5 +1,5 @@
 #pragma once
-// How many threads a person may ask for.
+// Limit for the number of threads that the user may ask for.
 
 #include <cstdint>
 
@@ -11,7 +11,7 @@ namespace dmoscope {
 
 inline constexpr unsigned kMostThreads = 1024;
 
-/// Throws UsageError for more; 0 stands for all processors.
+/// Throws UsageError for more threads than the limit; 0 stands for all processors.
 inline void require_thread_count(std::uint64_t threads) {
   if (threads > kMostThreads)
     throw UsageError(fmt::format("threads: expected a whole number from 0 to {}, not '{}'", kMostThreads, threads));

@@ -8,10 +8,10 @@ namespace dmoscope {
 
 namespace {
 
-/// To sleep and to be woken takes about as long.
+/// Time of waiting awake: sleeping and being woken takes about as long.
 constexpr auto kPatience = std::chrono::microseconds(50);
 
-/// Tells the processor that this thread only waits.
+/// Tells the processor that this thread is only waiting.
 void relax() {
 #if defined(__x86_64__)
   __builtin_ia32_pause();
@@ -23,7 +23,7 @@ void relax() {
 /// Waits awake until the condition holds, but not for longer than kPatience.
 template <class Condition>
 void linger(Condition holds) {
-  constexpr int kLooks = 16;  // between two looks at the clock
+  constexpr int kLooks = 16;  // checks between two readings of the clock
   const auto end = std::chrono::steady_clock::now() + kPatience;
   do {
     for (int i = 0; i < kLooks; ++i) {
@@ -65,12 +65,12 @@ void ThreadPool::drain(Loop& loop) {
     } catch (...) {
       const std::scoped_lock lock(loop.error_mutex);
       if (!loop.error) loop.error = std::current_exception();
-      loop.next = loop.count;  // nobody starts another chunk
+      loop.next = loop.count;  // keeps threads from starting another chunk
     }
   }
 }
 
-/// Returns with the lock held, true when there is a loop later than `seen`, false when the pool ends.
+/// Waits for a loop. Returns with the lock held: true if there is one later than `seen`, false if the pool ends.
 bool ThreadPool::wait_for_loop(std::unique_lock<std::mutex>& lock, const std::stop_token& stop, std::size_t seen) {
   if (patient_) {
     lock.unlock();
@@ -97,11 +97,11 @@ void ThreadPool::work(const std::stop_token& stop) {
   }
 }
 
-/// Leaves `loop` once nobody works on it any more.
+/// Waits until no thread works on `loop` any more, and removes it.
 void ThreadPool::finish(Loop& loop) {
   {
     const std::scoped_lock lock(mutex_);
-    loop_ = nullptr;  // a worker that wakes late finds nothing
+    loop_ = nullptr;  // a worker that wakes late finds no loop
   }
   const auto left = [&] { return busy_ == 0; };
   if (patient_) linger(left);

@@ -12,7 +12,7 @@ namespace {
 
 bool same_letter(char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b)); }
 
-/// How many letters to insert, delete, replace or swap with their neighbour make one word the other (optimal string alignment).
+/// Edit distance of two words: letters inserted, deleted, replaced or swapped with their neighbour (optimal string alignment).
 std::size_t edits_between(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before_last, last(b.size() + 1), now(b.size() + 1);
   std::iota(last.begin(), last.end(), std::size_t{0});
@@ -32,9 +32,9 @@ std::size_t edits_between(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::optional<std::string_view> closest_word(std::string_view word, std::span<const std::string_view> known) {
-  constexpr std::size_t kLongest = 64;  // longer ones are no slip of a finger
+  constexpr std::size_t kLongest = 64;  // longer words are no typing errors
   if (word.size() > kLongest) return std::nullopt;
-  std::size_t least = word.size() / 4 + 1;  // one too many
+  std::size_t least = word.size() / 4 + 1;  // one more than allowed
   std::vector<std::string_view> closest;
   for (const std::string_view candidate : known) {
     const std::size_t edits = edits_between(word, candidate);

@@ -1,5 +1,5 @@
 #pragma once
-// The one sentence about a word from a person that the program does not know.
+// Messages about words that the program does not know.
 
 #include <algorithm>
 #include <optional>
@@ -13,11 +13,11 @@
 
 namespace dmoscope {
 
-/// The known word that `word` is most likely meant to be: at most one letter in four is wrong, missing, too many or swapped with its
-/// neighbour; case does not matter. None where no word is that close, or several equally close.
+/// The known word that `word` was most likely meant to be: at most one letter in four is wrong, missing, extra or swapped with its
+/// neighbour; case does not matter. None if no word is that close, or several are equally close.
 [[nodiscard]] std::optional<std::string_view> closest_word(std::string_view word, std::span<const std::string_view> known);
 
-/// "unknown metric 'skewness'; known are mean-ratio, min-angle", and where one of them is close "; did you mean mean-ratio?".
+/// Message "unknown metric 'skewness'; known are mean-ratio, min-angle", with "; did you mean mean-ratio?" if one of them is close.
 [[nodiscard]] std::string unknown_value(std::string_view kind, std::string_view word, std::span<const std::string_view> known);
 
 /// The value of an enumeration whose words are `words`, in its order. Throws Problem for another word.
@@ -28,7 +28,7 @@ template <class Enum, class Problem = UsageError>
   return static_cast<Enum>(found - words.begin());
 }
 
-/// The sentence with the names of a table's rows.
+/// Message of unknown_value() with the names of a table's rows.
 template <std::ranges::input_range Table>
 [[nodiscard]] std::string unknown_row(std::string_view kind, std::string_view word, const Table& table) {
   std::vector<std::string_view> names;

@@ -1,5 +1,5 @@
 #pragma once
-// Letters of UTF-8.
+// Letters in UTF-8.
 
 #include <cstddef>
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace dmoscope {
 
-/// The first letter of `text`, which is not empty, and how many bytes it takes; 0 bytes: it is not UTF-8.
+/// Decodes the first letter of `text`, which is not empty, into `code`; returns its number of bytes, 0: it is not UTF-8.
 [[nodiscard]] inline std::size_t utf8_letter(std::string_view text, std::uint32_t& code) noexcept {
   const auto bits = [&text](std::size_t i) { return static_cast<std::uint32_t>(static_cast<unsigned char>(text[i])); };
   const std::uint32_t first = bits(0);

@@ -1,6 +1,6 @@
 #pragma once
-// Small vectors. Vec3 is where a vertex stands (double, as in the file); Vec2 is a point of a planar mesh's plane and Vec3Of an offset in
-// space, in whatever scalar computes with it (double, float, a pack of floats).
+// Small vectors. Vec3 is a vertex's position (double, as in the file); Vec2 is a point of a planar mesh's plane and Vec3Of an offset in
+// space, in the scalar of the computation (double, float, a pack of floats).
 
 #include <cmath>
 #include <cstdint>

@@ -63,7 +63,7 @@ std::uint64_t to_count(const std::string& word, std::uint64_t least) {
 
 double to_number(const std::string& word) {
   double value = 0.0;
-  const std::size_t sign = word.size() > 1 && word[0] == '+' && word[1] != '-' ? 1 : 0;  // which from_chars does not know
+  const std::size_t sign = word.size() > 1 && word[0] == '+' && word[1] != '-' ? 1 : 0;  // a plus sign, which from_chars does not accept
   const auto [end, error] = std::from_chars(word.data() + sign, word.data() + word.size(), value);
   if (error != std::errc{} || end != word.data() + word.size() || !std::isfinite(value))
     throw WrongArguments(fmt::format("'{}' is not a number", word));

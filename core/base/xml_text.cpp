@@ -12,7 +12,7 @@ std::string xml_escaped(std::string_view text) {
   while (!text.empty()) {
     std::uint32_t code = 0;
     std::size_t size = utf8_letter(text, code);
-    if (code == 0xFFFE || code == 0xFFFF) size = 0;  // XML has none
+    if (code == 0xFFFE || code == 0xFFFF) size = 0;  // not allowed in XML
     const char c = text[0];
     if (size == 0) {
       out += "\xEF\xBF\xBD";

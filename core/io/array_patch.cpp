@@ -19,7 +19,7 @@ double& coordinate_of(Vec3& p, int axis) { return axis == 0 ? p.x : axis == 1 ? 
 double coordinate_of(const Vec3& p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
 bool equal_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 
-/// Calls each(number in the array, vertex, axis) for all its numbers.
+/// Calls each(number in the array, vertex, axis) for all numbers of an array.
 template <class Each>
 void for_each_number(const CoordinateArray& array, Each&& each) {
   const auto n = static_cast<std::size_t>(array.axis < 0 ? array.components : 1);
@@ -116,7 +116,7 @@ std::string CoordinateArrays::replaced(ArrayFile& file, std::span<const Vec3> be
     for_each_number(array, [&](std::size_t i, std::size_t vertex, int axis) {
       double value = coordinate_of(moved[vertex], axis);
       if (equal_bits(value, coordinate_of(before[vertex], axis)) || i >= values.values.size()) return;
-      // A vertex may be in several arrays, of floats and of doubles: it is at the same place in all of them.
+      // Rounds to float first: a vertex may be in several arrays, of floats and of doubles, and must have one place in all of them.
       if (held.scalar[static_cast<std::size_t>(axis)] == CoordinateScalar::Float32) {
         if (!std::isfinite(static_cast<float>(value))) {
           throw OutputError(target, fmt::format("coordinate {} of vertex {} is too large for a 32-bit float", value, vertex));

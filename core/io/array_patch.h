@@ -1,5 +1,5 @@
 #pragma once
-// Writing a file of arrays (Exodus, CGNS, XDMF's HDF5) again with the coordinates that moved.
+// Rewriting of array files (Exodus, CGNS, XDMF's HDF5) with coordinates that moved.
 
 #include <span>
 #include <string>
@@ -11,34 +11,33 @@
 
 namespace dmoscope {
 
-/// An array with coordinates: `axis` 0 to 2 of vertices, or -1: all `components` of each vertex behind each other, or, where `by_axis`, all
-/// x before all y.
+/// An array with coordinates: with `axis` 0 to 2 that coordinate of the vertices; with -1 all `components` of each vertex one after the
+/// other or, with `by_axis`, all x before all y.
 struct CoordinateArray {
   std::string name;
   int axis = -1;
   int components = 3;
   bool by_axis = false;
-  std::vector<Index> vertices{};  // of its entries; empty: the i-th is that of vertex first + i
+  std::vector<Index> vertices{};  // vertices of its entries; empty: entry i is vertex first + i
   Index first = 0;
-  Index count = 0;  // entries
+  Index count = 0;  // number of entries
   ScalarType type = ScalarType::Float64;
 };
 
-/// The coordinates that arrays hold, and how their numbers are stored.
+/// The arrays of a file that hold coordinates, and the storage of their numbers.
 class CoordinateArrays {
  public:
-  /// Reads an array's numbers into `positions`, which is large enough. Throws InputError: not as many numbers as it should have, one that
-  /// is not finite.
+  /// Reads an array's numbers into `positions`, which is large enough. Throws InputError for a wrong count of numbers, or one that is not
+  /// finite.
   void read(ArrayFile& file, CoordinateArray array, std::span<Vec3> positions);
-  /// Tells the file its layout, and that whole numbers cannot be written again.
+  /// Sets the layout in `source`, and notes that whole numbers cannot be written again.
   void describe(SourceFile& source) const;
 
-  /// The file's bytes with the coordinates in which `moved` differs from `before`, and with the arrays that `changed` besides; `notes` say
-  /// what was rounded. `target` is what errors call the file that is written. Throws OutputError (z of a file that has none; too large for
-  /// a float).
+  /// The file's bytes with the coordinates in which `moved` differs from `before`, and with the arrays in `changed`; `notes` tell what was
+  /// rounded. `target`: name of the written file in errors. Throws OutputError (z in a file without z; too large for a float).
   [[nodiscard]] std::string replaced(ArrayFile& file, std::span<const Vec3> before, std::span<const Vec3> moved, const std::string& target,
                                      Notes& notes, std::vector<ArrayValues> changed = {}) const;
-  /// The vertices have other numbers: vertex_of[the number so far].
+  /// Renumbers the vertices: the new number is vertex_of[the present one].
   void renumber(std::span<const Index> vertex_of);
 
  private:
@@ -46,7 +45,7 @@ class CoordinateArrays {
   std::vector<CoordinateArray> arrays_;
 };
 
-/// The arrays that Field::Place names, with the numbers that changed; a field without a place is told in the notes.
+/// Arrays named by Field::Place, with the numbers that changed; the notes name a field without a place.
 [[nodiscard]] std::vector<ArrayValues> changed_arrays(ArrayFile& file, const Mesh& mesh, std::span<const FieldValues> fields, Notes& notes);
 
 [[nodiscard]] bool same_positions(std::span<const Vec3> a, std::span<const Vec3> b) noexcept;

@@ -10,7 +10,7 @@
 namespace dmoscope {
 namespace {
 
-/// Is a closed island the type of this land boundary of a fort.14?
+/// Whether the type of this land boundary of a fort.14 is a closed island.
 bool is_island(const Group& group) { return group.role == "land boundary" && (group.code == 1 || group.code == 11 || group.code == 21); }
 
 }  // namespace
@@ -48,7 +48,7 @@ void note_boundary_strings(std::span<const Group* const> strings, std::string_vi
     }
     std::set<int> types;
     for (const Group* group : alike) types.insert(group->code);
-    // Both roles end in "boundary".
+    // Forms the plural: both roles end in "boundary".
     notes.push_back(fmt::format("{} {}ies (\"{}\" to \"{}\", of type{} {}) were written as {} of their edges.", alike.size(),
                                 role.substr(0, role.size() - 1), first.name, alike.back()->name, types.size() == 1 ? "" : "s",
                                 fmt::join(types, ", "), written_as_many));
@@ -66,7 +66,7 @@ std::vector<Group> groups_with_edges(const Mesh& mesh, std::string_view written_
     if (!is_boundary_string(group) || group.members.size() < 2) continue;
     group.members = chain_edges(group);
     group.dimension = 1;
-    group.code = 0;  // types repeat: as numbers they would mean nothing
+    group.code = 0;  // types repeat, so they cannot serve as numbers
   }
   return groups;
 }

@@ -12,15 +12,15 @@
 namespace dmoscope {
 namespace {
 
-constexpr std::size_t kMostGroups = 4096;  // what lists and colours of groups are made for
+constexpr std::size_t kMostGroups = 4096;  // greatest number that lists and colours of groups are designed for
 
-/// The groups of cells, found by their dimension and label.
+/// Groups of cells, looked up by their dimension and label.
 class Groups {
  public:
   Groups(std::span<const OriginLabels> labels, Mesh& mesh, SourceFile& source, int top)
       : labels_(labels), mesh_(mesh), source_(source), top_(top), of_origin_(4 * labels.size()) {}
 
-  /// The numbers of the groups that a cell of this dimension belongs to.
+  /// Numbers of the groups that a cell of this origin and dimension belongs to.
   std::span<const std::size_t> of(std::uint32_t origin, int dimension) {
     std::optional<std::vector<std::size_t>>& known = of_origin_[4 * std::size_t{origin} + static_cast<std::size_t>(dimension)];
     if (!known) known = look_up(labels_[origin], dimension);
@@ -63,10 +63,10 @@ class Groups {
   int top_;
   std::vector<std::optional<std::vector<std::size_t>>> of_origin_;  // by origin and dimension
   std::map<std::tuple<int, std::string, int, std::string>, std::size_t> groups_;
-  std::map<int, std::size_t> rests_;  // by dimension: what had no room
+  std::map<int, std::size_t> rests_;  // by dimension, group of the cells beyond the limit
 };
 
-/// The kind of a group's members; groups are numbered within a kind.
+/// Kind of a group's members; groups are numbered within a kind.
 enum class MemberKind : std::uint8_t { Vertices, Edges, Faces, Elements };
 
 MemberKind member_kind_of(const Group& group) {

@@ -1,6 +1,6 @@
 #pragma once
-// Cells of every dimension side by side, as Gmsh and MEDIT files hold them: those of the highest dimension are the mesh's elements, the
-// others become groups of vertices, edges and faces.
+// Cells of every dimension together, as in Gmsh and MEDIT files: those of the highest dimension become the mesh's elements, the others
+// groups of vertices, edges and faces.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,12 +15,12 @@
 
 namespace dmoscope {
 
-/// Points, lines, and then the kinds of element in their order.
+/// Shapes of cells: points, lines, and then the kinds of elements in their order.
 enum class CellShape : std::uint8_t { Point, Line, Triangle, Quadrilateral, Tetrahedron, Hexahedron, Wedge, Pyramid };
 inline constexpr std::size_t kCellShapeCount = 2 + kElementKindCount;
 
 [[nodiscard]] constexpr CellShape shape_of(ElementKind kind) noexcept { return static_cast<CellShape>(static_cast<int>(kind) + 2); }
-/// Nothing for points and lines.
+/// Kind of element of a shape; none for points and lines.
 [[nodiscard]] constexpr std::optional<ElementKind> kind_of(CellShape shape) noexcept {
   if (shape < CellShape::Triangle) return std::nullopt;
   return static_cast<ElementKind>(static_cast<int>(shape) - 2);
@@ -32,11 +32,11 @@ inline constexpr std::size_t kCellShapeCount = 2 + kElementKindCount;
   return shape < CellShape::Triangle ? static_cast<int>(shape) : info(*kind_of(shape)).dimension;
 }
 
-/// Cells in the file's order. Each has an origin: the number of what the file puts it into (a reference, an entity), counted by the reader.
+/// Cells in the file's order. Each has an origin: the number of its entity, reference or the like in the file, counted by the reader.
 class CellTable {
  public:
   [[nodiscard]] std::size_t size() const noexcept { return shapes_.size(); }
-  /// The highest of all cells, -1 without any.
+  /// The highest dimension of all cells, -1 without any.
   [[nodiscard]] int dimension() const noexcept { return dimension_; }
   [[nodiscard]] CellShape shape(std::size_t cell) const noexcept { return shapes_[cell]; }
   [[nodiscard]] std::uint32_t origin(std::size_t cell) const noexcept { return origins_[cell]; }
@@ -57,7 +57,7 @@ class CellTable {
   int dimension_ = -1;
 };
 
-/// What a group made of cells is called.
+/// Name, role and number of a group made of cells.
 struct GroupLabel {
   std::string name;
   std::string role;
@@ -66,15 +66,15 @@ struct GroupLabel {
 /// The groups that the cells of one origin belong to.
 struct OriginLabels {
   std::vector<GroupLabel> labels;
-  bool of_elements = true;  // are the mesh's elements put into groups, too? (or only what is no element)
+  bool of_elements = true;  // whether the mesh's elements are put into groups, too, or only other cells
 };
 
-/// Adds the cells of the highest dimension (2 or 3) to mesh.elements and all others to mesh.groups, and elements to groups where their
-/// origin says so. labels[origin]. Beyond several thousand groups the rest is one group, and said to be so.
-/// Returns the cell that each element was; empty if every cell is one. Throws InputError (too many corners).
+/// Adds the cells of the highest dimension (2 or 3) to mesh.elements and all others to mesh.groups, and elements to groups if their origin
+/// says so. `labels`: by origin. Beyond several thousand groups the rest forms one group, with a note. Returns the cell of each element;
+/// empty if every cell is one. Throws InputError (too many corners).
 [[nodiscard]] std::vector<Index> split_cells(const CellTable& cells, std::span<const OriginLabels> labels, Mesh& mesh, SourceFile& source);
 
-/// A field's numbers of some of its rows: indices of any type.
+/// Values of some rows of a field: indices of any type.
 template <class Rows>
 [[nodiscard]] std::vector<double> rows_of_values(const Field& field, const Rows& rows) {
   const auto n = static_cast<std::ptrdiff_t>(field.components);
@@ -89,11 +89,10 @@ template <class Rows>
 
 // --- For writers ---
 
-/// A number for every group: its code where that is positive and its own among the groups of its kind (vertices, edges, faces,
-/// elements), else one that is free.
+/// A number for every group: its code if that is positive and unique among the groups of its kind (vertices, edges, faces, elements), else
+/// an unused one.
 [[nodiscard]] std::vector<int> numbers_of_groups(std::span<const Group> groups);
-/// The number of each element's group, 0 without one; the first where there are several, and the notes say so.
-/// Groups of number 0 are left out.
+/// The number of each element's group, 0 without one; of several the first, with a note. Groups of number 0 are left out.
 [[nodiscard]] std::vector<int> numbers_of_elements(const Mesh& mesh, std::span<const int> numbers, std::string_view format_title,
                                                    Notes& notes);
 

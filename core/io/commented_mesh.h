@@ -1,5 +1,5 @@
 #pragma once
-// Writes a mesh with a comment that says where it comes from.
+// Writing of meshes with a comment on their origin.
 
 #include <string>
 #include <string_view>
@@ -9,10 +9,11 @@
 
 namespace dmoscope {
 
-/// A comment as it stands at the end of a file of a format (FormatInfo::name), one line; empty where the format has no comments there.
+/// A comment in the form for the end of a file of a format (FormatInfo::name), one line; empty if the format has no comments there.
 [[nodiscard]] std::string trailing_comment(std::string_view format, std::string_view comment);
 
-/// write_mesh() with a comment at the file's end (empty: none). A format without comments gets a sentence among those that are returned.
+/// Writes a mesh like write_mesh() with a comment at the file's end (empty: none). For a format without comments a sentence is added to
+/// those returned.
 std::vector<std::string> write_commented_mesh(const std::filesystem::path& path, const Mesh& mesh, const MovedMesh& moved,
                                               const IoContext& context, std::string_view comment);
 

@@ -8,7 +8,7 @@
 namespace dmoscope {
 namespace {
 
-using Corners = std::array<Index, 4>;  // the rest is kNoIndex
+using Corners = std::array<Index, 4>;  // up to 4 corners, the rest kNoIndex
 
 Corners in_order(Corners corners) {
   std::ranges::sort(corners);
@@ -17,7 +17,7 @@ Corners in_order(Corners corners) {
 
 Index count_of(const Corners& corners) { return static_cast<Index>(4 - std::ranges::count(corners, kNoIndex)); }
 
-/// Do they run the same way round, from whatever corner?
+/// Whether two faces have the same winding, from whatever corner.
 bool same_winding(const Corners& a, const Corners& b) {
   const Index n = count_of(a);
   if (n == 2) return a == b;
@@ -41,7 +41,7 @@ std::vector<std::optional<ElementSide>> sides_of(const Mesh& mesh, const std::ve
     for (Index s = 0; s < side_count(mesh.elements.kind(e)); ++s) {
       const Corners side = vertices_of_side(mesh.elements, {e, s});
       const Corners key = in_order(side);
-      // Not std::ranges::equal_range: clang 14 cannot compile it.
+      // Avoids std::ranges::equal_range, which clang 14 cannot compile.
       auto at = std::ranges::lower_bound(order, key, {}, [&](Index i) { return keys[i]; });
       for (; at != order.end() && keys[*at] == key; ++at) {
         const bool same = same_winding(wanted[*at], side);

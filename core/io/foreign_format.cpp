@@ -18,11 +18,11 @@ namespace {
 
 constexpr std::size_t kHeadBytes = 65536;  // bytes
 
-/// What the tests below look at.
+/// Begin of a file, for the tests below.
 struct Head {
-  std::string_view bytes;               // the first of the file
-  std::string_view extension;           // ".msh"
-  std::vector<std::string_view> lines;  // that are not empty, without surrounding blanks; the first of them
+  std::string_view bytes;               // first bytes of the file
+  std::string_view extension;           // extension, such as ".msh"
+  std::vector<std::string_view> lines;  // first lines that are not empty, without surrounding blanks
 
   explicit Head(std::string_view file, std::string_view of) : bytes(file.substr(0, kHeadBytes)), extension(of) {
     constexpr std::size_t kMostLines = 4096;
@@ -35,7 +35,7 @@ struct Head {
     }
   }
   [[nodiscard]] std::string_view line(std::size_t i) const { return i < lines.size() ? lines[i] : std::string_view(); }
-  /// Does one of the lines begin so, whatever the case?
+  /// Whether one of the lines begins like this, in whatever case.
   [[nodiscard]] bool has_line(std::string_view begin) const {
     return std::ranges::any_of(lines, [&](std::string_view line) { return equal_ignoring_case(line.substr(0, begin.size()), begin); });
   }
@@ -67,7 +67,7 @@ bool all_whole(std::span<const std::string_view> some) {
   return std::ranges::all_of(some, [](std::string_view word) { return whole(word).value_or(-1) >= 0; });
 }
 
-/// "112 178 44": vertices, triangles, edges; then x, y and a label a line.
+/// Recognises FreeFEM, by "112 178 44": vertices, triangles, edges; then x, y and a label on each line.
 bool is_freefem(const Head& h) {
   if (!h.is(".msh") && !h.is(".mesh")) return false;
   const auto counts = words(h.line(0)), vertex = words(h.line(1));
@@ -87,7 +87,7 @@ bool is_tecplot(const Head& h) {
   return sets("TITLE") || sets("VARIABLES") || (begins(h.line(0), "ZONE ") && h.line(0).find('=') != std::string_view::npos);
 }
 
-/// AVS UCD: behind comments, five counts.
+/// Recognises AVS UCD: behind comments, five counts.
 bool is_ucd(const Head& h) {
   if (!h.is(".inp") && !h.is(".avs")) return false;
   for (const std::string_view line : h.lines) {
@@ -106,7 +106,7 @@ bool is_gid(const Head& h) {
   });
 }
 
-/// Nemoh, a code for waves: "2" and whether the mesh is half of one; then nodes by number.
+/// Recognises Nemoh, a code for waves: "2" and whether the mesh is half of one; then nodes by number.
 bool is_nemoh(const Head& h) {
   const auto head = words(h.line(0)), first = words(h.line(1)), second = words(h.line(2));
   return h.is(".dat") && head.size() == 2 && head[0] == "2" && (head[1] == "0" || head[1] == "1") && first.size() == 4 &&
@@ -115,7 +115,7 @@ bool is_nemoh(const Head& h) {
 
 bool is_fvcom(const Head& h) { return begins(h.line(0), "Node Number") && h.line(0).find('=') != std::string_view::npos; }
 
-/// A part of a mesh of Elmer: mesh.header, mesh.nodes, mesh.elements, mesh.boundary.
+/// Recognises a part of a mesh of Elmer: mesh.header, mesh.nodes, mesh.elements, mesh.boundary.
 bool is_elmer(const Head& h) {
   const auto first = words(h.line(0));
   if (h.is(".header")) return first.size() == 3 && all_whole(first);
@@ -141,10 +141,10 @@ constexpr std::string_view kMeshio = "convert it with meshio to .vtu",
                            kElmer = "'ElmerGrid 2 5' on its folder makes a .vtu of it";
 
 struct Foreign {
-  std::string_view name;  // "an MFEM mesh"
+  std::string_view name;  // name such as "an MFEM mesh"
   std::string_view advice;
   bool (*is)(const Head&);
-  std::string_view read_as = {};  // the extension of a reader that may be there, which has told what is wrong by itself
+  std::string_view read_as = {};  // extension of a reader that may be there, and has then reported an error itself
 };
 
 constexpr std::array kForeign{

@@ -1,5 +1,5 @@
 #pragma once
-// Files of formats that are not read here, recognised by how they begin, so that a message can say what the file is and what to do with it.
+// Formats that are not read, recognised by the begin of a file, so that a message can name the format and a remedy.
 
 #include <filesystem>
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace dmoscope {
 
-/// What a file is that no reader took, and how to get a mesh from it that one takes: "this is an MFEM mesh, which is not read: save it
-/// ..." Empty if nobody knows. `extension`: ".msh", whatever its case. Looks at the first 64 kB only.
+/// Sentence on a file that no reader accepted, and how to convert it: "this is an MFEM mesh, which is not read: save it ..." Empty if its
+/// format is unknown. `extension`: ".msh", in whatever case. Examines only the first 64 kB.
 [[nodiscard]] std::string foreign_format(std::string_view bytes, std::string_view extension);
 /// Names the format of a folder whose files no reader takes, and says how to convert it; empty for a file and for an unknown format.
 [[nodiscard]] std::string foreign_folder(const std::filesystem::path& path);

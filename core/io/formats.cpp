@@ -23,7 +23,7 @@
 namespace dmoscope {
 namespace {
 
-/// Reads by a handler. An error in a file that is of another format altogether says which.
+/// Reads by a handler. For a file of another format the error names that.
 Mesh read_by(const FormatHandler& handler, SourceFile& source, const IoContext& context) {
   try {
     return handler.read(source, context);
@@ -35,9 +35,9 @@ Mesh read_by(const FormatHandler& handler, SourceFile& source, const IoContext& 
   }
 }
 
-/// Things of one kind that a format cannot carry: one sentence for all of them.
+/// Objects of one kind that a format cannot hold: one sentence for all of them.
 struct DroppedThings {
-  std::string kind, of;  // "field", " of the vertices"
+  std::string kind, of;  // words such as "field", " of the vertices"
   std::vector<std::string> names;
 
   [[nodiscard]] std::string sentence(std::string_view format_title) const {
@@ -56,12 +56,12 @@ void add_dropped(std::vector<DroppedThings>& all, std::string_view kind, std::st
   all.push_back({std::string(kind), std::string(of), {name}});
 }
 
-/// Are the bytes of the source all that a mesh of this format needs, but for the coordinates?
+/// Whether the source's bytes are all that a mesh of this format needs, except for the coordinates.
 bool can_patch(const Mesh& mesh, const FormatHandler& handler) {
   return mesh.source && mesh.source->format() == handler.info.name && mesh.source->not_patchable().empty();
 }
 
-/// Volume elements that were turned over after reading.
+/// Number of volume elements that were turned over after reading.
 std::size_t turned_volumes(const Mesh& mesh) {
   std::size_t turned = 0;
   for (std::size_t e = 0; e < mesh.flipped.size(); ++e) {
@@ -88,7 +88,7 @@ Notes write_anew(AtomicFile& file, const FormatHandler& handler, const Mesh& mes
   return notes;
 }
 
-/// Behind binary data nothing of another kind may stand.
+/// Appends a comment, except behind binary data, where none is possible.
 void add_comment(AtomicFile& file, const FormatHandler& handler, const Mesh& mesh, std::string_view comment, Notes& notes) {
   const bool binary = can_patch(mesh, handler) && mesh.source->layout().binary && handler.info.name == "off";
   const std::string text = binary ? std::string() : trailing_comment(handler.info.name, comment);
@@ -96,7 +96,7 @@ void add_comment(AtomicFile& file, const FormatHandler& handler, const Mesh& mes
   file.write(text);
 }
 
-/// Both files of a format that has two must be there; the error names the one that was asked for.
+/// Throws unless both files of a format with two exist; the error names the one that was asked for.
 void require_both(const std::filesystem::path& path, const FormatHandler* handler) {
   if (handler == nullptr || handler->companion == nullptr) return;
   const std::filesystem::path main = main_path(path, handler);
@@ -108,7 +108,7 @@ void require_both(const std::filesystem::path& path, const FormatHandler* handle
   }
 }
 
-/// See written_format().
+/// Handler of written_format().
 const FormatHandler* written_by(const std::filesystem::path& path, const Mesh& mesh) {
   const FormatHandler* named = by_extension(mesh_extension(path));
   if (named == nullptr || !mesh.source || !equal_ignoring_case(mesh_extension(mesh.source->path()), mesh_extension(path))) return named;
@@ -116,7 +116,7 @@ const FormatHandler* written_by(const std::filesystem::path& path, const Mesh& m
   return found == format_handlers().end() ? named : *found;
 }
 
-/// Nothing that the mesh was read from may be replaced, unless the mesh is written to where it was.
+/// Throws if a file that the mesh was read from would be replaced, unless the mesh is written to its own path.
 void require_not_read(const std::filesystem::path& path, const Mesh& mesh) {
   if (!mesh.source || same_mesh(path, mesh.source->path())) return;
   if (const std::filesystem::path file = replaced_file(path, mesh.source->path()); !file.empty())
@@ -258,7 +258,7 @@ std::vector<std::string> write_commented_mesh(const std::filesystem::path& path,
     notes.push_back(fmt::format("Written as {}, which {} is.", handler->info.title, mesh.source->path().filename().string()));
   if (!comment.empty()) add_comment(file, *handler, mesh, comment, notes);
   progress.check();
-  // Nothing can make two renames one; what can fail has been done by now.
+  // Renames last, since two renames cannot be made atomic: everything that can fail is done by now.
   if (second) second->finish();
   file.finish();
   for (const AtomicFile* one : {&file, second ? &*second : nullptr})

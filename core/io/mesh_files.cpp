@@ -1,4 +1,4 @@
-// The files that a mesh has on the disk, and which of them may be replaced.
+// Files of a mesh on disk, and which of them may be replaced.
 
 #include <algorithm>
 #include <fstream>
@@ -15,7 +15,7 @@
 namespace dmoscope {
 namespace {
 
-/// Of a mesh that is read from more than one file.
+/// Further files of a mesh that is read from more than one.
 std::vector<std::filesystem::path> further_files(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return {};
@@ -35,12 +35,12 @@ std::vector<std::filesystem::path> further_files(const std::filesystem::path& pa
     const SourceFile source(path, read_unpacked(path, context, size));
     const FormatHandler& handler = format_of(path, source.bytes());
     if (handler.further != nullptr) return handler.further(source, context);
-  } catch (const std::exception&) {  // who reads it is told
+  } catch (const std::exception&) {  // ignored: reading the mesh reports it
   }
   return {};
 }
 
-/// One name for a file, whatever links lead to it.
+/// The real name of a file, with all links followed.
 std::filesystem::path real_path(const std::filesystem::path& path) {
   std::error_code error;
   return std::filesystem::weakly_canonical(std::filesystem::absolute(path), error);
@@ -103,7 +103,7 @@ void FormerMesh::settle(Notes& notes) const {
   std::vector<std::string> removed, left;
   for (const std::filesystem::path& file : files_) {
     if (!std::filesystem::exists(file, error) || present.contains(file)) continue;
-    // A piece under a name that we give belonged to that file alone; what else was named may serve others, too.
+    // Removes only pieces under a name that the writer gives, which belonged to that file alone; others may serve other files, too.
     const bool ours = equal_ignoring_case(file.extension().string(), ".vtu") && may_write(path_, file);
     (ours && std::filesystem::remove(file, error) ? removed : left).push_back(file.filename().string());
   }

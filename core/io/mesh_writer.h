@@ -1,5 +1,5 @@
 #pragma once
-// Base of the writers that make a file of a text format anew.
+// Base of the writers of new files in text formats.
 
 #include <algorithm>
 #include <span>
@@ -16,7 +16,7 @@ namespace dmoscope {
 
 class MeshWriter {
  protected:
-  /// `title`: of the format; `strings_as`: what boundary strings are written as, see groups_with_edges(); empty: no groups are written.
+  /// Begins a file. `title`: of the format; `strings_as`: form of boundary strings, see groups_with_edges(); empty: no groups are written.
   MeshWriter(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context, std::string_view title,
              std::string_view strings_as = {})
       : out_(file, context), mesh_(mesh), positions_(positions), title_(title) {
@@ -28,11 +28,11 @@ class MeshWriter {
   [[nodiscard]] bool is_volume() const {
     return std::ranges::any_of(mesh_.elements.kinds(), [](ElementKind kind) { return info(kind).dimension == 3; });
   }
-  /// A planar mesh in the plane z = 0.
+  /// Whether the mesh is planar and in the plane z = 0.
   [[nodiscard]] bool is_flat() const {
     return !is_volume() && std::ranges::all_of(positions_, [](Vec3 p) { return p.z == 0.0; });
   }
-  /// Call it at the end.
+  /// Completes the notes, at the end of the file.
   [[nodiscard]] Notes finish() {
     out_.finish();
     note_dropped(mesh_, kept_fields_, kept_groups_, title_, notes_);
@@ -44,8 +44,8 @@ class MeshWriter {
   std::span<const Vec3> positions_;
   std::string_view title_;
   Notes notes_;
-  std::vector<Group> groups_;  // the mesh's, boundary strings by their edges
-  std::vector<int> numbers_;   // of groups
+  std::vector<Group> groups_;  // groups of the mesh, boundary strings by their edges
+  std::vector<int> numbers_;   // numbers of the groups
   std::vector<std::size_t> kept_fields_, kept_groups_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Nodes and elements that a file calls by numbers of its own: with gaps, in any order, elements perhaps before the nodes they name.
+// Nodes and elements that a file numbers itself: with gaps, in any order, elements perhaps before their nodes.
 
 #include <cstdint>
 #include <span>
@@ -15,18 +15,18 @@ namespace dmoscope {
 
 class NumberedMesh {
  public:
-  /// `source` must outlive this; it gets the places of the nodes.
+  /// Begins a mesh. `source` must outlive this; it gets the offsets of the nodes.
   explicit NumberedMesh(SourceFile& source) : source_(source) {}
 
-  /// `place`: byte offset of the node's coordinates.
+  /// Adds a node. `place`: byte offset of its coordinates.
   void add_node(std::int32_t number, Vec3 position, std::size_t place);
-  /// corners_of(shape) node numbers; `place`: byte offset of the element.
+  /// Adds a cell with corners_of(shape) node numbers; `place`: byte offset of the element.
   void add_cell(std::int32_t number, CellShape shape, std::span<const std::int32_t> nodes, std::uint32_t origin, std::size_t place);
-  /// Call it when all are there: gives the mesh its positions, and finds every node that an element names. Throws InputError at the line
-  /// of a node or element whose number is taken, or of an element that names a node which is not there.
+  /// Gives the mesh its positions, and looks up the nodes of all elements; to be called after all are added. Throws InputError at the line
+  /// of a node or element with a repeated number, or of an element that names a missing node.
   void finish(Mesh& mesh);
 
-  // After finish().
+  // --- Valid after finish() ---
   [[nodiscard]] const CellTable& cells() const noexcept { return cells_; }
   /// The vertex of a node's number, kNoIndex if there is none.
   [[nodiscard]] Index vertex(std::int64_t number) const noexcept { return node_tags_.find(number); }
@@ -44,10 +44,10 @@ class NumberedMesh {
   SourceFile& source_;
   std::vector<Vec3> positions_;
   std::vector<std::int32_t> node_numbers_, cell_numbers_;
-  std::vector<std::int32_t> corners_;  // numbers of nodes, of all cells one after the other
+  std::vector<std::int32_t> corners_;  // node numbers of all cells, one after the other
   std::vector<CellShape> shapes_;
   std::vector<std::uint32_t> origins_;
-  std::vector<std::uint64_t> places_;  // of cells
+  std::vector<std::uint64_t> places_;  // byte offsets of the cells
   TagPlaces node_tags_, cell_tags_;
   CellTable cells_;
 };

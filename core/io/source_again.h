@@ -1,5 +1,5 @@
 #pragma once
-// Which way write_mesh() goes.
+// Choice between patching and writing a new file.
 
 #include <filesystem>
 
@@ -7,8 +7,8 @@
 
 namespace dmoscope {
 
-/// Does write_mesh() write the bytes of mesh.source to `path` again, with the coordinates replaced in which its positions differ from
-/// mesh.positions, which have to be the file's? Else it makes the file anew.
+/// Whether write_mesh() writes the bytes of mesh.source to `path` again, with changed coordinates replaced; mesh.positions must be the
+/// file's own. Otherwise it writes a new file.
 [[nodiscard]] bool writes_source_again(const std::filesystem::path& path, const Mesh& mesh);
 
 }  // namespace dmoscope

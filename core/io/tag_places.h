@@ -1,5 +1,5 @@
 #pragma once
-// From the numbers (Gmsh's tags) that a file gives its nodes and elements to their places: they may have gaps and come in any order.
+// Lookup of nodes and elements by the numbers (Gmsh's tags) that a file gives them: with gaps and in any order.
 
 #include <cstdint>
 #include <optional>
@@ -10,8 +10,7 @@
 
 namespace dmoscope {
 
-/// Add all tags in the order of the things that have them, call finish(), then find(). Tags that count on one after the other take no
-/// memory.
+/// Places of tags. Add all tags in the order of their places, call finish(), then find(). Consecutive tags take no memory.
 class TagPlaces {
  public:
   void add(std::int64_t tag) {
@@ -20,12 +19,12 @@ class TagPlaces {
     if (!consecutive_) tags_.push_back(tag);
     ++count_;
   }
-  /// The place of a tag that another one had before it, if there is such a one; the first counts.
-  /// Done once; nothing when called again.
+  /// Completes the lookup. Returns the place of a tag that an earlier place has, too, if there is one; the earlier one counts. Does nothing
+  /// when called again.
   std::optional<Index> finish();
   /// The place of a tag, kNoIndex if there is none.
   [[nodiscard]] Index find(std::int64_t tag) const noexcept;
-  /// Are they 1, 2, 3, ...?
+  /// Whether the tags are 1, 2, 3, ...
   [[nodiscard]] bool count_from_one() const noexcept { return consecutive_ && (count_ == 0 || first_ == 1); }
   [[nodiscard]] std::size_t size() const noexcept { return count_; }
 
@@ -35,10 +34,10 @@ class TagPlaces {
   std::size_t count_ = 0;
   std::int64_t first_ = 1;
   bool consecutive_ = true;
-  std::vector<std::int64_t> tags_;                      // of all, unless they are consecutive
-  std::int64_t least_ = 0;                              // what dense_ begins with
-  std::vector<Index> dense_;                            // by tag, where there are few gaps
-  std::vector<std::pair<std::int64_t, Index>> sorted_;  // by tag, where there are many
+  std::vector<std::int64_t> tags_;                      // all tags, unless they are consecutive
+  std::int64_t least_ = 0;                              // tag of the first entry of dense_
+  std::vector<Index> dense_;                            // places by tag, if there are few gaps
+  std::vector<std::pair<std::int64_t, Index>> sorted_;  // places by tag, if there are many gaps
 };
 
 }  // namespace dmoscope

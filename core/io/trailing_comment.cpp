@@ -9,7 +9,7 @@ namespace {
 struct Comment {
   std::string_view format, begin, end;
 };
-/// PLY and VTK have theirs in the head alone, STL none; in a fort.14 what follows the boundaries may be more of ADCIRC's.
+/// Comments by format. PLY and VTK have them in the head only, STL has none; in a fort.14 further ADCIRC input may follow the boundaries.
 constexpr std::array<Comment, 7> kComments{{{"off", "# ", "\n"},
                                             {"obj", "# ", "\n"},
                                             {"su2", "% ", "\n"},

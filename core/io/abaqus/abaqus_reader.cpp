@@ -1,4 +1,4 @@
-// Reads Abaqus' input files: keywords that begin with a star and lines of data below them.
+// Reader of Abaqus' input files: keywords that begin with a star and lines of data below them.
 
 #include <algorithm>
 #include <array>
@@ -20,7 +20,7 @@ namespace {
 constexpr TextSyntax kAbaqusSyntax{.comma_is_blank = true};
 
 struct Family {
-  std::string_view prefix;  // before the number of nodes
+  std::string_view prefix;  // name up to the number of nodes
   int dimension;
 };
 constexpr std::array kFamilies{Family{"C3D", 3},   Family{"DC3D", 3},  Family{"AC3D", 3},  Family{"COH3D", 3},  Family{"SC", 3},
@@ -30,22 +30,22 @@ constexpr std::array kFamilies{Family{"C3D", 3},   Family{"DC3D", 3},  Family{"A
                                Family{"COHAX", 2}, Family{"DCC2D", 2}, Family{"DCCAX", 2}, Family{"STRI", 2},   Family{"M3D", 2},
                                Family{"R3D", 2},   Family{"SFM3D", 2}, Family{"DS", 2},    Family{"WARPF2D", 2}};
 
-/// "*Element, type=C3D8, elset=Body": the keyword and what its parameters are.
+/// A keyword with its parameters, such as "*Element, type=C3D8, elset=Body".
 struct Keyword {
-  std::string name;  // in capitals, one blank between its words
+  std::string name;  // in capitals, with one blank between its words
   std::vector<std::pair<std::string, std::string_view>> parameters;
 
   [[nodiscard]] bool has(std::string_view parameter) const {
     return std::ranges::any_of(parameters, [&](const auto& p) { return p.first == parameter; });
   }
-  /// Empty if there is none.
+  /// Value of a parameter; empty if there is none.
   [[nodiscard]] std::string_view value(std::string_view parameter) const {
     const auto found = std::ranges::find(parameters, parameter, [](const auto& p) { return std::string_view(p.first); });
     return found == parameters.end() ? std::string_view() : found->second;
   }
 };
 
-/// In capitals, blanks between words as one, those around left out.
+/// Words in capitals, with single blanks between them and none around.
 std::string in_capitals(std::string_view words) {
   std::string result;
   for (const char c : abaqus_key(trimmed(words))) {
@@ -119,7 +119,7 @@ class AbaqusReader {
     }
   }
 
-  /// Parts, assembly and instances. False: the keyword is none of these.
+  /// Handles keywords of parts, assembly and instances. False: the keyword is none of these.
   bool structure(const Keyword& keyword) {
     const std::string& name = keyword.name;
     if (name == "PART") {
@@ -140,7 +140,7 @@ class AbaqusReader {
     return true;
   }
 
-  /// Nodes or elements that the file does not list.
+  /// Refuses keywords that generate nodes or elements, which the file then does not list.
   void refuse_generators(const std::string& name) const {
     constexpr std::array<std::string_view, 8> kGenerators{"NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM", "PARAMETER"};
     if (name == "INCLUDE") lines_.fail("*INCLUDE: files in several parts are not read; put all into one");
@@ -160,7 +160,7 @@ class AbaqusReader {
     }
   }
 
-  /// Nodes, elements and sets of the assembly itself (reference points) are called by numbers that the part's may have, too.
+  /// Skips nodes, elements and sets of the assembly itself (reference points): their numbers may be those of the part's, too.
   bool of_the_assembly() {
     if (scope_.empty() || in_instance_) return false;
     source_.add_only_in_file("reference points and connectors of the assembly");
@@ -203,7 +203,7 @@ class AbaqusReader {
     const std::string_view name = keyword.value(keyword.name);
     if (name.empty()) lines_.fail(fmt::format("*{} without {}=", keyword.name, keyword.name));
     if (!keyword.has("INSTANCE") && of_the_assembly()) return;
-    if (keyword.has("ELSET") && of_nodes) return say_other("NSET");  // the nodes of elements
+    if (keyword.has("ELSET") && of_nodes) return say_other("NSET");  // a set of the elements' nodes
     of_ = of_nodes ? AbaqusSets::Of::Nodes : AbaqusSets::Of::Elements;
     set_ = &sets_.set(of_, scope_, name, !keyword.has("INTERNAL"));
     generate_ = keyword.has("GENERATE");
@@ -263,7 +263,7 @@ class AbaqusReader {
     if (set_ != nullptr) set_->add(number);
   }
 
-  /// An element may go on over several lines.
+  /// Reads an element, which may continue over several lines.
   void element() {
     auto fields = lines_.fields();
     if (!element_) {
@@ -293,7 +293,8 @@ class AbaqusReader {
     element_.reset();
   }
 
-  /// Masses are points, trusses and beams lines; what else is no triangle, quadrilateral or volume element is passed over.
+  /// Ends an element of another type: masses are points, trusses and beams lines; others that are no triangle, quadrilateral or volume
+  /// element are skipped.
   void end_other_element() {
     if (nodes_.size() == 1) return add_element(CellShape::Point);
     if (nodes_.size() == 2) return add_element(CellShape::Line);
@@ -327,11 +328,11 @@ class AbaqusReader {
     }
   }
 
-  /// A number, or the name of another set.
+  /// Adds a number, or the members of the set with this name.
   void add_member(AbaqusSet& set, AbaqusSets::Of of, std::string_view field) {
     if (is_number(field)) return set.add(lines_.label(field, "the number of a member"));
     if (const AbaqusSet* other = sets_.find(of, scope_, field)) return set.add(*other);
-    const std::size_t dot = field.rfind('.');  // Part-1-1.7
+    const std::size_t dot = field.rfind('.');  // name such as Part-1-1.7
     if (dot != std::string_view::npos && is_number(field.substr(dot + 1))) {
       return set.add(lines_.label(field.substr(dot + 1), "the number of a member"));
     }
@@ -362,27 +363,27 @@ class AbaqusReader {
   NumberedMesh numbered_;
   AbaqusSets sets_;
   Mesh mesh_;
-  bool begun_ = false;  // was there a keyword?
+  bool begun_ = false;  // whether there was a keyword
   Block block_ = Block::Other;
-  std::string scope_;  // "ASSEMBLY" in it
+  std::string scope_;  // "ASSEMBLY" within the assembly
   int parts_ = 0, part_of_nodes_ = 0, instances_ = 0;
   bool in_instance_ = false;
-  std::size_t coordinates_ = 0;  // of a node: 2 or 3
+  std::size_t coordinates_ = 0;  // coordinates of a node: 2 or 3
   std::vector<std::string> types_, other_;
   std::string passed_over_;
-  // State of the block that is being read:
+  // --- State of the present block ---
   AbaqusSet* set_ = nullptr;
   AbaqusSets::Of of_ = AbaqusSets::Of::Nodes;
   bool generate_ = false;
   AbaqusSets::Surface* surface_ = nullptr;
   AbaqusType type_;
   std::uint32_t origin_ = 0;
-  std::optional<std::int32_t> element_;  // that is being read
+  std::optional<std::int32_t> element_;  // number of the present element
   std::size_t element_begin_ = 0;
   std::vector<std::int32_t> nodes_;
 };
 
-/// The first keyword is one that Abaqus' files begin with.
+/// Whether the first keyword is one that Abaqus' files begin with.
 bool recognises_abaqus(std::string_view bytes) {
   constexpr std::array<std::string_view, 7> kFirst{"HEADING", "NODE", "PART", "PREPRINT", "ELEMENT", "NSET", "INCLUDE"};
   while (!bytes.empty()) {

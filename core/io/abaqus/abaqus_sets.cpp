@@ -12,7 +12,7 @@
 namespace dmoscope {
 namespace {
 
-/// Calls each(number) for what a set lists and the file has, some perhaps twice. `numbers`: all that the file has.
+/// Calls each(number) for the numbers in a set that exist in the file, some perhaps twice. `numbers`: all numbers in the file.
 template <class Each>
 void for_numbers(const AbaqusSet& set, std::span<const std::int32_t> numbers, Each each) {
   for (const AbaqusSet::Range& range : set.ranges()) {
@@ -27,7 +27,7 @@ void for_numbers(const AbaqusSet& set, std::span<const std::int32_t> numbers, Ea
   }
 }
 
-/// Makes groups, and looks that they do not hold many times what the file is worth: a range of a few bytes may name every element.
+/// Makes groups, and limits their size against that of the file: a range of a few bytes may name every element.
 class GroupMaker {
  public:
   GroupMaker(const NumberedMesh& numbered, std::span<const Index> elements, Mesh& mesh, SourceFile& source)
@@ -91,7 +91,7 @@ class GroupMaker {
     add(std::move(parts), surface.name, kAbaqusSurface);
   }
 
-  /// Cells of fewer dimensions that no set holds.
+  /// Adds groups of cells of fewer dimensions that are in no set.
   void rest(std::span<const std::string> types) {
     for (std::size_t type = 0; type < types.size(); ++type) {
       Parts parts;
@@ -144,7 +144,7 @@ class GroupMaker {
     }
   }
 
-  /// False: it has no such side.
+  /// Adds a side of a cell. False: it has no such side.
   bool add_side(Parts& parts, Index cell, std::string_view side) {
     const auto kind = kind_of(numbered_.cells().shape(cell));
     if (!kind || side.empty()) return false;
@@ -161,7 +161,7 @@ class GroupMaker {
       parts.edges.insert(parts.edges.end(), {of_cell[number], of_cell[(number + 1) % of_cell.size()]});
       return true;
     }
-    // Abaqus numbers the faces of all its solids as faces_of() does, and lists each seen from inside.
+    // Abaqus numbers the faces of all its solids like faces_of(), and lists each as seen from inside.
     if (number >= faces_of(*kind).size()) return false;
     const LocalFace& face = faces_of(*kind)[number];
     std::array<Index, 4> vertices{};
@@ -189,8 +189,8 @@ class GroupMaker {
   Mesh& mesh_;
   SourceFile& source_;
   std::size_t room_;
-  std::vector<std::uint8_t> in_set_;  // cells
-  std::vector<std::size_t> offsets_;  // of cells' corners
+  std::vector<std::uint8_t> in_set_;  // by cell
+  std::vector<std::size_t> offsets_;  // offsets of the cells' corners
 };
 
 }  // namespace
@@ -211,7 +211,7 @@ void AbaqusSet::add(std::int32_t number) {
 }
 
 void AbaqusSet::add(const AbaqusSet& other) {
-  const std::vector<Range> copy = other.ranges_;  // it may be this very set
+  const std::vector<Range> copy = other.ranges_;  // copied, since it may be the same set
   ranges_.insert(ranges_.end(), copy.begin(), copy.end());
 }
 
@@ -220,7 +220,7 @@ void AbaqusSet::tidy() {
   std::vector<std::size_t> order(ranges_.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return ranges_[a] < ranges_[b]; });
-  // Not std::ranges::unique: clang 14 cannot compile it.
+  // Avoids std::ranges::unique, which clang 14 cannot compile.
   const auto same = std::unique(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return ranges_[a] == ranges_[b]; });
   order.erase(same, order.end());
   std::ranges::sort(order);
@@ -261,7 +261,7 @@ AbaqusSets::Surface& AbaqusSets::add_surface(std::string name, bool of_nodes) {
 
 void AbaqusSets::add_groups(const NumberedMesh& numbered, std::span<const Index> elements, std::span<const std::string> types, Mesh& mesh,
                             SourceFile& source) const {
-  constexpr std::size_t kMostGroups = 4096;  // what lists and colours of groups are made for
+  constexpr std::size_t kMostGroups = 4096;  // greatest number that lists and colours of groups are designed for
   GroupMaker maker(numbered, elements, mesh, source);
   for (const Entry& entry : entries_) {
     if (mesh.groups.size() >= kMostGroups) {

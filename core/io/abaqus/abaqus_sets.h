@@ -1,5 +1,5 @@
 #pragma once
-// Sets and surfaces of an Abaqus file, and the groups that they become.
+// Sets and surfaces of an Abaqus file, and the groups made of them.
 
 #include <cstdint>
 #include <deque>
@@ -15,7 +15,7 @@
 
 namespace dmoscope {
 
-/// Numbers of nodes or elements, as the file lists them.
+/// Numbers of nodes or elements in the form that the file has: ranges.
 class AbaqusSet {
  public:
   struct Range {
@@ -25,7 +25,7 @@ class AbaqusSet {
   void add(std::int32_t number);
   void add(Range range) { ranges_.push_back(range); }
   void add(const AbaqusSet& other);
-  /// Takes out what is listed twice.
+  /// Removes repeated ranges.
   void tidy();
   [[nodiscard]] const std::vector<Range>& ranges() const noexcept { return ranges_; }
 
@@ -36,15 +36,15 @@ class AbaqusSet {
 class AbaqusSets {
  public:
   enum class Of { Nodes, Elements };
-  /// The set of a name, made if it is new; names differ by more than the case of letters. `scope`: where the file defines it, the part
-  /// ("") or the assembly. `shown`: does it become a group?
+  /// The set of a name, created if it is new; case does not distinguish names. `scope`: where the file defines it, the part ("") or the
+  /// assembly. `shown`: whether it becomes a group.
   AbaqusSet& set(Of of, std::string_view scope, std::string_view name, bool shown);
-  /// Null if there is none. A name with its instance before it (Part-1-1.Set) is known without, too.
+  /// The set of a name; null if there is none. A name with its instance before it (Part-1-1.Set) is also found without that.
   [[nodiscard]] const AbaqusSet* find(Of of, std::string_view scope, std::string_view name) const;
 
   struct SurfaceItem {
     AbaqusSet set;
-    std::string side;  // "S1", "SPOS", "E2"; upper case
+    std::string side;  // side such as "S1", "SPOS", "E2"; upper case
   };
   struct Surface {
     std::string name;
@@ -53,9 +53,8 @@ class AbaqusSets {
   };
   Surface& add_surface(std::string name, bool of_nodes);
 
-  /// Makes groups of all, in the order in which the file begins them. `types`: of elements by their origin: cells of fewer dimensions
-  /// than the mesh's elements that are in no set become groups by their type. `elements`: the element of every cell, kNoIndex if it is
-  /// none.
+  /// Makes groups of all sets and surfaces, in the order of the file. `types`: element types by origin: cells of fewer dimensions than the
+  /// mesh's elements that are in no set become groups by their type. `elements`: the element of every cell, kNoIndex if it is none.
   void add_groups(const NumberedMesh& numbered, std::span<const Index> elements, std::span<const std::string> types, Mesh& mesh,
                   SourceFile& source) const;
 
@@ -72,11 +71,11 @@ class AbaqusSets {
   };
   std::deque<Named> sets_;
   std::deque<Surface> surfaces_;
-  std::map<std::pair<Of, std::string>, Named*> by_name_;  // scope and name in capitals
+  std::map<std::pair<Of, std::string>, Named*> by_name_;  // by scope and name in capitals
   std::vector<Entry> entries_;
 };
 
-/// Without its quotes; letters in capitals where it had none.
+/// Key of a name, without its quotes; in capitals if it had none.
 [[nodiscard]] std::string abaqus_key(std::string_view name);
 
 }  // namespace dmoscope

@@ -1,4 +1,4 @@
-// Makes an Abaqus input file anew: nodes, elements, sets and surfaces.
+// Writer of new Abaqus input files: nodes, elements, sets and surfaces.
 
 #include <algorithm>
 #include <array>
@@ -33,7 +33,7 @@ class AbaqusWriter : MeshWriter {
   }
 
  private:
-  /// One line that is no keyword.
+  /// Heading in one line that is no keyword.
   [[nodiscard]] std::string heading() const {
     std::string text = mesh_.title.empty() ? mesh_.name : mesh_.title;
     for (char& c : text) {
@@ -63,12 +63,12 @@ class AbaqusWriter : MeshWriter {
   }
 
   [[nodiscard]] std::string_view type_of(ElementKind kind) const {
-    constexpr std::array<std::string_view, kElementKindCount> kInSpace{"S3", "S4", "C3D4", "C3D8", "C3D6", "C3D5"};  // in its order
+    constexpr std::array<std::string_view, kElementKindCount> kInSpace{"S3", "S4", "C3D4", "C3D8", "C3D6", "C3D5"};  // by ElementKind
     if (plane_ && info(kind).dimension == 2) return kind == ElementKind::Triangle ? "CPS3" : "CPS4";
     return kInSpace[static_cast<std::size_t>(kind)];
   }
 
-  /// In the mesh's order: a keyword for each run of one kind.
+  /// Writes the elements in the mesh's order, with a keyword for each run of one kind.
   void elements() {
     for (std::size_t first = 0; first < mesh_.elements.size();) {
       const ElementKind kind = mesh_.elements.kind(static_cast<Index>(first));
@@ -80,7 +80,7 @@ class AbaqusWriter : MeshWriter {
         for (const Index c : file_corners(mesh_, first + i)) out << ", " << c + 1;
         out << '\n';
       };
-      constexpr std::size_t kMany = 64;  // worth the threads
+      constexpr std::size_t kMany = 64;  // number of elements for which threads pay
       if (last - first >= kMany) {
         out_.for_each(last - first, [&](TextBuffer& part, std::size_t i) { line(part, i); });
       } else {
@@ -90,9 +90,9 @@ class AbaqusWriter : MeshWriter {
     }
   }
 
-  /// A name that Abaqus takes and no other set of this kind has.
+  /// A valid name that no other set of this kind has.
   std::string name_of(const Group& group, std::set<std::string>& taken) {
-    constexpr std::size_t kLongest = 70;  // of 80, with room for a number
+    constexpr std::size_t kLongest = 70;  // characters: 80 less room for a number
     std::string name = group.name.substr(0, kLongest);
     const auto letter = [](char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); };
     for (char& c : name) {
@@ -131,7 +131,7 @@ class AbaqusWriter : MeshWriter {
     }
   }
 
-  /// False: none of them is a side of an element.
+  /// Writes a surface. False: none of its faces or edges is a side of an element.
   bool surface(const Group& group, const std::vector<std::optional<ElementSide>>& sides, std::string_view plural, std::string_view letter) {
     const auto lost = static_cast<std::size_t>(std::ranges::count_if(sides, [](const auto& s) { return !s; }));
     if (lost == sides.size()) return false;
@@ -142,13 +142,13 @@ class AbaqusWriter : MeshWriter {
     out_ << "*SURFACE, TYPE=ELEMENT, NAME=" << name_of(group, surfaces_) << '\n';
     for (const std::optional<ElementSide>& side : sides) {
       if (!side) continue;
-      // The file has the element as it was before it was turned over.
+      // Undoes the reversal of an element, which the file has as it was read.
       out_ << side->element + 1 << ", " << letter << number_in_file(*side) << '\n';
     }
     return true;
   }
 
-  /// From 1: which of the element's sides in the file's own winding this is.
+  /// Number, from 1, of a side of the element in the file's own winding.
   [[nodiscard]] Index number_in_file(ElementSide side) const {
     if (mesh_.flipped.empty() || mesh_.flipped[side.element] == 0) return side.side + 1;
     ElementTable one;
@@ -163,7 +163,7 @@ class AbaqusWriter : MeshWriter {
     return side.side + 1;
   }
 
-  /// Edges of a volume mesh are sides of nothing.
+  /// Writes the vertices of edges in a volume mesh, which are no sides.
   void vertices_of_edges(std::size_t i) {
     std::vector<Index> members;
     std::set<Index> met;

@@ -20,12 +20,12 @@
 namespace dmoscope {
 namespace {
 
-constexpr std::size_t kMostSizes = 8;         // of an array
+constexpr std::size_t kMostSizes = 8;         // greatest number of sizes of an array
 constexpr std::size_t kMostText = 1U << 16U;  // bytes of an attribute
-constexpr const char* kNoName = "\x01";       // of no link
+constexpr const char* kNoName = "\x01";       // a name that no link has
 constexpr std::size_t kMostChildren = 1U << 20U;
 
-/// An identifier of the library, given back when it goes.
+/// An identifier of the library, closed in the destructor.
 class H5Id {
  public:
   H5Id(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
@@ -44,7 +44,7 @@ class H5Id {
   herr_t (*close_)(hid_t);
 };
 
-/// A name for a file in the system's folder for such, in a folder of its own; both go with it.
+/// A name for a file in a folder of its own, below the system's temporary folder; the destructor removes both.
 class ScratchFile {
  public:
   ScratchFile() {
@@ -69,7 +69,7 @@ struct NumberType {
   hid_t little, big;
 };
 
-/// The types of numbers that are read. H5T_... are names of variables that the library sets when it begins.
+/// Types of numbers that are read. H5T_... are variables that the library sets when it is initialised.
 std::array<NumberType, 10> number_types() {
   return {NumberType{ScalarType::Int8, H5T_STD_I8LE, H5T_STD_I8BE},        NumberType{ScalarType::UInt8, H5T_STD_U8LE, H5T_STD_U8BE},
           NumberType{ScalarType::Int16, H5T_STD_I16LE, H5T_STD_I16BE},     NumberType{ScalarType::UInt16, H5T_STD_U16LE, H5T_STD_U16BE},
@@ -90,7 +90,7 @@ std::optional<FileType> file_type(hid_t type) {
   return std::nullopt;
 }
 
-/// "coordx" for "/coordx": netCDF's arrays have no path.
+/// Name for messages: "coordx" for "/coordx", since netCDF's arrays have no path.
 std::string shown_name(const std::string& name) { return quote_token(name); }
 
 herr_t add_name(hid_t, const char* name, const H5L_info_t*, void* into) noexcept {
@@ -105,24 +105,24 @@ herr_t add_name(hid_t, const char* name, const H5L_info_t*, void* into) noexcept
 
 }  // namespace
 
-/// The open file, and the library for this thread alone as long as it is.
+/// The open file, with exclusive use of the library for this thread while it exists.
 class Hdf5File::Library {
  public:
   explicit Library(std::string_view bytes) : lock_(mutex()) {
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are told by ourselves
-    (void)H5Lunregister(H5L_TYPE_EXTERNAL);       // no other files
-    (void)H5PLset_loading_state(0);               // no filters from elsewhere
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // the program reports errors itself
+    (void)H5Lunregister(H5L_TYPE_EXTERNAL);       // refuses other files
+    (void)H5PLset_loading_state(0);               // refuses filters from elsewhere
     open(bytes);
   }
   ~Library() { (void)close(); }
   Library(const Library&) = delete;
   Library& operator=(const Library&) = delete;
-  /// Opens a file on disk instead, to be changed.
+  /// Opens a file on disk instead, for changes.
   void reopen(const std::filesystem::path& path) {
     (void)close();
     file_ = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
   }
-  /// All that was written is in the file then. False where that failed.
+  /// Closes the file, and thereby writes all changes. False if that failed.
   [[nodiscard]] bool close() noexcept {
     const bool closed = file_ < 0 || H5Fclose(file_) >= 0;
     file_ = H5I_INVALID_HID;
@@ -135,11 +135,11 @@ class Hdf5File::Library {
     const H5Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     constexpr std::size_t kGrowth = 1U << 20U;
     if (H5Pset_fapl_core(access, kGrowth, 0) < 0 || H5Pset_fclose_degree(access, H5F_CLOSE_STRONG) < 0) return;
-    // The library copies it: nothing is written there.
+    // The library copies the image and never writes to it.
     if (H5Pset_file_image(access, const_cast<char*>(bytes.data()), bytes.size()) < 0) throw std::bad_alloc();
     file_ = H5Fopen("image", H5F_ACC_RDONLY, access);
   }
-  /// Several files may be open in one thread.
+  /// Mutex for the library; recursive, since several files may be open in one thread.
   static std::recursive_mutex& mutex() {
     static std::recursive_mutex one;
     return one;
@@ -180,7 +180,7 @@ class Hdf5File::Array {
   [[nodiscard]] bool is_number() const noexcept { return number_.has_value(); }
   [[nodiscard]] std::size_t text_bytes() const noexcept { return text_bytes_; }
 
-  /// The numbers from where `first` says on, into memory of a type.
+  /// Reads the numbers with these first indices into memory of a type.
   void read(hid_t memory, std::span<const std::uint64_t> first, void* into, std::uint64_t count) const {
     herr_t result = -1;
     if (first.empty()) {
@@ -200,7 +200,7 @@ class Hdf5File::Array {
     if (result < 0) fail("it cannot be unpacked: damaged, or packed by a filter that is not there");
   }
 
-  /// Where its numbers lie in the file's bytes, if they do one behind the other.
+  /// Offset of the numbers in the file's bytes, if they are contiguous there.
   [[nodiscard]] std::optional<std::uint64_t> place(std::string_view bytes, std::span<const double> numbers) const {
     if (layout_ != H5D_CONTIGUOUS || !number_) return std::nullopt;
     const haddr_t offset = H5Dget_offset(id_);
@@ -236,7 +236,7 @@ class Hdf5File::Array {
   H5Id id_;
   H5D_layout_t layout_ = H5D_COMPACT;
   std::optional<FileType> number_;
-  std::size_t text_bytes_ = 0;  // of one piece of text; 0: it is none
+  std::size_t text_bytes_ = 0;  // bytes of one piece of text; 0: no text
 };
 
 Hdf5File::Hdf5File(std::string_view bytes, std::string file, const IoContext& context)
@@ -289,7 +289,7 @@ std::vector<std::int64_t> Hdf5File::wholes(const std::string& name) {
 std::string Hdf5File::text(const std::string& name) {
   const Array array(*this, name);
   if (array.text_bytes() == 0) array.fail("it holds no text");
-  const std::uint64_t count = array.info.count();  // bytes: the text's own length is its last size
+  const std::uint64_t count = array.info.count();  // counts bytes: the length of the text is the last size
   take_room(count, 1);
   std::string all(count, '\0');
   const H5Id type(H5Dget_type(array.id()), H5Tclose);
@@ -339,10 +339,10 @@ std::vector<std::string> Hdf5File::children(const std::string& group) {
   unsigned order = 0;
   const H5_index_t index =
       H5Pget_link_creation_order(properties, &order) >= 0 && (order & H5P_CRT_ORDER_INDEXED) != 0 ? H5_INDEX_CRT_ORDER : H5_INDEX_NAME;
-  // In order of its own, for the table that it sorts is freed where reading it failed before it was filled (1.10.8).
+  // Reads in native order and sorts here: the library's own sorted table is freed uninitialised if reading it fails (1.10.8).
   H5G_info_t info{};
   const bool dense = H5Gget_info(id, &info) >= 0 && info.storage_type == H5G_STORAGE_TYPE_DENSE;
-  const bool sound = H5Lexists(id, kNoName, H5P_DEFAULT) >= 0;  // all links of a small group decode
+  const bool sound = H5Lexists(id, kNoName, H5P_DEFAULT) >= 0;  // whether all links of a small group can be decoded
   hsize_t at = 0;
   if (!sound || H5Literate(id, index, dense ? H5_ITER_NATIVE : H5_ITER_INC, &at, add_name, &names) < 0) {
     fail(fmt::format("group {}: damaged", shown_name(group)));
@@ -355,7 +355,7 @@ bool Hdf5File::opens(const std::string& name) const { return H5Id(H5Oopen(librar
 
 std::string Hdf5File::replaced(std::span<const ArrayValues> arrays) {
   std::string whole(bytes());
-  bool packed = false;  // or in pieces
+  bool packed = false;  // whether an array is packed or in chunks
   for (const ArrayValues& values : arrays) {
     const std::vector<double> before = numbers(values.name);
     if (before.size() != values.values.size()) fail(fmt::format("array {}: it changed while it was read", shown_name(values.name)));
@@ -372,7 +372,8 @@ std::string Hdf5File::replaced(std::span<const ArrayValues> arrays) {
   return packed ? replaced_by_library(whole, arrays) : whole;
 }
 
-/// On disk: what the library gives as an image of a file in its memory has a wrong checksum (1.10.8, superblocks 2 and 3).
+/// Replaces numbers in a file on disk: an image of a file in memory that the library returns has a wrong checksum (1.10.8, superblocks 2
+/// and 3).
 std::string Hdf5File::replaced_by_library(std::string_view whole, std::span<const ArrayValues> arrays) {
   const ScratchFile scratch;
   write_file_atomically(scratch.path(), whole);

@@ -1,7 +1,7 @@
 #pragma once
-// HDF5 files, in memory: arrays and groups by their path ("/Base/Zone"). Needs HDF5's C library, which is not in every build.
+// HDF5 files in memory: arrays and groups by their path ("/Base/Zone"). Needs HDF5's C library, which is not in every build.
 //
-// The library is not made for several threads: one file at a time is open in the whole program, others wait. Only the given bytes are
+// The library does not support several threads: only one file is open at a time in the whole program, others wait. Only the given bytes are
 // read: links into other files, arrays kept in other files, and filters that would have to be loaded are refused.
 
 #include <cstdint>
@@ -18,7 +18,8 @@ namespace dmoscope {
 
 class Hdf5File final : public ArrayFile {
  public:
-  /// `bytes` must outlive this, as must what `context` names. What arrays unpack to is bounded (see UnpackBudget). Throws InputError.
+  /// Opens a file in memory. `bytes` and the objects in `context` must outlive this. The unpacked size of arrays is bounded (see
+  /// UnpackBudget). Throws InputError.
   Hdf5File(std::string_view bytes, std::string file, const IoContext& context);
   ~Hdf5File() override;
 
@@ -31,10 +32,9 @@ class Hdf5File final : public ArrayFile {
   std::string replaced(std::span<const ArrayValues> arrays) override;
   void take_room(std::uint64_t count, std::size_t bytes_each) override;
 
-  /// The names of what a group holds, in the order in which it was made where the file knows it, else sorted. Empty where there is no such
-  /// group.
+  /// Names of a group's members, in the order of their creation if the file records it, else sorted. Empty if there is no such group.
   [[nodiscard]] std::vector<std::string> children(const std::string& group);
-  /// Is there a group or an array behind this name? False for links into other files.
+  /// Whether the name leads to a group or an array. False for links into other files.
   [[nodiscard]] bool opens(const std::string& name) const;
 
  private:

@@ -12,9 +12,9 @@
 namespace dmoscope {
 namespace {
 
-constexpr std::uint32_t kDimensions = 10, kVariables = 11, kAttributes = 12;  // what begins a list
+constexpr std::uint32_t kDimensions = 10, kVariables = 11, kAttributes = 12;  // tags at the begin of lists
 constexpr std::uint32_t kByte = 1, kCharacter = 2;
-/// netCDF's types from kByte on; kCharacter is no number.
+/// Types of netCDF from kByte on; kCharacter is no number.
 constexpr std::array kTypes{ScalarType::Int8,    ScalarType::Int8,    ScalarType::Int16, ScalarType::Int32,
                             ScalarType::Float32, ScalarType::Float64, ScalarType::UInt8, ScalarType::UInt16,
                             ScalarType::UInt32,  ScalarType::Int64,   ScalarType::UInt64};
@@ -23,7 +23,7 @@ std::uint64_t padded(std::uint64_t bytes) { return bytes + (4 - bytes % 4) % 4; 
 
 }  // namespace
 
-/// Walks through the header.
+/// Parser of the header.
 class NetcdfClassic::Header {
  public:
   Header(NetcdfClassic& into, std::string_view bytes, const std::string& file)
@@ -59,7 +59,7 @@ class NetcdfClassic::Header {
     return text;
   }
 
-  /// The number of things in a list.
+  /// The number of entries in a list.
   std::uint64_t list(std::uint32_t kind, std::string_view what) {
     const auto found = in_.read<std::uint32_t>(what);
     const std::uint64_t n = count(what);
@@ -109,7 +109,7 @@ class NetcdfClassic::Header {
       if (d == 0 && lengths_[id] == 0) {
         one.of_records = true;
       } else {
-        // No more values than bytes.
+        // Refuses more values than bytes.
         if (lengths_[id] > 0 && values > size_ / lengths_[id])
           in_.fail(fmt::format("truncated: variable {} is larger than the file", quote_token(called)));
         values *= lengths_[id];
@@ -117,7 +117,7 @@ class NetcdfClassic::Header {
     }
     one.attributes = attributes();
     const std::uint32_t of = type();
-    (void)count("a variable's size");  // some programs get it wrong
+    (void)count("a variable's size");  // ignored: some programs write a wrong size
     one.begin = far_ ? in_.read<std::uint64_t>("an offset") : in_.read<std::uint32_t>("an offset");
     one.info.text = of == kCharacter;
     one.info.type = kTypes[of - 1];
@@ -136,15 +136,15 @@ class NetcdfClassic::Header {
     }
     if (of_records != 1) return;
     for (const auto& [called, one] : into_.variables_) {
-      if (one.of_records) into_.record_stride_ = one.record_bytes;  // one alone is not padded
+      if (one.of_records) into_.record_stride_ = one.record_bytes;  // the records of a single variable are not padded
     }
   }
 
-  /// Each variable has bytes of its own: what is written to one must change no other, nor the header.
+  /// Requires that each variable has bytes of its own: writing to one must change no other, nor the header.
   void require_apart() {
     std::vector<std::pair<std::uint64_t, std::uint64_t>> ranges;
     for (const auto& [called, one] : into_.variables_) {
-      if (one.record_bytes == 0 || one.begin > size_) continue;  // what lies beyond the file is told when it is read
+      if (one.record_bytes == 0 || one.begin > size_) continue;  // data beyond the end of the file are reported when they are read
       if (!one.of_records && into_.records_ > 0 && one.begin + one.record_bytes > first_record_) overlap();
       ranges.emplace_back(one.begin, one.begin + one.record_bytes);
     }
@@ -161,8 +161,8 @@ class NetcdfClassic::Header {
   NetcdfClassic& into_;
   Progress unwatched_;
   BinaryReader in_;
-  bool wide_;  // counts of 64 bits
-  bool far_;   // offsets of 64 bits
+  bool wide_;  // whether counts have 64 bits
+  bool far_;   // whether offsets have 64 bits
   std::uint64_t size_;
   std::vector<std::uint64_t> lengths_;
   std::string record_dimension_;
@@ -214,7 +214,7 @@ std::vector<NetcdfClassic::Run> NetcdfClassic::runs(const Variable& variable, co
   return found;
 }
 
-/// The numbers of a variable from the first of its rows on; value(bytes, type, big_endian): one of them.
+/// The numbers of a variable from the first of its rows on; value(bytes, type, big_endian) decodes one of them.
 template <class Number, class Value>
 std::vector<Number> NetcdfClassic::load(const Variable& from, const std::string& name, std::span<const std::uint64_t> first, Value value) {
   std::vector<Number> values;

@@ -2,8 +2,8 @@
 // Classic netCDF files: CDF-1, CDF-2 (offsets of 64 bits) and CDF-5 (counts of 64 bits).
 // https://docs.unidata.ucar.edu/netcdf-c/current/file_format_specifications.html
 //
-// Read here rather than through netCDF's library: a header and arrays without packing are little to read, the library would bring
-// along several more (libcurl among them), and bytes that are damaged meet our own checks alone.
+// Parsed here rather than by netCDF's library: a header and unpacked arrays need little code, the library would bring along several more
+// (libcurl among them), and damaged bytes meet only checks of this program.
 
 #include <map>
 #include <optional>
@@ -33,12 +33,12 @@ class NetcdfClassic final : public ArrayFile {
  private:
   struct Variable {
     ArrayInfo info;
-    bool of_records = false;  // its first size is the number of records, which stand one after the other with those of others
+    bool of_records = false;  // its first size is the number of records, which are interleaved with those of other variables
     std::uint64_t begin = 0;
-    std::uint64_t record_bytes = 0;  // of one record of this variable, or all of it
+    std::uint64_t record_bytes = 0;  // bytes of one record of this variable, or of all of it
     std::map<std::string, std::string> attributes;
   };
-  /// Values that lie one behind the other.
+  /// A contiguous range of values.
   struct Run {
     std::uint64_t offset, count;
   };

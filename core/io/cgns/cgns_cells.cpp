@@ -1,4 +1,4 @@
-// Cells of CGNS: the sections of unstructured zones, the blocks of structured ones, and the boundary conditions on them.
+// Cells of CGNS: sections of unstructured zones, blocks of structured ones, and the boundary conditions on them.
 
 #include <algorithm>
 #include <array>
@@ -19,9 +19,9 @@ constexpr std::int64_t kMixed = 20;
 struct Section {
   CgnsNode node;
   std::int64_t type = 0;
-  std::int64_t first = 0, last = 0;  // numbers of its elements
-  std::size_t offset = 0;            // among the zone's
-  bool divides = false;              // does it tell elements apart that are of the same kind?
+  std::int64_t first = 0, last = 0;  // numbers of its first and last element
+  std::size_t offset = 0;            // offset among the zone's cells
+  bool divides = false;              // whether it distinguishes elements of the same kind
 };
 
 class CgnsCellReader {
@@ -65,7 +65,7 @@ class CgnsCellReader {
     if (!one.family.empty() && one.family != one.name) labels.push_back({one.family, std::string(kCgnsFamily), 0});
   }
 
-  /// A new kind of cells that belong together.
+  /// Adds an origin for cells with these labels.
   std::uint32_t add_origin(std::vector<GroupLabel> labels) {
     found_.labels.push_back({std::move(labels), true});
     return static_cast<std::uint32_t>(found_.labels.size() - 1);
@@ -109,7 +109,7 @@ class CgnsCellReader {
     for (std::size_t s = 1; s < sections_.size(); ++s) {
       if (sections_[s].first <= sections_[s - 1].last) tree_.fail(sections_[s].node, "its elements have numbers of another section");
     }
-    // Most programs make a section a kind of element; that tells nothing of materials.
+    // Finds sections that distinguish elements of one kind: most programs make one section for each kind, which says nothing of materials.
     for (Section& one : sections_) {
       one.divides = std::ranges::any_of(sections_, [&](const Section& other) { return &other != &one && share_kind(one, other); });
     }
@@ -122,7 +122,7 @@ class CgnsCellReader {
     return inside(a) && inside(b) && (a.type == b.type || a.type == kMixed || b.type == kMixed);
   }
 
-  /// Notes a condition on the elements that it names.
+  /// Marks the elements that a condition names.
   void mark(const CgnsZone& zone, std::uint32_t condition) {
     const CgnsCondition& one = conditions_[condition];
     if (one.of_vertices) return;
@@ -145,7 +145,7 @@ class CgnsCellReader {
     }
   }
 
-  /// The set of conditions that is another one with one more.
+  /// Number of the set of conditions with one more condition added.
   std::uint32_t grown(std::uint32_t mark, std::uint32_t condition) {
     if (!marks_[mark].empty() && marks_[mark].back() == condition) return mark;
     const auto [at, added] = known_marks_.try_emplace({mark, condition}, static_cast<std::uint32_t>(marks_.size()));
@@ -203,7 +203,7 @@ class CgnsCellReader {
     return *shape;
   }
 
-  /// A condition on points.
+  /// Adds a condition on points.
   void vertices(const CgnsZone& zone, const CgnsCondition& one) {
     const auto [at, added] = vertex_groups_.try_emplace(one.name);
     Group& group = at->second;
@@ -233,7 +233,7 @@ class CgnsCellReader {
     return points_.vertex_of[zone.first + static_cast<Index>(number)];
   }
 
-  /// A line, quadrilateral or hexahedron from a point on along these indices.
+  /// Adds a line, quadrilateral or hexahedron that extends from a point along these indices.
   void cell(const CgnsZone& zone, Place at, std::span<const std::size_t> along, std::uint32_t origin) {
     constexpr std::array<std::array<int, 3>, 8> kCorners{
         {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
@@ -248,7 +248,7 @@ class CgnsCellReader {
     found_.cells.add(kShapes[along.size()], corners.data(), origin);
   }
 
-  /// Cells between two points.
+  /// Adds the cells between two points.
   void cells(const CgnsZone& zone, Place from, Place to, std::span<const std::size_t> along, std::uint32_t origin) {
     for (const std::size_t a : along) {
       if (from[a] >= to[a]) return;
@@ -274,7 +274,7 @@ class CgnsCellReader {
     for (const CgnsCondition& one : conditions_) patch(zone, one);
   }
 
-  /// A condition on a part of the surface of a structured zone.
+  /// Adds a condition on a part of the surface of a structured zone.
   void patch(const CgnsZone& zone, const CgnsCondition& one) {
     const std::size_t dimension = zone.sizes.size();
     if (!one.of_range || one.numbers.size() != 2 * dimension) return source_.add_only_in_file("boundary conditions given point by point");
@@ -287,7 +287,7 @@ class CgnsCellReader {
     for (std::size_t d = 0; d < dimension && normal == dimension; ++d) {
       if (from[d] == to[d]) normal = d;
     }
-    for (std::size_t d = 0; d < dimension; ++d) {  // "IFaceCenter"
+    for (std::size_t d = 0; d < dimension; ++d) {  // location such as "IFaceCenter"
       if (!one.of_vertices && one.location.size() > 1 && one.location[0] == "IJK"[d] && one.location[1] == 'F') normal = d;
     }
     for (std::size_t d = 0; d < dimension; ++d) {
@@ -312,9 +312,9 @@ class CgnsCellReader {
   Progress& progress_;
   CgnsCells found_;
   std::vector<GroupLabel> zone_labels_;
-  std::vector<CgnsCondition> conditions_;          // of the zone
-  std::vector<Section> sections_;                  // of the zone, by their elements' numbers
-  std::vector<std::uint32_t> mark_of_;             // by element of the zone: into marks_
+  std::vector<CgnsCondition> conditions_;          // conditions of the zone
+  std::vector<Section> sections_;                  // sections of the zone, by their elements' numbers
+  std::vector<std::uint32_t> mark_of_;             // by element of the zone, index into marks_
   std::vector<std::vector<std::uint32_t>> marks_;  // sets of conditions
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> known_marks_;
   std::map<std::tuple<std::string, std::uint32_t, int>, std::uint32_t> origins_;

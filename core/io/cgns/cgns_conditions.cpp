@@ -18,7 +18,7 @@ constexpr auto kCgnsTypes = std::to_array<std::string_view>(
      "QUAD_12",  "QUAD_16",      "TETRA_16", "TETRA_20", "PYRA_21", "PYRA_29", "PYRA_30",  "PENTA_24",   "PENTA_38",
      "PENTA_40", "HEXA_32",      "HEXA_56",  "HEXA_64",  "BAR_5",   "TRI_12",  "TRI_15",   "QUAD_P4_16", "QUAD_25"});
 
-/// The numbers of a range or a list, whatever they are of.
+/// Reads the numbers of a range or a list, of whatever kind.
 bool take_numbers(const CgnsTree& tree, const CgnsNode& node, CgnsCondition& into) {
   for (const CgnsNode& child : tree.children(node.path)) {
     const bool range = child.label == "IndexRange_t" && (child.name == "PointRange" || child.name == "ElementRange");

@@ -1,4 +1,4 @@
-// Connections of CGNS zones, point to point: which vertices are one, though they stand at different places.
+// Connections of CGNS zones, point to point, which identify vertices that may be at different places.
 
 #include <algorithm>
 #include <array>
@@ -14,12 +14,12 @@ namespace {
 
 using Indices = std::array<std::int64_t, 3>;
 
-/// A block of points: where it begins and ends along each index, from 1, both of it; it may run downwards.
+/// A block of points: its begin and end along each index, from 1, both included; it may run downwards.
 struct IndexBlock {
   Indices begin{1, 1, 1}, end{1, 1, 1};
 };
 
-/// One point of a zone after the other, of a connection, beside those of another zone that they are one with.
+/// Reads the connections of a zone, point by point, with the points of the other zone that they are identified with.
 class ConnectionReader {
  public:
   ConnectionReader(const CgnsTree& tree, const CgnsPoints& points, const CgnsZone& zone) : tree_(tree), points_(points), zone_(zone) {}
@@ -41,7 +41,7 @@ class ConnectionReader {
   /// The zone on the other side.
   [[nodiscard]] const CgnsZone& donor(const CgnsNode& node) const {
     const std::string name = tree_.text(node);
-    const std::string last = name.substr(name.rfind('/') + 1);  // "Base/Zone"
+    const std::string last = name.substr(name.rfind('/') + 1);  // last part of "Base/Zone"
     const auto found = std::ranges::find_if(points_.zones, [&](const CgnsZone& zone) { return zone.node.name == last; });
     if (found == points_.zones.end()) tree_.fail(node, fmt::format("it connects to the zone {}, which is not there", quote_token(name)));
     return *found;
@@ -74,7 +74,7 @@ class ConnectionReader {
     return points_.vertex_of[zone.first + static_cast<Index>(number)];
   }
 
-  /// To which index of the other zone each index of this one goes, from 1, negative where it runs the other way.
+  /// For each index of this zone the index of the other zone, from 1, negative if it runs in the other direction.
   [[nodiscard]] Indices transform(const CgnsNode& node) const {
     const std::size_t n = zone_.sizes.size();
     Indices to{1, 2, 3};
@@ -123,7 +123,7 @@ class ConnectionReader {
     const std::vector<std::int64_t> own = numbers(node, "PointList"), across = numbers(node, "PointListDonor");
     if (own.empty() && across.empty()) return;
     const CgnsZone& other = donor(node);
-    if (zone_.structured || other.structured) return;  // by several indices a point
+    if (zone_.structured || other.structured) return;  // such lists have several indices for each point
     if (own.size() != across.size()) tree_.fail(node, fmt::format("{} points are connected to {}", own.size(), across.size()));
     for (std::size_t i = 0; i < own.size(); ++i) pair(vertex(node, zone_, {own[i], 1, 1}), vertex(node, other, {across[i], 1, 1}));
   }
@@ -142,7 +142,7 @@ std::vector<std::array<Index, 2>> read_cgns_pairs(const CgnsTree& tree, const Cg
     const auto some = ConnectionReader(tree, points, zone).read();
     pairs.insert(pairs.end(), some.begin(), some.end());
   }
-  std::ranges::sort(pairs);  // each is told by both zones
+  std::ranges::sort(pairs);  // each pair is in both zones
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   return pairs;
 }

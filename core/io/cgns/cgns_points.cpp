@@ -1,4 +1,4 @@
-// CGNS's tree, its zones and their points.
+// Tree of CGNS, its zones and their points.
 
 #include <algorithm>
 #include <bit>
@@ -18,7 +18,7 @@ std::vector<CgnsNode> CgnsTree::children(const std::string& path) const {
   std::vector<CgnsNode> nodes;
   for (const std::string& name : file_.children(path)) {
     std::string at = (path == "/" ? "" : path) + "/" + name;
-    if (name.starts_with(' ')) continue;  // arrays, and what HDF5 needs
+    if (name.starts_with(' ')) continue;  // arrays, and HDF5's own nodes
     std::string label = file_.attribute(at, "label");
     if (label.empty() && !file_.opens(at)) {
       file_.fail(fmt::format("{}: damaged, or a link into another file, which is not read: join them with cgnscompress or h5repack",
@@ -60,7 +60,7 @@ void CgnsTree::fail(const CgnsNode& node, const std::string& what) const {
 
 namespace {
 
-/// Points of several zones at the same place.
+/// Joins points of different zones at the same place.
 class Joiner {
  public:
   explicit Joiner(CgnsPoints& points) : points_(points) {}
@@ -76,9 +76,9 @@ class Joiner {
  private:
   struct Place {
     std::vector<Index> vertices;
-    std::size_t used = 0;  // of them, by points of the zone
+    std::size_t used = 0;  // number of them that points of the zone use
     std::size_t zone = 0;
-    std::size_t of_others = 0;  // of them, before the zone began
+    std::size_t of_others = 0;  // number of them before the zone began
   };
   struct Hash {
     std::size_t operator()(const Vec3& p) const noexcept {
@@ -89,7 +89,7 @@ class Joiner {
   };
 
   Index vertex(Vec3 p, std::size_t zone) {
-    Place& place = places_[Vec3{p.x + 0.0, p.y + 0.0, p.z + 0.0}];  // -0.0 is 0.0
+    Place& place = places_[Vec3{p.x + 0.0, p.y + 0.0, p.z + 0.0}];  // turns -0.0 into 0.0
     if (place.zone != zone) place = {std::move(place.vertices), 0, zone, 0}, place.of_others = place.vertices.size();
     if (place.used < place.of_others) {
       ++points_.joined;

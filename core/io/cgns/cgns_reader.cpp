@@ -1,4 +1,4 @@
-// Reads CGNS: zones, sections, boundary conditions and families are groups, solutions are fields.
+// Reader of CGNS: zones, sections, boundary conditions and families become groups, solutions fields.
 
 #include <algorithm>
 #include <limits>
@@ -15,7 +15,7 @@
 namespace dmoscope {
 namespace {
 
-/// The last solution of a zone at its vertices, and at its cells.
+/// The last solutions of a zone, at its vertices and at its cells.
 struct CgnsSolutions {
   std::optional<CgnsNode> of_vertices, of_cells;
   std::size_t many = 0;
@@ -65,7 +65,7 @@ class CgnsReader {
   }
 
  private:
-  /// The elements of each zone, one behind the other.
+  /// Finds the elements of each zone, which are consecutive.
   void element_of_cells(const CgnsCells& cells) {
     Index element = 0;
     for (const std::size_t first : cells.first_cell) {
@@ -104,7 +104,7 @@ class CgnsReader {
     }
   }
 
-  /// The field of this name; where there is none yet, one without numbers: zones need not all have it.
+  /// The field of this name; created without numbers if it is new: zones need not all have it.
   Field& field_of(const std::string& name, Field::On on, const ArrayInfo& info) {
     for (Field& field : fields_) {
       if (field.name == name && field.on == on) return field;
@@ -139,15 +139,15 @@ class CgnsReader {
   Hdf5File file_;
   CgnsTree tree_;
   Mesh mesh_;
-  std::vector<Index> rows_;           // the cell of each element; empty: every cell is one
-  std::vector<Index> first_element_;  // of each zone, and one more
+  std::vector<Index> rows_;           // cell of each element; empty: every cell is one
+  std::vector<Index> first_element_;  // first element of each zone, and the number of elements
   std::vector<Field> fields_;
 };
 
-/// An older kind of CGNS file, without HDF5.
+/// Whether it is an older kind of CGNS file, without HDF5.
 bool is_adf(std::string_view bytes) { return bytes.substr(0, 32).find("ADF Database") != std::string_view::npos; }
 
-/// The arrays of solutions at vertices whose fields changed.
+/// Arrays of solutions at vertices whose fields changed.
 std::vector<ArrayValues> changed_solutions(Hdf5File& file, const CgnsPoints& points, const Mesh& mesh,
                                            std::span<const FieldValues> fields) {
   const CgnsTree tree(file);

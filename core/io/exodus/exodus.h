@@ -13,25 +13,25 @@
 
 namespace dmoscope {
 
-/// The words that groups of an Exodus file have as their role.
+/// Roles of groups from an Exodus file.
 inline constexpr std::string_view kExodusBlock = "element block";
 inline constexpr std::string_view kExodusNodeSet = "node set";
 inline constexpr std::string_view kExodusSideSet = "side set";
 
-/// The shape that a block's word for its elements ("HEX8", "tri") means with this number of nodes; nothing for what is not read: elements
-/// of higher order, polyhedra.
+/// The shape of a block's element type ("HEX8", "tri") with this number of nodes; none for types that are not read: elements of higher
+/// order, polyhedra.
 [[nodiscard]] std::optional<CellShape> exodus_shape(std::string_view word, std::uint64_t nodes) noexcept;
 
-/// A side of an element, from 1 as in the file, by the element's own corners from 0, outward; 2 to 4 of them. Empty where it has no such
-/// side. `has_faces`: it is a shell whose first two sides are its front and its back, as they are in space.
+/// A side of an element, from 1 as in the file, by 2 to 4 of the element's own corners from 0, outward. Empty if it has no such side.
+/// `has_faces`: it is a shell whose first two sides are its front and back, as in space.
 [[nodiscard]] std::span<const Index> exodus_side(CellShape shape, bool has_faces, std::int64_t side) noexcept;
-/// Does the word mean shells, which have faces among their sides?
+/// Whether the element type is a shell, which has faces among its sides.
 [[nodiscard]] bool is_exodus_shell(std::string_view word) noexcept;
 
-/// The coordinates of the file into `positions`, which gets its size. Throws InputError.
+/// Reads the coordinates into `positions`, which is resized. Throws InputError.
 [[nodiscard]] CoordinateArrays read_exodus_points(ArrayFile& file, std::vector<Vec3>& positions);
 
-/// See FormatHandler.
+/// Reader, see FormatHandler.
 [[nodiscard]] Mesh read_exodus(SourceFile& source, const IoContext& context);
 
 }  // namespace dmoscope

@@ -1,4 +1,4 @@
-// Exodus' words for elements, and the numbering of their sides.
+// Element types of Exodus, and the numbering of their sides.
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@ namespace dmoscope {
 namespace {
 
 struct ExodusWord {
-  std::string_view begins;  // in capitals; digits may follow
+  std::string_view begins;  // prefix in capitals; digits may follow
   CellShape shape;
 };
 constexpr auto kExodusWords = std::to_array<ExodusWord>({{"SPHERE", CellShape::Point},
@@ -37,7 +37,7 @@ struct Side {
   Index count;
   std::array<Index, 4> corners;
 };
-// The manual's table of sides, its numbers less one.
+// Sides from the manual's table, counted from 0.
 constexpr std::array kTriangleEdges{Side{2, {0, 1}}, Side{2, {1, 2}}, Side{2, {2, 0}}};
 constexpr std::array kQuadrilateralEdges{Side{2, {0, 1}}, Side{2, {1, 2}}, Side{2, {2, 3}}, Side{2, {3, 0}}};
 constexpr std::array kTriangleShell{Side{3, {0, 1, 2}}, Side{3, {0, 2, 1}}, Side{2, {0, 1}}, Side{2, {1, 2}}, Side{2, {2, 0}}};
@@ -82,8 +82,8 @@ std::optional<CellShape> exodus_shape(std::string_view word, std::uint64_t nodes
       std::find_if(kExodusWords.begin(), kExodusWords.end(), [&](const ExodusWord& one) { return text.starts_with(one.begins); });
   if (found == kExodusWords.end()) return std::nullopt;
   CellShape shape = found->shape;
-  if (shape == CellShape::Quadrilateral && nodes == 3 && !text.starts_with("QUAD")) shape = CellShape::Triangle;  // SHELL3
-  if (shape == CellShape::Quadrilateral && nodes == 2 && text.starts_with("SHELL")) shape = CellShape::Line;      // of a plane
+  if (shape == CellShape::Quadrilateral && nodes == 3 && !text.starts_with("QUAD")) shape = CellShape::Triangle;  // for example SHELL3
+  if (shape == CellShape::Quadrilateral && nodes == 2 && text.starts_with("SHELL")) shape = CellShape::Line;  // a shell of a planar mesh
   if (corners_of(shape) != nodes) return std::nullopt;
   return shape;
 }

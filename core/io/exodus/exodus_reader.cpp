@@ -1,4 +1,4 @@
-// Reads Exodus II: element blocks, node sets and side sets are groups, results of the last time step are fields.
+// Reader of Exodus II: element blocks, node sets and side sets become groups, results of the last time step fields.
 
 #include <algorithm>
 #include <limits>
@@ -40,8 +40,8 @@ class ExodusReader {
 
  private:
   struct Block {
-    std::string called;                  // in errors
-    std::uint64_t first = 0, count = 0;  // cells; those of blocks with points are cells, too
+    std::string called;                  // name in errors
+    std::uint64_t first = 0, count = 0;  // range of cells, which include those of blocks with points
     bool shell = false;
   };
 
@@ -53,7 +53,7 @@ class ExodusReader {
     return found;
   }
 
-  /// The strings of an array, one per row.
+  /// The strings of an array, one for each row.
   std::vector<std::string> strings(const std::string& array) const {
     std::vector<std::string> rows;
     const auto info = file_->find(array);
@@ -67,7 +67,7 @@ class ExodusReader {
     return rows;
   }
 
-  /// The numbers and names of blocks or sets: "eb_prop1", "eb_names".
+  /// Numbers and names of blocks or sets: "eb_prop1", "eb_names".
   std::vector<GroupLabel> labels_of(const std::string& kind, std::string_view role, std::uint64_t count) const {
     std::vector<std::int64_t> ids;
     if (file_->find(kind + "_prop1")) ids = file_->wholes(kind + "_prop1");
@@ -138,7 +138,7 @@ class ExodusReader {
     const std::vector<GroupLabel> labels = labels_of("ns", kExodusNodeSet, n);
     for (std::uint64_t s = 0; s < n; ++s) {
       const std::string array = fmt::format("node_ns{}", s + 1);
-      if (!file_->find(array)) continue;  // empty
+      if (!file_->find(array)) continue;  // empty set
       Group group{.name = labels[s].name, .role = labels[s].role, .code = labels[s].code, .dimension = 0};
       for (const std::int64_t node : file_->wholes(array)) group.members.push_back(vertex(node, fmt::format("node set {}", s + 1)));
       if (!group.members.empty()) mesh_.groups.push_back(std::move(group));
@@ -153,20 +153,20 @@ class ExodusReader {
     for (std::uint64_t s = 0; s < n && !shells_have_faces_; ++s) shells_have_faces_ = has_edge_behind_faces(s + 1);
     for (std::uint64_t s = 0; s < n; ++s) {
       const std::string elements = fmt::format("elem_ss{}", s + 1), sides = fmt::format("side_ss{}", s + 1);
-      if (!file_->find(elements) || !file_->find(sides)) continue;  // empty
+      if (!file_->find(elements) || !file_->find(sides)) continue;  // empty set
       progress_.check();
       side_set(s + 1, labels[s], file_->wholes(elements), file_->wholes(sides));
     }
   }
 
-  /// Writers differ about shells in a plane: whether their edges come first, or behind two faces, as they do in space. A side beyond the
-  /// number of corners is one of the latter.
+  /// Whether a set has edges numbered behind two faces: writers differ about shells in a plane, whose edges may come first, or behind two
+  /// faces, as in space. A side number beyond the number of corners proves the latter.
   [[nodiscard]] bool has_edge_behind_faces(std::uint64_t set) {
     const std::string elements = fmt::format("elem_ss{}", set), sides = fmt::format("side_ss{}", set);
     if (!file_->find(elements) || !file_->find(sides)) return false;
     const std::vector<std::int64_t> of = file_->wholes(elements), number = file_->wholes(sides);
     for (std::size_t i = 0; i < std::min(of.size(), number.size()); ++i) {
-      if (of[i] < 1 || static_cast<std::uint64_t>(of[i]) > cells_.size()) continue;  // side_set() refuses it
+      if (of[i] < 1 || static_cast<std::uint64_t>(of[i]) > cells_.size()) continue;  // refused by side_set()
       const auto cell = static_cast<std::size_t>(of[i] - 1);
       const auto corners = static_cast<std::int64_t>(corners_of(cells_.shape(cell)));
       if (blocks_[cells_.origin(cell)].shell && number[i] > corners && number[i] <= corners + 2) return true;
@@ -174,7 +174,7 @@ class ExodusReader {
     return false;
   }
 
-  /// Where the corners of each cell begin, and the element that it is.
+  /// Finds the offset of each cell's corners, and its element.
   void cell_corners() {
     starts_.reserve(cells_.size());
     element_of_.assign(cells_.size(), kNoIndex);
@@ -205,7 +205,7 @@ class ExodusReader {
       for (std::size_t k = 0; k < side.size(); ++k) corners[k] = cells_.all_corners()[starts_[cell] + side[k]];
       if (side.size() == 2) {
         edges.members.insert(edges.members.end(), corners.begin(), corners.begin() + 2);
-      } else if (cells_.dimension() == 2) {  // a shell of a mesh of shells
+      } else if (cells_.dimension() == 2) {  // face of a shell in a mesh of shells
         whole.members.push_back(element_of_[cell]);
       } else {
         faces.faces.add(side.size() == 3 ? ElementKind::Triangle : ElementKind::Quadrilateral, {corners.data(), side.size()});
@@ -216,7 +216,7 @@ class ExodusReader {
     }
   }
 
-  /// Results: those of the last time step.
+  /// Reads results of the last time step.
   void results() {
     const std::vector<std::string> of_nodes = strings("name_nod_var"), of_elements = strings("name_elem_var");
     std::uint64_t steps = 0;
@@ -234,7 +234,7 @@ class ExodusReader {
   void node_results(const std::string& name, std::size_t i, std::uint64_t step) {
     std::string array = fmt::format("vals_nod_var{}", i + 1);
     std::vector<std::uint64_t> first{step};
-    if (!file_->find(array)) {  // of old files: all in one
+    if (!file_->find(array)) {  // older files: all in one array
       array = "vals_nod_var";
       first.push_back(i);
     }
@@ -245,7 +245,7 @@ class ExodusReader {
     if (field.values.size() != mesh_.positions.size()) {
       fail(fmt::format("nodal variable {}: {} numbers for {} nodes", quote_token(name), field.values.size(), mesh_.positions.size()));
     }
-    std::uint64_t row = 0;  // the number of the array's part, of those of one size
+    std::uint64_t row = 0;  // index of the row read, among rows of its size
     for (std::size_t k = 0; k < first.size(); ++k) row = row * info->sizes[k] + first[k];
     field.place.array = array;
     field.place.begin = row * field.values.size();
@@ -258,7 +258,7 @@ class ExodusReader {
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
       const std::string array = fmt::format("vals_elem_var{}eb{}", i + 1, b + 1);
       const auto info = file_->find(array);
-      if (!info || info->sizes.empty() || info->sizes[0] <= step) continue;  // a block need not have it
+      if (!info || info->sizes.empty() || info->sizes[0] <= step) continue;  // missing results of a block
       const std::vector<double> values = file_->numbers(array, std::vector<std::uint64_t>{step});
       if (values.size() != blocks_[b].count) {
         fail(fmt::format("{}: {} numbers of variable {} for {} elements", blocks_[b].called, values.size(), quote_token(name),
@@ -276,7 +276,7 @@ class ExodusReader {
     return {.name = name, .on = on, .type = std::string(vtk_word(info.type))};
   }
 
-  /// What stays in the file alone.
+  /// Names data that stay in the file only.
   void what_else() {
     for (const char* name : {"num_fa_blk", "num_ed_blk", "num_elem_sets", "num_edge_sets", "num_face_sets"}) {
       if (count(name) > 0) source_.add_only_in_file("blocks and sets of edges and faces, sets of elements");
@@ -297,11 +297,11 @@ class ExodusReader {
   std::unique_ptr<ArrayFile> file_;
   Mesh mesh_;
   int space_ = 3;
-  bool shells_have_faces_ = true;  // before their edges, in the order of their sides
+  bool shells_have_faces_ = true;  // whether sides count the faces of shells before their edges
   CellTable cells_;
   std::vector<OriginLabels> labels_;
   std::vector<Block> blocks_;
-  std::vector<Index> rows_;  // the cell of each element; empty: every cell is one
+  std::vector<Index> rows_;  // cell of each element; empty: every cell is one
   std::vector<std::size_t> starts_;
   std::vector<Index> element_of_;
 };
@@ -354,7 +354,7 @@ Notes patch_exodus(AtomicFile& file, const Mesh& mesh, const MovedMesh& moved, c
   return notes;
 }
 
-/// Names of dimensions stand in the header of a classic file; an HDF5 file has them anywhere.
+/// Whether the bytes begin an Exodus file: names of dimensions are in the header of a classic file; an HDF5 file has them anywhere.
 bool recognises_exodus(std::string_view bytes) {
   constexpr std::size_t kLook = std::size_t{1} << 18U;
   if (!is_netcdf_classic(bytes) && !is_hdf5(bytes)) return false;

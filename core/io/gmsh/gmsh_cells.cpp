@@ -16,7 +16,7 @@ constexpr std::size_t kSize = 8;  // bytes
 constexpr int kAnyDimension = -1;
 
 struct HigherOrder {
-  std::int64_t first, last;  // types
+  std::int64_t first, last;  // range of type numbers
   std::string_view name;
 };
 constexpr std::array kHigherOrder{
@@ -37,7 +37,7 @@ void GmshCells::physical_names() {
   for (std::size_t i = 0; i < count; ++i) {
     std::int64_t dimension = in_.words.integer("the dimension of a physical group");
     std::int64_t number = dimension;
-    // Old files leave the dimension out, and Gmsh writes it as -1 when it saves such a file again: the name is of whatever has the number.
+    // Accepts a missing dimension of old files, and -1, which Gmsh writes for it: the name then belongs to any group with the number.
     if (in_.words.peek_word().starts_with('"')) {
       dimension = kAnyDimension;
     } else {
@@ -79,7 +79,7 @@ std::vector<int> GmshCells::read_physical() {
   return physical;
 }
 
-/// The elements of a partitioned mesh are in parts of the entities: they are put together again.
+/// Reads the entities of a partitioned mesh, whose parts are joined again.
 void GmshCells::partitioned_entities() {
   in_.begin_data();
   (void)in_.size("the number of partitions");
@@ -112,7 +112,7 @@ void GmshCells::partitioned_entity(int dimension) {
   for (std::size_t i = 0; i < bounds; ++i) (void)in_.whole("an entity that bounds one");
 }
 
-/// The entity, by dimension and number, of which this one is a part: itself in a mesh without partitions.
+/// The entity, by dimension and number, of which this one is a part; the entity itself in a mesh without partitions.
 std::pair<int, int> GmshCells::whole_of(int dimension, int entity) const {
   const auto found = whole_.find({dimension, entity});
   return found == whole_.end() ? std::pair(dimension, entity) : found->second;
@@ -240,7 +240,7 @@ void GmshCells::block_4(const TagPlaces& nodes, std::size_t count) {
   if (number > count - cells_.size() - skipped_)
     in_.words.fail(fmt::format("more elements in the blocks than the {} that $Elements says", count));
   const auto [whole_dimension, whole] = whole_of(dimension, entity);
-  // What lies between two partitions belongs to an entity of more dimensions, and is none of the mesh's own.
+  // Skips cells between two partitions: they belong to an entity of more dimensions, and are not the mesh's own.
   const bool kept = whole_dimension == dimension;
   if (!kept) source_.add_only_in_file("the interfaces of its partitions");
   const std::uint32_t origin = kept ? origin_of(dimension, 0, whole) : 0;
@@ -294,9 +294,9 @@ std::vector<Index> GmshCells::add_to(Mesh& mesh) {
   return rows;
 }
 
-/// The entities of the elements as a field, where the physical groups do not tell them already.
+/// Adds the entities of the elements as a field, unless the physical groups give the same partition.
 void GmshCells::add_entity_field(Mesh& mesh, std::span<const Index> rows) const {
-  std::map<std::vector<int>, int> entity_of;  // by physical groups
+  std::map<std::vector<int>, int> entity_of;  // entity by physical groups
   bool telling = false;
   for (const Origin& origin : origins_) {
     const auto entity = entity_physical_.find({origin.dimension, origin.entity});

@@ -1,5 +1,5 @@
 #pragma once
-// Elements of an MSH file, and what they belong to.
+// Elements of an MSH file, and their groups.
 
 #include <cstdint>
 #include <map>
@@ -19,7 +19,7 @@ class GmshCells {
  public:
   GmshCells(GmshInput& in, SourceFile& source) : in_(in), source_(source) {}
 
-  // What follows the word that begins the section.
+  // Readers of sections, called behind the word that begins the section.
   void physical_names();
   void entities();
   void partitioned_entities();
@@ -29,11 +29,11 @@ class GmshCells {
   [[nodiscard]] const CellTable& cells() const noexcept { return cells_; }
   /// The number of every cell in the file.
   [[nodiscard]] TagPlaces& tags() noexcept { return tags_; }
-  /// Call it when all sections are read: adds elements, groups and the field of entities to the mesh. See split_cells.
+  /// Adds elements, groups and the field of entities to the mesh, after all sections are read. See split_cells.
   [[nodiscard]] std::vector<Index> add_to(Mesh& mesh);
 
  private:
-  /// What cells have in common.
+  /// Entity and physical groups that cells have in common.
   struct Origin {
     int dimension, entity;
     std::vector<int> physical;
@@ -58,13 +58,13 @@ class GmshCells {
   CellTable cells_;
   TagPlaces tags_;
   std::vector<Origin> origins_;
-  std::map<std::tuple<int, int, int>, std::uint32_t> origin_numbers_;  // by dimension, physical group (version 2) and entity
+  std::map<std::tuple<int, int, int>, std::uint32_t> origin_numbers_;  // origins by dimension, physical group (version 2) and entity
   std::tuple<int, int, int> last_key_{-1, 0, 0};
   std::uint32_t last_origin_ = 0;
-  std::map<std::pair<int, int>, std::string> names_;                 // of physical groups, by dimension and number
-  std::map<std::pair<int, int>, std::vector<int>> entity_physical_;  // by dimension and entity
-  std::map<std::pair<int, int>, std::pair<int, int>> whole_;         // of an entity of a partition: what it is a part of, likewise
-  std::size_t skipped_ = 0;                                          // elements that are no cells: between two partitions
+  std::map<std::pair<int, int>, std::string> names_;                 // names of physical groups, by dimension and number
+  std::map<std::pair<int, int>, std::vector<int>> entity_physical_;  // physical groups by dimension and entity
+  std::map<std::pair<int, int>, std::pair<int, int>> whole_;         // by dimension and entity of a partition, the whole entity
+  std::size_t skipped_ = 0;                                          // number of elements that are no cells: between two partitions
   bool elements_read_ = false;
 };
 

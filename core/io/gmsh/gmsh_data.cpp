@@ -72,7 +72,7 @@ void GmshData::read(Field::On on, const TagPlaces& tags) {
   in_.begin_data();
   const std::size_t each = 4 + n * kReal;
   const char* const bytes = in_.binary ? in_.words.block(head.values * each, "values").data() : nullptr;
-  field.place.at = in_.binary ? 4 : 1;  // the node's number
+  field.place.at = in_.binary ? 4 : 1;  // behind the node's number
   if (in_.binary) {
     field.place.begin = in_.words.token();
     field.place.bytes = static_cast<std::uint32_t>(each);

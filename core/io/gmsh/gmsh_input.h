@@ -1,5 +1,5 @@
 #pragma once
-// A cursor over an MSH file: numbers are words in an ASCII file and bytes in a binary one.
+// Cursor over an MSH file: numbers are words in an ASCII file and bytes in a binary one.
 
 #include <cstdint>
 #include <string_view>
@@ -13,18 +13,18 @@ class GmshInput {
  public:
   GmshInput(const SourceFile& source, Progress& progress) : words(source, progress) {}
 
-  /// In a binary file what follows are bytes: leaves the line that is over.
+  /// Goes to the bytes that follow in a binary file: leaves the present line.
   void begin_data() {
     if (binary) (void)words.rest_of_line();
   }
-  /// An int.
+  /// Reads an int.
   [[nodiscard]] int whole(std::string_view what);
-  /// A size_t of version 4.1.
+  /// Reads a size_t of version 4.1.
   [[nodiscard]] std::int64_t size(std::string_view what);
   [[nodiscard]] double real(std::string_view what);
-  /// A count (size_t) of things that the rest of the file can hold, each of `text` or `bytes` bytes. Throws InputError.
+  /// Reads a count (size_t) of entries that the rest of the file can hold, each of `text` or `bytes` bytes. Throws InputError.
   [[nodiscard]] std::size_t count(std::string_view what, double text, double bytes);
-  /// Numbers of a block that words.block() gave.
+  /// Decodes a number of a block from words.block().
   [[nodiscard]] int int_at(const char* bytes) const noexcept { return load_number<std::int32_t>(bytes, big_endian); }
   [[nodiscard]] std::int64_t size_at(const char* bytes) const noexcept { return load_number<std::int64_t>(bytes, big_endian); }
   [[nodiscard]] double real_at(const char* bytes) const noexcept { return load_number<double>(bytes, big_endian); }

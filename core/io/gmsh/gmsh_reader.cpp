@@ -67,7 +67,7 @@ class GmshReader {
     if (words().word(end) != end) words().fail(fmt::format("expected {} (more lines than the count says?)", end));
   }
 
-  /// A section that we know nothing of.
+  /// Skips an unknown section.
   void skip(const std::string& name) {
     const std::string end = "$End" + name.substr(1);
     source_.add_only_in_file(name);
@@ -75,7 +75,7 @@ class GmshReader {
     while (words().left() > 0) {
       if (words().rest_of_line() == end) return;
     }
-    (void)words().word(end);  // there is none: the error says so
+    (void)words().word(end);  // fails with an error, since there is no such word
   }
 
   void format() {
@@ -109,7 +109,7 @@ class GmshReader {
     source_.set_layout(layout);
   }
 
-  /// Pairs of vertices, by curves and surfaces. In version 2 these are words in a binary file, too.
+  /// Reads pairs of vertices, by curves and surfaces. In version 2 these are words even in a binary file.
   void periodic() {
     source_.add_only_in_file("$Periodic");
     if (in_.version == 2) {
@@ -168,7 +168,7 @@ class GmshReader {
     source_.reserve_places(count);
   }
 
-  /// x, y and z as words.
+  /// Reads x, y and z as words.
   void text_point() {
     Vec3 p;
     p.x = words().coordinate();
@@ -178,7 +178,7 @@ class GmshReader {
     mesh_.positions.push_back(p);
   }
 
-  /// x, y and z that begin at `bytes`, which is byte `place` of the file.
+  /// Reads x, y and z at `bytes`, which is byte `place` of the file.
   void binary_point(const char* bytes, std::size_t place) {
     const Vec3 p{in_.real_at(bytes), in_.real_at(bytes + kRealBytes), in_.real_at(bytes + 2 * kRealBytes)};
     if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {

@@ -1,4 +1,4 @@
-// Makes an MSH file anew: version 2.2, ASCII. Groups become physical groups with their names, fields data of nodes and elements.
+// Writer of new MSH files: version 2.2, ASCII. Groups become physical groups with their names, fields data of nodes and elements.
 
 #include <algorithm>
 #include <array>
@@ -44,7 +44,7 @@ class GmshWriter : MeshWriter {
   }
 
   [[nodiscard]] static std::size_t members(const Group& group) {
-    if (group.of_elements()) return 0;  // these are no lines of their own
+    if (group.of_elements()) return 0;  // elements have no lines of their own
     return group.dimension == 2 ? group.faces.size() : group.members.size() / static_cast<std::size_t>(group.dimension + 1);
   }
 
@@ -74,7 +74,7 @@ class GmshWriter : MeshWriter {
     part << '\n';
   }
 
-  /// The members of groups first, then the elements, as Gmsh itself does.
+  /// Writes the members of groups first, then the elements, like Gmsh.
   void elements(std::span<const int> physical) {
     std::size_t before = 0;
     for (const Group& group : groups_) before += members(group);
@@ -83,7 +83,7 @@ class GmshWriter : MeshWriter {
     std::size_t number = 1;
     for (std::size_t i = 0; i < groups_.size(); ++i) {
       const Group& group = groups_[i];
-      const auto corners = static_cast<std::size_t>(group.dimension + 1);  // of vertices and edges
+      const auto corners = static_cast<std::size_t>(group.dimension + 1);  // corners of vertices and edges
       out_.for_each(members(group), [&](TextBuffer& part, std::size_t m) {
         if (group.dimension == 2) {
           const auto face = static_cast<Index>(m);
@@ -102,7 +102,7 @@ class GmshWriter : MeshWriter {
     first_element_ = number;
   }
 
-  /// Gmsh's own entities where the mesh has kept them, else one for each physical group; they count from 1.
+  /// Entities for the elements: those of Gmsh if the mesh has kept them, else one for each physical group; they count from 1.
   std::vector<int> entities_of(std::span<const int> physical) {
     std::vector<int> entities(physical.begin(), physical.end());
     std::replace(entities.begin(), entities.end(), 0, 1);

@@ -51,10 +51,10 @@ void MeditContents::make_group(const MeditMarks& marks) {
   if (!group.members.empty()) mesh.groups.push_back(std::move(group));
 }
 
-/// Faces of a volume, or elements where these are the mesh.
+/// Makes a group of faces of a volume, or of elements if these are the mesh.
 void MeditContents::make_face_group(const MeditMarks& marks, CellShape shape) {
-  std::vector<std::size_t> begins;  // of the cells of this shape: their first corners
-  std::vector<Index> places;        // and which cells they are
+  std::vector<std::size_t> begins;  // offsets of the corners of cells of this shape
+  std::vector<Index> places;        // numbers of these cells
   std::size_t corner = 0;
   for (std::size_t c = 0; c < cells_.size(); corner += corners_of(cells_.shape(c)), ++c) {
     if (cells_.shape(c) != shape) continue;
@@ -83,7 +83,7 @@ void MeditContents::add_field(Field::On on, std::vector<double> values) {
       {.name = std::string(kMeditField), .on = on, .type = "int", .role = std::string(kMeditReference), .values = std::move(values)});
 }
 
-/// Elements and groups. References of elements are groups while these are few, else (a number for each element, say) a field.
+/// Makes elements and groups. References of elements become groups if they are few, else a field.
 void MeditContents::split() {
   constexpr std::size_t kMostGroups = 256;
   std::vector<std::uint8_t> of_element(labels_.size(), 0);  // by origin

@@ -1,5 +1,5 @@
 #pragma once
-// What MEDIT's files hold, whether they are text or binary, on its way to a mesh.
+// Contents of MEDIT's text and binary files, and the mesh made of them.
 
 #include <array>
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace dmoscope {
 
-/// A section with cells: its keyword, and the number it has in binary files.
+/// A section with cells: its keyword, and its number in binary files.
 struct MeditCells {
   std::string_view keyword;
   int code;
@@ -26,20 +26,20 @@ inline constexpr std::array kMeditCells{
     MeditCells{"Quadrilaterals", 7, CellShape::Quadrilateral},
     MeditCells{"Tetrahedra", 8, CellShape::Tetrahedron},
     MeditCells{"Hexahedra", 10, CellShape::Hexahedron},
-    MeditCells{"Hexaedra", 10, CellShape::Hexahedron},  // as old files spell it
+    MeditCells{"Hexaedra", 10, CellShape::Hexahedron},  // the spelling of old files
     MeditCells{"Prisms", 9, CellShape::Wedge},
     MeditCells{"Pentahedra", 9, CellShape::Wedge},
     MeditCells{"Pyramids", 49, CellShape::Pyramid},
 };
 
-/// Corners, Ridges, ...: numbers of vertices, edges or faces, which may come before these.
+/// Marks such as Corners or Ridges: numbers of vertices, edges or faces, which may precede the latter.
 struct MeditMarks {
   std::string keyword;
-  std::vector<std::int64_t> numbers;  // from 1
-  std::vector<std::size_t> lines;     // where each stands; empty in a binary file
+  std::vector<std::int64_t> numbers;  // numbers from 1
+  std::vector<std::size_t> lines;     // line of each; empty in a binary file
 };
 
-/// Positions go into mesh.positions, with a reference each; when all is there, finish() makes elements, groups and fields of the rest.
+/// Contents of a file. Positions go into mesh.positions, with a reference each; finish() makes elements, groups and fields of the rest.
 class MeditContents {
  public:
   explicit MeditContents(SourceFile& source) : source_(source) {}
@@ -47,11 +47,11 @@ class MeditContents {
   void reserve_cells(CellShape shape, std::size_t count);
   void add_cell(CellShape shape, const Index* corners, int reference);
   void add_marks(MeditMarks marks) { marks_.push_back(std::move(marks)); }
-  /// Throws InputError (a mark of a vertex, edge or face that is not there).
+  /// Makes the mesh. Throws InputError (a mark of a vertex, edge or face that does not exist).
   [[nodiscard]] Mesh finish();
 
   Mesh mesh;
-  std::vector<int> references;  // of vertices
+  std::vector<int> references;  // references of the vertices
 
  private:
   std::uint32_t origin_of(int reference);
@@ -64,9 +64,9 @@ class MeditContents {
   SourceFile& source_;
   CellTable cells_;
   std::vector<Index> edges_;  // two vertices each
-  std::vector<Index> rows_;   // the cell that each element was; empty: every cell is one
+  std::vector<Index> rows_;   // cell of each element; empty: every cell is one
   std::vector<OriginLabels> labels_;
-  std::unordered_map<int, std::uint32_t> origins_;  // by reference
+  std::unordered_map<int, std::uint32_t> origins_;  // origins by reference
   std::uint32_t last_origin_ = 0;
   std::vector<MeditMarks> marks_;
 };

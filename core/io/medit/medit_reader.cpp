@@ -1,5 +1,5 @@
-// Reads MEDIT's ASCII format: a keyword, a count, and that number of lines, in any order; everything with a reference number.
-// https://www.ljll.fr/frey/publications/RT-0253.pdf, and what mmg and tetgen add to it.
+// Reader of MEDIT's ASCII format: a keyword, a count, and that number of lines, in any order; everything has a reference number.
+// https://www.ljll.fr/frey/publications/RT-0253.pdf, and the additions of mmg and tetgen.
 
 #include <algorithm>
 #include <array>
@@ -23,7 +23,7 @@ constexpr TextSyntax kMeditSyntax{.comment = '#', .comma_is_blank = false, .back
 
 bool is_letter(char c) noexcept { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
-/// TrianglesP2, HexahedraQ2, ...: elements with nodes beyond their corners.
+/// Whether a section has elements of higher order, with nodes beyond their corners: TrianglesP2, HexahedraQ2, ...
 bool is_higher_order(std::string_view keyword) {
   if (keyword.size() < 3) return false;
   const char family = keyword[keyword.size() - 2];
@@ -82,7 +82,7 @@ class MeditReader {
            std::any_of(kMeditCells.begin(), kMeditCells.end(), [&](const MeditCells& s) { return same(s.keyword); });
   }
 
-  /// What follows a keyword that we do not know, up to the next one.
+  /// Skips an unknown keyword, up to the next one.
   void skip(std::string_view keyword) {
     source_.add_only_in_file(keyword);
     while (!tokens_.at_end()) {
@@ -125,7 +125,7 @@ class MeditReader {
     }
   }
 
-  /// How many vertices the file has: elements may come before them.
+  /// Number of vertices in the file, found ahead: elements may come before them.
   std::size_t vertex_count() {
     if (vertex_count_) return *vertex_count_;
     Tokenizer ahead(source_.bytes(), source_.path().string(), kMeditSyntax, progress_);
@@ -151,7 +151,7 @@ class MeditReader {
     }
   }
 
-  /// Corners, Ridges, ...: numbers of vertices, edges or faces, which may come later.
+  /// Reads marks such as Corners or Ridges: numbers of vertices, edges or faces, which may come later.
   void marks(std::string_view keyword) {
     const std::size_t count = tokens_.read_count(fmt::format("number of {}", keyword), 2);
     MeditMarks marks{std::string(keyword), {}, {}};
@@ -177,11 +177,11 @@ class MeditReader {
   MeditContents contents_;
   int dimension_ = 0;
   std::optional<std::size_t> vertex_count_;
-  std::vector<std::string> met_;  // sections, in whatever case they were written
+  std::vector<std::string> met_;  // sections read so far, in lower case
 };
 
 bool recognises_medit(std::string_view bytes) {
-  constexpr std::size_t kLook = 65536;  // bytes in which comments end
+  constexpr std::size_t kLook = 65536;  // bytes within which comments end
   Progress unwatched;
   Tokenizer tokens(bytes.substr(0, kLook), {}, kMeditSyntax, unwatched);
   return equal_ignoring_case(tokens.token(), kMeditSignature);

@@ -1,4 +1,4 @@
-// Makes a MEDIT file anew: groups become references, and the marks (corners, ridges, ...) their own sections.
+// Writer of new MEDIT files: groups become references, and the marks (corners, ridges, ...) their own sections.
 
 #include <algorithm>
 #include <array>
@@ -20,13 +20,13 @@ namespace {
 constexpr std::array<std::string_view, kElementKindCount> kKeywords{"Triangles", "Quadrilaterals", "Tetrahedra",
                                                                     "Hexahedra", "Prisms",         "Pyramids"};
 
-/// A cell as it is written: corners and a reference.
+/// Cells to be written, each with corners and a reference.
 struct ReferencedCells {
-  std::vector<Index> corners;  // of all, one after the other
+  std::vector<Index> corners;  // corners of all cells, one after the other
   std::vector<int> references;
 };
 
-/// The one of kMeditMarks that a group stands for; null if none.
+/// The mark in kMeditMarks that a group stands for; null if none.
 const MeditMark* mark_of(const Group& group, const Mesh& mesh) {
   if (group.role != kMeditMark) return nullptr;
   const MeditMark* mark = medit_mark(group.name);
@@ -38,7 +38,7 @@ const MeditMark* mark_of(const Group& group, const Mesh& mesh) {
   return all ? mark : nullptr;
 }
 
-/// Its corners in ascending order.
+/// Corners of a face in ascending order.
 std::array<Index, 4> face_key(std::span<const Index> corners) {
   std::array<Index, 4> key{kNoIndex, kNoIndex, kNoIndex, kNoIndex};
   std::ranges::copy(corners, key.begin());
@@ -51,7 +51,7 @@ class MeditWriter : MeshWriter {
   MeditWriter(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context)
       : MeshWriter(file, mesh, positions, context, medit_format().info.title, "reference") {
     for (std::size_t i = 0; i < numbers_.size(); ++i) {
-      // Cells without a reference are a group when they are no elements: they get none again.
+      // Restores reference 0: cells without a reference became a group if they are no elements.
       if (groups_[i].role == kMeditReference && groups_[i].code == 0) numbers_[i] = 0;
       marks_.push_back(mark_of(groups_[i], mesh));
       if (marks_[i] != nullptr) numbers_[i] = 0;
@@ -80,7 +80,7 @@ class MeditWriter : MeshWriter {
     if (marks_[group] == nullptr && g.name != fmt::format("reference {}", numbers_[group])) unnamed_.push_back(group);
   }
 
-  /// One sentence for all: what has become of the groups' names.
+  /// Notes one sentence on the loss of the groups' names.
   void note_names() {
     constexpr std::size_t kMostNamed = 32;
     if (unnamed_.empty()) return;
@@ -94,7 +94,7 @@ class MeditWriter : MeshWriter {
     notes_.push_back(fmt::format("MEDIT holds no names: {}.", list));
   }
 
-  /// The references that a field holds; `otherwise` where there is none.
+  /// The references in a field; `otherwise` if there is none.
   std::vector<int> references_of(Field::On on, std::vector<int> otherwise) {
     const auto whole = [](double v) { return v == std::nearbyint(v) && std::abs(v) <= 2147483647.0; };
     for (std::size_t i = 0; i < mesh_.fields.size(); ++i) {
@@ -129,7 +129,7 @@ class MeditWriter : MeshWriter {
     });
   }
 
-  /// Edges of groups, and then those that only a mark names.
+  /// Writes edges of groups, and then those that only a mark names.
   void edges() {
     ReferencedCells edges;
     const auto add = [&](const Group& group, std::size_t at, int reference) {
@@ -167,7 +167,7 @@ class MeditWriter : MeshWriter {
       for (Index f = 0; f < of_group.size(); ++f) add_face(of_group, f, numbers_[i]);
       keep(i);
     }
-    for (std::size_t i = 0; i < groups_.size(); ++i) {  // and then those that only a mark names
+    for (std::size_t i = 0; i < groups_.size(); ++i) {  // faces that only a mark names
       const ElementTable& of_group = groups_[i].faces;
       if (marks_[i] == nullptr) continue;
       for (Index f = 0; f < of_group.size(); ++f)
@@ -182,7 +182,7 @@ class MeditWriter : MeshWriter {
     cells.references.push_back(reference);
   }
 
-  /// Sorted by kinds, in the order in which the mesh has the first of each.
+  /// Writes the elements sorted by kinds, in the order in which the mesh has the first of each.
   void elements() {
     const std::size_t fields = kept_fields_.size();
     std::vector<int> references = references_of(Field::On::Elements, std::vector<int>(mesh_.elements.size(), 0));
@@ -220,7 +220,7 @@ class MeditWriter : MeshWriter {
     }
   }
 
-  /// From 0: which vertices, edges, faces or elements of their kind the members are in this file.
+  /// Numbers of a group's members, from 0, among the vertices, edges, faces or elements of their kind in this file.
   [[nodiscard]] std::vector<std::size_t> numbers_in_sections(const Group& group) const {
     std::vector<std::size_t> numbers;
     if (group.dimension == 0) numbers.assign(group.members.begin(), group.members.end());
@@ -235,10 +235,10 @@ class MeditWriter : MeshWriter {
     return numbers;
   }
 
-  std::map<std::pair<Index, Index>, std::size_t> edge_numbers_;  // the first of each, smaller vertex first
-  std::map<std::array<Index, 4>, std::size_t> face_numbers_;     // likewise, by ascending corners
-  std::vector<std::size_t> element_numbers_;                     // of each element among those of its kind
-  std::vector<const MeditMark*> marks_;                          // of each group; null: it is none
+  std::map<std::pair<Index, Index>, std::size_t> edge_numbers_;  // number of the first edge by its vertices, the smaller first
+  std::map<std::array<Index, 4>, std::size_t> face_numbers_;     // number of the first face by its corners in ascending order
+  std::vector<std::size_t> element_numbers_;                     // number of each element among those of its kind
+  std::vector<const MeditMark*> marks_;                          // mark of each group; null: it is none
   std::vector<std::size_t> unnamed_;                             // groups whose names are not in the file
 };
 

@@ -1,4 +1,4 @@
-// MEDIT's binary format (.meshb, also called GMF): the sections of the text format by numbers, each with the place of the next one.
+// MEDIT's binary format (.meshb, also called GMF): the sections of the text format by numbers, each with the offset of the next one.
 // https://github.com/LoicMarechal/libMeshb
 
 #include <algorithm>
@@ -24,7 +24,7 @@ constexpr std::int32_t kDimension = 3, kVertices = 4, kEnd = 54;
 constexpr std::array<std::int32_t, 5> kHigherOrderKeys{24, 25, 27, 30,
                                                        33};  // TrianglesP2, EdgesP2, QuadrilateralsQ2, TetrahedraP2, HexahedraQ2
 
-/// The number 1 in either byte order, then a version of 1 to 4.
+/// Whether the bytes begin with the number 1 in either byte order, then a version of 1 to 4.
 bool recognises_meshb(std::string_view bytes) {
   constexpr std::string_view kLittle("\x01\0\0\0", 4);
   constexpr std::string_view kBig("\0\0\0\x01", 4);
@@ -79,7 +79,7 @@ class MeshbReader {
     return static_cast<std::size_t>(n);
   }
 
-  /// One keyword with all that belongs to it; false at the end.
+  /// Reads one keyword with all its data; false at the end.
   bool section() {
     const auto code = in_.read<std::int32_t>("a keyword");
     if (code == kEnd) return false;
@@ -172,7 +172,7 @@ class MeshbReader {
     contents_.add_marks(std::move(marks));
   }
 
-  /// Cells may come before the vertices.
+  /// Checks the corners of cells, which may come before the vertices.
   void check_corners() const {
     const std::size_t n = contents_.mesh.positions.size();
     if (largest_ > static_cast<std::int64_t>(n)) in_.fail(fmt::format("a cell names vertex {}, but the file has {} vertices", largest_, n));
@@ -184,7 +184,7 @@ class MeshbReader {
   MeditContents contents_;
   std::int32_t version_ = 0;
   int dimension_ = 0;
-  std::int64_t largest_ = 0;  // vertex that a cell names
+  std::int64_t largest_ = 0;  // greatest vertex that a cell names
   std::vector<std::int32_t> met_;
 };
 

@@ -19,7 +19,7 @@ class SolReader {
   SolReader(std::string_view text, const std::filesystem::path& file, Mesh& mesh, Progress& progress)
       : tokens_(text, file.string(), kSolSyntax, progress), mesh_(mesh), progress_(progress) {}
 
-  /// Returns the keywords that were passed over.
+  /// Reads the file; returns the keywords that were skipped.
   std::vector<std::string> read() {
     if (const std::string_view first = tokens_.token(); !equal_ignoring_case(first, "MeshVersionFormatted"))
       tokens_.fail(fmt::format("a solution file begins with MeshVersionFormatted, this one with {}", quote_token(first)));
@@ -43,7 +43,7 @@ class SolReader {
     return !token.empty() && is_letter(token[0]) && !equal_ignoring_case(token, "nan") && !equal_ignoring_case(token, "inf") &&
            !equal_ignoring_case(token, "infinity");
   }
-  /// A keyword that says nothing of vertices, such as Time or SolAtTriangles, and its numbers.
+  /// Skips a keyword that does not concern vertices, such as Time or SolAtTriangles, and its numbers.
   void pass_over(std::string_view keyword) {
     if (!is_word(keyword)) tokens_.fail(fmt::format("expected a keyword such as SolAtVertices or End, got {}", quote_token(keyword)));
     if (std::ranges::find(passed_over_, keyword) == passed_over_.end()) passed_over_.emplace_back(keyword);
@@ -141,7 +141,7 @@ void read_solutions_beside(SourceFile& source, Mesh& mesh, Progress& progress) {
     }
     source.add_note(fmt::format("fields read from {} beside it{}", file.filename().string(), passed_over));
     source.set_beside(file.filename().string(), fields);
-  } catch (const InputError& error) {  // the mesh is sound without it
+  } catch (const InputError& error) {  // ignored: the mesh is valid without it
     mesh.fields.resize(fields);
     source.add_note(fmt::format("the fields beside it were not read: {}", error.what()));
   }

@@ -1,5 +1,5 @@
 #pragma once
-// What the parts of Nastran's bulk data (.bdf, .nas, .dat) share.
+// Interfaces that the parts of Nastran's bulk data format (.bdf, .nas, .dat) share.
 // MSC Nastran Quick Reference Guide: Format of Bulk Data Entries; GRID, CTETRA, CPYRAM, CPENTA, CHEXA, CTRIA3, CQUAD4.
 
 #include <cstddef>
@@ -9,14 +9,14 @@
 
 namespace dmoscope {
 
-inline constexpr std::size_t kNastranNumber = 16;  // characters of a number, in a large field
+inline constexpr std::size_t kNastranNumber = 16;  // characters of a number in a large field
 inline constexpr std::string_view kNastranProperty = "property";
 
-/// See FormatHandler. Free, small and large fields. Throws InputError, Cancelled.
+/// Reader, see FormatHandler. Free, small and large fields. Throws InputError, Cancelled.
 Mesh read_nastran(SourceFile& source, const IoContext& context);
-/// See FormatHandler: nodes in large fields, elements in small ones. Throws OutputError, Cancelled.
+/// Writer, see FormatHandler: nodes in large fields, elements in small ones. Throws OutputError, Cancelled.
 Notes write_nastran(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context);
-/// See FormatHandler: a node that moved gets large fields, whatever it had.
+/// Patcher, see FormatHandler: a node that moved gets large fields in any case.
 Notes patch_nastran(AtomicFile& file, const Mesh& mesh, const MovedMesh& moved, const IoContext& context);
 
 }  // namespace dmoscope

@@ -13,7 +13,7 @@ constexpr std::size_t kField = 8;  // columns
 
 char capital(char c) noexcept { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 
-/// What stands before the first comma, or in the first field's columns.
+/// The text before the first comma, or in the first field's columns.
 std::string_view first_field(std::string_view line) {
   const std::size_t comma = line.find(',');
   return trimmed(line.substr(0, comma != std::string_view::npos ? comma : std::min(kField, line.find('\t'))));

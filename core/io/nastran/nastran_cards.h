@@ -16,31 +16,31 @@ class NastranCards {
  public:
   NastranCards(const SourceFile& source, Progress& progress) : lines_(source, progress) {}
 
-  /// Goes on with the card that begins at byte `offset`, on this line (0: errors will not be told by lines).
+  /// Continues with the card at byte `offset`, on this line (0: errors have no line).
   void seek(std::size_t offset, std::size_t line);
-  /// Reads the next card; false at the end of the file or at ENDDATA. Comments ($) and empty lines are passed over.
-  /// Throws InputError, Cancelled.
+  /// Reads the next card; false at the end of the file or at ENDDATA. Comments ($) and empty lines are skipped. Throws InputError,
+  /// Cancelled.
   [[nodiscard]] bool next();
 
-  /// In capitals, without the star of large fields: "GRID".
+  /// Name of the card in capitals, without the star of large fields: "GRID".
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
-  /// The n-th field behind the name, from 0, without blanks around; empty where there is none.
+  /// The n-th field behind the name, from 0, without blanks around; empty if there is none.
   [[nodiscard]] std::string_view field(std::size_t n) const noexcept { return n < fields_.size() ? fields_[n] : std::string_view(); }
   [[nodiscard]] std::size_t field_count() const noexcept { return fields_.size(); }
-  /// The bytes of the file that the card is, the end of its last line included.
+  /// Range of the card's bytes in the file, with the end of its last line.
   [[nodiscard]] std::size_t begin() const noexcept { return begin_; }
   [[nodiscard]] std::size_t end() const noexcept { return end_; }
-  /// Did comments or empty lines stand between its lines?
+  /// Whether comments or empty lines are between its lines.
   [[nodiscard]] bool interrupted() const noexcept { return interrupted_; }
 
-  /// What the n-th field says. Nastran's 1.5-3 is 0.0015; an empty field is 0. Throws InputError at the card's first line.
+  /// The n-th field as a number. Nastran's 1.5-3 is 0.0015; an empty field is 0. Throws InputError at the card's first line.
   [[nodiscard]] double real(std::size_t n, std::string_view what) const;
   [[nodiscard]] std::int32_t label(std::size_t n, std::string_view what) const;
-  /// A whole number from 0 on; an empty field is 0.
+  /// The n-th field as a whole number from 0 on; an empty field is 0.
   [[nodiscard]] int number_or_zero(std::size_t n, std::string_view what) const;
   [[noreturn]] void fail(const std::string& what) const;
 
-  /// Called with every comment line that next() passes over.
+  /// Function that next() calls with every comment line.
   std::function<void(std::string_view line)> on_comment;
 
  private:
@@ -48,11 +48,11 @@ class NastranCards {
   void take_line(std::string_view line);
 
   DataLines lines_;
-  bool held_ = false;  // the line that was read last is not of the card before it
+  bool held_ = false;  // whether the last line read belongs to the next card
   bool passed_over_ = false;
   std::string_view line_;
   std::size_t line_begin_ = 0;
-  std::deque<std::string> expanded_;  // lines whose tabs were
+  std::deque<std::string> expanded_;  // lines with their tabs expanded
   std::string name_;
   std::vector<std::string_view> fields_;
   std::size_t begin_ = 0, end_ = 0, number_ = 0;

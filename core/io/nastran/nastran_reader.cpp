@@ -1,4 +1,4 @@
-// Reads Nastran's bulk data: GRID cards and elements of first order; properties become groups.
+// Reader of Nastran's bulk data: GRID cards and elements of first order; properties become groups.
 
 #include <algorithm>
 #include <array>
@@ -21,7 +21,7 @@ namespace {
 
 struct CellCard {
   std::string_view name;
-  std::optional<CellShape> shape;  // nothing: of higher order
+  std::optional<CellShape> shape;  // none: an element of higher order
   bool has_property = true;
 };
 constexpr std::array kCellCards{CellCard{"CTRIA3", CellShape::Triangle},
@@ -86,7 +86,7 @@ class NastranReader {
   }
 
  private:
-  /// What comes before BEGIN BULK tells the solver what to do; files that are included elsewhere have the bulk data alone.
+  /// Finds the begin of the bulk data: text before BEGIN BULK instructs the solver; included files have the bulk data alone.
   void find_bulk() {
     DataLines lines(source_, progress_);
     std::string title;
@@ -105,7 +105,7 @@ class NastranReader {
     }
   }
 
-  /// HyperMesh's and others' way to name a property: $HMNAME PROP 5"wing".
+  /// Reads a comment by which HyperMesh and others name a property: $HMNAME PROP 5"wing".
   void comment(std::string_view line) {
     constexpr std::string_view kName = "$HMNAME PROP";
     source_.add_only_in_file("comments");
@@ -198,11 +198,11 @@ class NastranReader {
   Mesh mesh_;
   std::vector<OriginLabels> labels_;
   std::map<std::pair<int, std::string_view>, std::uint32_t> origins_;  // by property, or else by the card's name
-  std::map<int, std::string> names_;                                   // of properties
+  std::map<int, std::string> names_;                                   // names of the properties
   std::vector<std::string> other_;
 };
 
-/// Has it a line BEGIN BULK, or is its first card one that only Nastran has?
+/// Whether there is a line BEGIN BULK, or the first card is one that only Nastran has.
 bool recognises_nastran(std::string_view bytes) {
   constexpr std::size_t kLook = 65536;
   bytes = bytes.substr(0, kLook);
@@ -217,7 +217,7 @@ bool recognises_nastran(std::string_view bytes) {
       const std::string card = words_in_capitals(line.substr(0, 8));
       const std::string_view number = trimmed(line.substr(std::min<std::size_t>(line.size(), 8), 8));
       if (card.starts_with("GRID,") || card.starts_with("GRID*,")) return true;
-      // A word alone may be any file's title.
+      // Requires a number behind GRID: a single word may be any file's title.
       if (card == "GRID" || card == "GRID*") return !number.empty() && number.find_first_not_of("0123456789") == std::string_view::npos;
     }
     bytes.remove_prefix(std::min(end + 1, bytes.size()));

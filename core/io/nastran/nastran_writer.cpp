@@ -1,4 +1,4 @@
-// Writes Nastran's bulk data: anew, and again with nodes that moved.
+// Writer of Nastran's bulk data: new files, and files with nodes that moved.
 
 #include <array>
 #include <atomic>
@@ -21,9 +21,9 @@ namespace {
 
 constexpr std::array<std::string_view, kCellShapeCount> kCards{"", "CROD", "CTRIA3", "CQUAD4", "CTETRA", "CHEXA", "CPENTA", "CPYRAM"};
 constexpr std::size_t kSmall = 8;
-constexpr std::size_t kMostNumber = 99999999;  // in a small field
+constexpr std::size_t kMostNumber = 99999999;  // greatest number in a small field
 
-/// A GRID card in large fields, on two lines. `fields`: the number, CP, x, y, z, CD, PS and SEID.
+/// Writes a GRID card in large fields, on two lines. `fields`: the number, CP, x, y, z, CD, PS and SEID.
 void put_grid(TextBuffer& out, const std::array<std::string, 8>& fields, std::string_view line_end) {
   const auto line = [&](std::string_view name, std::size_t first) {
     std::string text = fmt::format("{:<8}", name);
@@ -66,7 +66,7 @@ class NastranWriter : MeshWriter {
   }
 
  private:
-  /// Properties are numbered together, whatever they are of.
+  /// Numbers the groups together, of whatever kind, as properties.
   void number_groups() {
     std::set<int> used;
     numbers_.assign(groups_.size(), 0);
@@ -85,7 +85,7 @@ class NastranWriter : MeshWriter {
     no_group_ = free_number();
   }
 
-  /// Cells that a group adds to the file.
+  /// Number of cells that a group adds to the file.
   [[nodiscard]] static std::size_t members(const Group& group) {
     if (group.dimension == 1) return group.members.size() / 2;
     return group.dimension == 2 ? group.faces.size() : 0;
@@ -151,7 +151,7 @@ class NastranWriter : MeshWriter {
   std::size_t next_ = 1;  // number of an element
 };
 
-/// What stands in the file's card with the coordinates that moved; those that did not keep their characters.
+/// Fields of the file's card with the coordinates that moved; the others keep their characters.
 std::array<std::string, 8> moved_fields(const NastranCards& card, Vec3 before, Vec3 after, std::atomic<std::size_t>& rounded) {
   std::array<std::string, 8> fields;
   for (std::size_t k = 0; k < fields.size(); ++k) fields[k] = card.field(k);

@@ -1,5 +1,4 @@
-// Wavefront OBJ: vertices and faces; all else in it is kept when it is written again.
-// http://www.martinreddy.net/gfx/3d/OBJ.spec
+// Wavefront OBJ: vertices and faces; everything else is kept when the file is patched. http://www.martinreddy.net/gfx/3d/OBJ.spec
 
 #include <algorithm>
 #include <array>
@@ -19,7 +18,7 @@
 namespace dmoscope {
 namespace {
 
-/// Statements that Mesh has no room for, and what a person calls them.
+/// Statements that Mesh cannot hold, and their names for the user.
 struct Statement {
   std::string_view word;
   std::string_view thing;
@@ -52,7 +51,7 @@ class ObjReader {
   }
 
  private:
-  /// A corner that names a vertex further down in the file: checked when all are read.
+  /// A corner whose vertex is further down in the file: checked after all are read.
   struct ForwardReference {
     std::size_t line;
     std::int64_t index;  // from 1
@@ -94,7 +93,7 @@ class ObjReader {
     add_element(mesh_, count == 3 ? ElementKind::Triangle : ElementKind::Quadrilateral, {corners.data(), count}, source_);
   }
 
-  /// A negative index counts back from the vertex read last.
+  /// Vertex of a corner; a negative index counts back from the vertex read last.
   Index corner(std::int64_t index) {
     const auto so_far = static_cast<std::int64_t>(mesh_.positions.size());
     if (index < 0) {
@@ -119,7 +118,7 @@ class ObjReader {
     const bool readable = std::all_of(word.begin(), word.end(), [](char c) { return c > ' ' && c < '\x7f'; });
     if (!readable) tokens_.fail(fmt::format("this is no OBJ file: {}", quote_token(word)));
     if (std::find(unknown_.begin(), unknown_.end(), word) != unknown_.end()) return;
-    constexpr std::size_t kMostNamed = 20;  // a file of another format should not fill the screen
+    constexpr std::size_t kMostNamed = 20;  // limits the message for a file of another format
     if (unknown_.size() == kMostNamed) return;
     unknown_.emplace_back(word);
     source_.add_note(fmt::format("Statement {} (line {}) is not understood and was passed over.", quote_token(word), line));

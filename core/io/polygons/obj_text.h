@@ -1,5 +1,5 @@
 #pragma once
-// The statements of Wavefront OBJ that make a mesh.
+// Statements of Wavefront OBJ that make a mesh.
 
 #include <array>
 #include <cstdint>
@@ -11,10 +11,10 @@ namespace dmoscope {
 
 inline constexpr TextSyntax kObjSyntax{.comment = '#', .backslash_joins_lines = true};
 
-/// Behind the word "v": three coordinates. `place` gets their offset; what follows on the line is left.
+/// Reads three coordinates behind the word "v". `place` gets their offset; the rest of the line is left.
 [[nodiscard]] Vec3 read_obj_vertex(Tokenizer& tokens, std::size_t& place);
-/// Behind the word "f": three or four corners, "v", "v/vt", "v//vn" or "v/vt/vn" each; how many. Their vertices count from 1, or back from
-/// the vertex read last (-1); none is 0.
+/// Reads three or four corners behind the word "f", "v", "v/vt", "v//vn" or "v/vt/vn" each; returns their number. Their vertices count from
+/// 1, or back from the vertex read last (-1); none is 0.
 [[nodiscard]] std::size_t read_obj_face(Tokenizer& tokens, std::array<std::int64_t, 4>& corners);
 
 }  // namespace dmoscope

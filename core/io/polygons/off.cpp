@@ -19,7 +19,7 @@
 namespace dmoscope {
 namespace {
 
-/// The word at the very begin, with a count or BINARY after it: "OFF coast" may be the title of another format's file.
+/// Whether the file begins with the word, and a count or BINARY after it: "OFF coast" may be the title of another format's file.
 bool recognises_off(std::string_view bytes) {
   const std::string_view word = bytes.substr(0, bytes.substr(0, 16).find_first_of(" \t\r\n#"));
   if (!parse_off_header(word)) return false;
@@ -39,7 +39,7 @@ ElementKind kind_of(std::int64_t corners) { return corners == 3 ? ElementKind::T
 
 // --- ASCII ---
 
-/// What lines of vertices hold.
+/// Columns of the lines of vertices.
 struct Vertices {
   std::vector<Vec3> positions;
   std::vector<std::uint64_t> places;
@@ -80,7 +80,7 @@ void read_vertices(Tokenizer& tokens, std::size_t count, const OffHeader& header
   if (extras && !header.texture && !header.colours && !header.normals) source.add_only_in_file("vertex colours");
 }
 
-/// What lines of faces hold.
+/// Columns of the lines of faces.
 struct Faces {
   ElementTable elements;
   bool extras = false;

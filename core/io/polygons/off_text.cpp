@@ -25,7 +25,7 @@ OffHeader read_off_word(Tokenizer& tokens) {
   if (const auto found = parse_off_header(word)) return *found;
   if (word.front() < '0' || word.front() > '9' || word.find("OFF") != std::string_view::npos)
     tokens.fail(fmt::format("expected OFF (or a form of it such as COFF, NOFF, STOFF), got {}", quote_token(word)));
-  tokens.seek(begin, tokens.line());  // the word may be left out
+  tokens.seek(begin, tokens.line());  // the word may be missing
   return {};
 }
 
@@ -35,7 +35,7 @@ OffCounts read_off_counts(Tokenizer& tokens) {
   if (tokens.at_end()) tokens.fail_at_end("number of vertices");
   const std::size_t vertices = tokens.read_count("number of vertices", kShortestVertex);
   const std::size_t faces = tokens.read_count("number of faces", kShortestFace);
-  tokens.end_line();  // the number of edges, which nobody needs and some leave out
+  tokens.end_line();  // the number of edges, which is unused and sometimes missing
   return {vertices, faces};
 }
 

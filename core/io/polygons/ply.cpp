@@ -23,12 +23,12 @@ namespace {
 constexpr std::array<std::string_view, 3> kAxes{"x", "y", "z"};
 constexpr std::array<std::string_view, 2> kCorners{"vertex_indices", "vertex_index"};
 
-/// One element as it stands in the file.
+/// One element of the file.
 struct Row {
   std::size_t place = 0;            // byte offset of its first value
-  std::vector<double> scalars;      // of each property; 0 for lists
-  std::vector<std::size_t> places;  // of each property
-  std::vector<std::int64_t> list;   // of the list that was asked for
+  std::vector<double> scalars;      // values of the properties; 0 for lists
+  std::vector<std::size_t> places;  // offsets of the properties
+  std::vector<std::int64_t> list;   // entries of the requested list
   std::vector<std::size_t> list_places;
 };
 
@@ -64,10 +64,10 @@ class PlyReader {
   [[nodiscard]] bool ascii() const noexcept { return header_.encoding == PlyEncoding::Ascii; }
   [[nodiscard]] bool big_endian() const noexcept { return header_.encoding == PlyEncoding::BigEndian; }
 
-  /// A wrong count must not make us allocate more than the file is worth.
+  /// Checks a count, so that a wrong one does not allocate more than the file's size justifies.
   void check_count(const PlyElement& element) const {
     const double bytes = static_cast<double>(element.count) * static_cast<double>(element.least_size(header_.encoding));
-    // The last word of a text needs no separator after it, hence the one byte of grace.
+    // Allows one more byte, since the last word of a text needs no separator after it.
     if (bytes <= static_cast<double>(in_.left()) + 1.0) return;
     in_.fail_at(element.place, fmt::format("{} elements {} are declared, but only {} bytes are left for them", element.count,
                                            quote_token(element.name), in_.left()));
@@ -79,11 +79,11 @@ class PlyReader {
     return *found;
   }
 
-  /// Reads one element; the entries of list number `list` are kept, those of others passed over.
+  /// Reads one element; the entries of list number `list` are kept, those of others skipped.
   void read_row(const PlyElement& element, std::size_t list, Row& row) {
     row.scalars.resize(element.properties.size());
     row.places.resize(element.properties.size());
-    if (ascii()) (void)in_.at_end();  // empty lines between elements
+    if (ascii()) (void)in_.at_end();  // skips empty lines between elements
     for (std::size_t p = 0; p < element.properties.size(); ++p) {
       const PlyProperty& property = element.properties[p];
       if (property.list) {
@@ -123,7 +123,7 @@ class PlyReader {
     return load_whole(in_.block(size_of(type), property.name).data(), type, big_endian());
   }
 
-  /// In ASCII files every element has a line of its own.
+  /// Checks that an element is on a single line in an ASCII file.
   void same_line(const PlyProperty& property, bool first) {
     if (!first && in_.line_over()) in_.fail(fmt::format("the line ends where {} is expected", quote_token(property.name)));
   }
@@ -155,7 +155,7 @@ class PlyReader {
     for (std::size_t i = 0; i < element.count; ++i) read_row(element, element.properties.size(), row);
   }
 
-  /// A field for each scalar property that `known` does not have; returns the properties' indices.
+  /// Adds a field for each scalar property that `known` does not have; returns the properties' indices.
   std::vector<std::size_t> add_fields(const PlyElement& element, Field::On on, std::span<const std::string_view> known) {
     std::vector<std::size_t> indices;
     for (std::size_t p = 0; p < element.properties.size(); ++p) {
@@ -208,7 +208,7 @@ class PlyReader {
     set_layout(element, axis);
   }
 
-  /// Words, or bytes, from a row's begin to one of its properties; nothing where a list comes before.
+  /// Words, or bytes, from a row's begin to one of its properties; none if a list comes before it.
   [[nodiscard]] std::optional<std::uint32_t> place_in_row(const PlyElement& element, std::size_t property) const {
     std::size_t at = 0;
     for (std::size_t p = 0; p < property; ++p) {

@@ -60,7 +60,7 @@ std::size_t PlyElement::least_size(PlyEncoding encoding) const noexcept {
   std::size_t size = 0;
   for (const PlyProperty& property : properties) {
     if (encoding == PlyEncoding::Ascii) {
-      size += 2;  // a digit and what separates it from the next
+      size += 2;  // a digit and a separator
     } else {
       size += size_of(property.list ? property.count_type : property.type);
     }

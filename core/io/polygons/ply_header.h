@@ -1,6 +1,5 @@
 #pragma once
-// The header of a PLY file: which elements follow, and which properties each of them has.
-// Format: Greg Turk, "The PLY Polygon File Format", 1994.
+// The header of a PLY file: the elements that follow, and their properties. Format: Greg Turk, "The PLY Polygon File Format", 1994.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,10 +15,10 @@ enum class PlyEncoding : std::uint8_t { Ascii, LittleEndian, BigEndian };
 
 struct PlyProperty {
   std::string name;
-  std::string type_word;  // as in the file
+  std::string type_word;  // word in the file
   ScalarType type = ScalarType::Float32;
   bool list = false;
-  ScalarType count_type = ScalarType::UInt8;  // of a list
+  ScalarType count_type = ScalarType::UInt8;  // type of a list's count
 };
 
 struct PlyElement {
@@ -27,10 +26,10 @@ struct PlyElement {
   std::size_t count = 0;
   std::vector<PlyProperty> properties;
   std::size_t place = 0;  // byte offset of its line in the header
-  /// Bytes of one element in a binary file, the least there can be if it has lists; words in an ASCII file.
+  /// Bytes of one element in a binary file, the least possible if it has lists; words in an ASCII file.
   [[nodiscard]] std::size_t least_size(PlyEncoding encoding) const noexcept;
   [[nodiscard]] bool has_list() const noexcept;
-  /// Index of the property with this name, properties.size() if there is none.
+  /// Index of the property with this name, or properties.size() if there is none.
   [[nodiscard]] std::size_t find(std::string_view property) const noexcept;
 };
 

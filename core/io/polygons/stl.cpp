@@ -1,5 +1,5 @@
-// STL: ASCII and binary. The file repeats a vertex in every facet around it: equal corners become one vertex, else there would be
-// no mesh to smooth, and a moved vertex is written to all its places.
+// STL: ASCII and binary. The file repeats a vertex in every facet around it: equal corners become one vertex, else there would be no mesh
+// to smooth, and a moved vertex is written to all its places.
 
 #include <algorithm>
 #include <array>
@@ -25,10 +25,10 @@
 namespace dmoscope {
 namespace {
 
-/// Numbers positions in order of first appearance. Positions are the same when they compare equal: -0.0 is 0.0.
+/// Numbers positions in order of first appearance. Positions that compare equal are one: -0.0 is 0.0.
 class Welder {
  public:
-  /// The position's number, and whether it is new.
+  /// Adds a position; returns its number, and whether it is new.
   std::pair<Index, bool> add(Vec3 p) {
     if (2 * positions_.size() >= slots_.size()) grow();
     Index& slot = slots_[slot_of(p)];
@@ -37,7 +37,7 @@ class Welder {
     positions_.push_back(p);
     return {slot, true};
   }
-  /// Every position that was added, once.
+  /// Takes out all distinct positions.
   [[nodiscard]] std::vector<Vec3> take() noexcept { return std::move(positions_); }
 
  private:
@@ -49,7 +49,7 @@ class Welder {
     }
     return h;
   }
-  /// Where the position's number is, or the free slot where it belongs.
+  /// The slot with the position's number, or the free slot for it.
   [[nodiscard]] std::size_t slot_of(Vec3 p) const noexcept {
     const std::size_t mask = slots_.size() - 1;
     std::size_t i = hash(p) & mask;
@@ -57,24 +57,24 @@ class Welder {
     return i;
   }
   void grow() {
-    constexpr std::size_t kFirst = 1024;  // a power of two, as all that follow
+    constexpr std::size_t kFirst = 1024;  // a power of two, like all later sizes
     slots_ = large_vector<Index>(std::max(kFirst, 2 * slots_.size()), kNoIndex);
     for (std::size_t i = 0; i < positions_.size(); ++i) slots_[slot_of(positions_[i])] = static_cast<Index>(i);
   }
 
   std::vector<Vec3> positions_;
-  std::vector<Index> slots_;  // numbers of positions by their hash, at most half of them taken
+  std::vector<Index> slots_;  // numbers of positions by their hash, at most half of the slots used
 };
 
 Vec3 corner_of(const StlFacet& facet, std::size_t corner) {
   return {facet.numbers[3 + 3 * corner], facet.numbers[4 + 3 * corner], facet.numbers[5 + 3 * corner]};
 }
 
-/// Unit normal of a triangle, 0 0 0 when it has no area.
+/// Unit normal of a triangle, or 0 0 0 if it has no area.
 Vec3 facet_normal(Vec3 a, Vec3 b, Vec3 c) {
   const Vec3 u = b - a;
   const Vec3 v = c - a;
-  // Scaled first, so that neither tiny nor huge triangles lose their normal.
+  // Scales first, so that neither tiny nor huge triangles lose their normal.
   const double su = std::max({std::abs(u.x), std::abs(u.y), std::abs(u.z)});
   const double sv = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   if (!(su > 0.0) || !(sv > 0.0) || !std::isfinite(su) || !std::isfinite(sv)) return {};
@@ -124,7 +124,7 @@ Mesh read_stl(SourceFile& source, const IoContext& context) {
   return mesh;
 }
 
-/// How many vertices of `positions` that elements use share their place with another one.
+/// Number of vertices of `positions`, among those of elements, that share their place with another one.
 std::size_t count_coincident(const Mesh& mesh, std::span<const Vec3> positions, bool as_float) {
   Welder welder;
   std::vector<bool> seen(positions.size(), false);
@@ -205,7 +205,7 @@ class StlPatcher {
   }
 
   void copy_until(std::size_t offset) {
-    constexpr std::size_t kPiece = std::size_t{1} << 20;  // so that a cancel is seen in time
+    constexpr std::size_t kPiece = std::size_t{1} << 20;  // piece size, so that a cancel is noticed in time
     while (copied_ < offset) {
       const std::size_t size = std::min(kPiece, offset - copied_);
       out_ << mesh_.source->bytes().substr(copied_, size);
@@ -218,8 +218,8 @@ class StlPatcher {
   std::span<const Vec3> positions_;
   bool binary_;
   TextWriter out_;
-  std::size_t place_ = 0;   // of the next corner
-  std::size_t copied_ = 0;  // bytes of the source that were copied or replaced
+  std::size_t place_ = 0;   // place of the next corner
+  std::size_t copied_ = 0;  // number of the source's bytes that were copied or replaced
   std::size_t rounded_ = 0;
   bool moved_ = false;
 };
@@ -251,7 +251,7 @@ Notes write_stl(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positi
                                                         info(kind).dimension == 2 ? ", PLY, OBJ or OFF" : " legacy"));
   }
   TextWriter out(file, context);
-  const std::string name = one_line(mesh.title);  // a NUL would make it a binary file
+  const std::string name = one_line(mesh.title);  // without NUL, which would make it a binary file
   out << "solid " << name << '\n';
   out.for_each(mesh.elements.size(), [&](TextBuffer& part, std::size_t e) {
     const FileCorners corners = file_corners(mesh, e);

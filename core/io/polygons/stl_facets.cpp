@@ -19,13 +19,13 @@ void expect(MixedInput& in, std::string_view keyword) {
 }
 
 void read_number(MixedInput& in, StlFacet& facet, std::size_t i) {
-  // A normal may be anything (degenerate facets have NaN in many files): it follows from the corners.
+  // Accepts any normal (degenerate facets have NaN in many files), since it follows from the corners.
   facet.numbers[i] = i < 3 ? in.number("a component of the normal") : in.coordinate();
   facet.places[i] = in.token();
   facet.sizes[i] = in.offset() - in.token();
 }
 
-/// What follows the word "facet".
+/// Reads a facet behind the word "facet".
 void read_facet(MixedInput& in, StlFacet& facet) {
   expect(in, "normal");
   for (std::size_t i = 0; i < 3; ++i) read_number(in, facet, i);
@@ -96,7 +96,7 @@ bool size_fits(std::string_view bytes) noexcept {
 }  // namespace
 
 bool is_binary_stl(std::string_view bytes) noexcept {
-  // A truncated binary file that begins with "solid" still gives itself away by its zero bytes.
+  // Detects a truncated binary file that begins with "solid" by its zero bytes.
   return size_fits(bytes) || !begins_with_solid(bytes.substr(std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size()))) ||
          bytes.substr(0, 512).find('\0') != std::string_view::npos;
 }

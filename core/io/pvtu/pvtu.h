@@ -1,5 +1,5 @@
 #pragma once
-// PVTU files: they name the VTU files that hold the pieces of a mesh.
+// PVTU files, which name the VTU files that hold the pieces of a mesh.
 // Format: https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html
 
 #include <filesystem>
@@ -14,40 +14,41 @@
 
 namespace dmoscope {
 
-/// The pieces' files, in their order, as they can be opened. `bytes`: of the PVTU file `path`. Throws InputError.
+/// Paths of the pieces' files, in their order. `bytes`: content of the PVTU file `path`. Throws InputError.
 [[nodiscard]] std::vector<std::filesystem::path> pvtu_pieces(std::string_view bytes, const std::filesystem::path& path);
-/// The same file with other pieces, which lie beside it. Throws InputError.
+/// The PVTU file with the names of other pieces beside it. Throws InputError.
 [[nodiscard]] std::string pvtu_with_pieces(std::string_view bytes, const std::filesystem::path& path,
                                            const std::vector<std::string>& names);
-/// "coast_3.vtu": what the piece of a PVTU file is called that is written anew.
+/// Name for a new piece of a PVTU file: "coast_3.vtu".
 [[nodiscard]] std::string pvtu_piece_name(const std::filesystem::path& path, std::size_t piece);
-/// Is a file called so?
+/// Whether a file has such a name.
 [[nodiscard]] bool is_pvtu_piece_name(const std::filesystem::path& path, const std::filesystem::path& file);
 
-/// Which numbers of a piece say what its vertices and elements are in the whole mesh. Null: it has no such field. Ids are whole numbers,
-/// each as often as the pieces share what it stands for.
+/// Fields of a piece that number its vertices and elements in the whole mesh. Null: it has no such field. Ids are whole numbers, equal in
+/// all pieces that share a vertex or element.
 struct PieceIds {
-  const Field* vertices = nullptr;  // "GlobalNodeIds" and the like, or of the role GLOBAL_IDS
-  const Field* elements = nullptr;  // likewise "GlobalCellIds"
-  const Field* ghosts = nullptr;    // "vtkGhostType": elements whose first bit is set are another piece's
+  const Field* vertices = nullptr;  // "GlobalNodeIds" and the like, or with the role GLOBAL_IDS
+  const Field* elements = nullptr;  // "GlobalCellIds" and the like, or with the role GLOBAL_IDS
+  const Field* ghosts = nullptr;    // "vtkGhostType": elements whose first bit is set belong to another piece
   [[nodiscard]] bool is_ghost(Index element) const {
     return ghosts != nullptr && (static_cast<unsigned>(ghosts->values[element]) & 1U) != 0;
   }
 };
-/// Does a field number vertices or elements of a whole mesh?
+/// Whether a field numbers vertices or elements of a whole mesh.
 [[nodiscard]] bool is_id_field(const Field& field);
-/// Throws InputError for ids that are no whole numbers from 0 on.
+/// Finds the ids of a piece. Throws InputError for ids that are no whole numbers from 0 on.
 [[nodiscard]] PieceIds piece_ids(const Mesh& piece);
 
-/// One mesh of all pieces. Vertices of one id are one, or, where a piece has no ids, those whose coordinates have the same bits; they come
-/// in the order of the ids, or in that of the pieces. Elements likewise, but for ghosts; without ids they come in the order of the pieces.
-/// Fields that all pieces have are kept. Throws InputError where pieces disagree on where a vertex stands. `notes`: what was left out.
+/// Joins all pieces to one mesh. Vertices with the same id are one, or, for pieces without ids, those whose coordinates have the same bits;
+/// they come in the order of the ids, or in that of the pieces. So do elements, without ghosts; without ids they come in the order of the
+/// pieces. Fields that all pieces have are kept. Throws InputError if pieces disagree on the position of a vertex. `notes`: data that were
+/// left out.
 [[nodiscard]] Mesh join_pieces(const std::vector<Mesh>& pieces, const std::string& file, std::vector<std::string>& notes);
 
-/// See FormatHandler::read.
+/// Reader, see FormatHandler::read.
 [[nodiscard]] Mesh read_pvtu(SourceFile& source, const IoContext& context);
-/// See FormatHandler::write. Writes the pieces beside the file, with ids, and makes them their names; only `file` is left to be made its.
-/// As many pieces as the context says, or one for each million elements.
+/// Writer, see FormatHandler::write. Writes the pieces beside the file, with ids, and gives them their final names; only `file` is left to
+/// be committed. The context sets the number of pieces; by default there is one for each million elements.
 std::vector<std::string> write_pvtu(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context);
 
 }  // namespace dmoscope

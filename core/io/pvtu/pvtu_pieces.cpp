@@ -13,7 +13,7 @@
 namespace dmoscope {
 namespace {
 
-/// The element PUnstructuredGrid.
+/// Parses the document and returns the element PUnstructuredGrid.
 pugi::xml_node parse(pugi::xml_document& document, std::string_view bytes, const std::filesystem::path& path) {
   const auto line_of = [&](std::ptrdiff_t offset) {
     const auto before = bytes.substr(0, static_cast<std::size_t>(std::max<std::ptrdiff_t>(offset, 0)));
@@ -52,7 +52,7 @@ std::vector<std::filesystem::path> pvtu_pieces(std::string_view bytes, const std
   std::vector<std::filesystem::path> pieces;
   for (const pugi::xml_node piece : parse(document, bytes, path).children("Piece"))
     pieces.push_back(path.parent_path() / piece.attribute("Source").value());
-  for (const std::filesystem::path& piece : pieces)  // not one that names pieces again
+  for (const std::filesystem::path& piece : pieces)  // refuses a piece that names pieces again
     if (!equal_ignoring_case(piece.extension().string(), ".vtu"))
       throw InputError(path.string(), 0, fmt::format("its piece {} is no .vtu", quote_token(piece.filename().string())));
   return pieces;

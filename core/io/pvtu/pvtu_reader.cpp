@@ -99,7 +99,7 @@ class Joiner {
     order_.erase(std::unique(order_.begin(), order_.end(), [&](const auto& a, const auto& b) { return id(a) == id(b); }), order_.end());
   }
 
-  /// The same field of another piece; null: it has none.
+  /// The field of another piece that corresponds to `like`; null: it has none.
   static const Field* find(const Mesh& piece, const Field& like) {
     const auto found = std::ranges::find_if(piece.fields, [&](const Field& field) {
       return field.on == like.on && field.name == like.name && field.components == like.components;
@@ -137,7 +137,7 @@ class Joiner {
       return;
     }
     joined.values.resize(n * mesh_.positions.size());
-    for (std::size_t p = pieces_.size(); p-- > 0;)  // the first piece's are kept
+    for (std::size_t p = pieces_.size(); p-- > 0;)  // in reverse, so that the first piece's are kept
       for (std::size_t v = 0; v < number_[p].size(); ++v)
         std::copy_n(all[p]->values.begin() + static_cast<std::ptrdiff_t>(v * n), n,
                     joined.values.begin() + static_cast<std::ptrdiff_t>(number_[p][v] * n));
@@ -147,8 +147,8 @@ class Joiner {
   const std::string& file_;
   std::vector<std::string>& notes_;
   std::vector<PieceIds> ids_;
-  std::vector<std::vector<Index>> number_;            // of each piece's vertices
-  std::vector<std::pair<std::size_t, Index>> order_;  // of the elements: piece and number there
+  std::vector<std::vector<Index>> number_;            // numbers of each piece's vertices in the mesh
+  std::vector<std::pair<std::size_t, Index>> order_;  // piece and number there of each element
   Mesh mesh_;
 };
 

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kElementsOfPiece = 1'000'000;
 
-/// The piece of each element: stretches of a Hilbert curve along which its lowest vertices lie.
+/// The piece of each element: a stretch of a Hilbert curve along which its lowest vertex lies.
 std::vector<std::size_t> pieces_of_elements(const Mesh& mesh, std::span<const Vec3> positions, std::size_t pieces) {
   const PointBox box = box_of(positions);
   const HilbertCurve curve(box.low, box.high);
@@ -30,7 +30,7 @@ std::vector<std::size_t> pieces_of_elements(const Mesh& mesh, std::span<const Ve
   return piece;
 }
 
-/// A field of some rows of another.
+/// A field with some rows of another.
 Field rows_of(const Field& field, std::span<const Index> rows) {
   Field some{field.name, field.on, field.components, field.type, field.role, {}};
   const auto n = static_cast<std::size_t>(field.components);
@@ -79,11 +79,11 @@ class PvtuWriter {
   }
 
  private:
-  /// Each piece would choose the narrowest type for its values: they have to agree.
+  /// Chooses the fields' types for all pieces: each piece alone would choose the narrowest for its values.
   void choose_fields() {
     for (std::size_t i = 0; i < mesh_.fields.size(); ++i) {
       const Field& field = mesh_.fields[i];
-      if (is_id_field(field)) continue;  // of another mesh, of which this was a part: the pieces get ids of their own
+      if (is_id_field(field)) continue;  // ids of a mesh of which this was a part: the pieces get ids of their own
       const std::size_t rows = field.on == Field::On::Vertices ? positions_.size() : mesh_.elements.size();
       if (field.components < 1 || field.values.size() != rows * static_cast<std::size_t>(field.components)) continue;
       kept_.push_back(i);
@@ -107,7 +107,7 @@ class PvtuWriter {
     file_.write("    <PPoints>\n      <PDataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"/>\n    </PPoints>\n");
   }
 
-  /// Vertices of no element, which one piece has to have.
+  /// Vertices of no element, which some piece must have.
   [[nodiscard]] std::vector<Index> unused_vertices() const {
     std::vector<std::uint8_t> used(positions_.size(), 0);
     for (const Index v : mesh_.elements.all_corners()) used[v] = 1;
@@ -117,7 +117,7 @@ class PvtuWriter {
     return unused;
   }
 
-  /// `vertices`: those that it has besides its elements' corners.
+  /// Writes a piece. `vertices`: those besides its elements' corners.
   void write_piece(AtomicFile& file, std::span<const Index> elements, std::vector<Index> vertices) {
     for (const Index e : elements) {
       const auto corners = mesh_.elements.corners(e);
@@ -150,8 +150,8 @@ class PvtuWriter {
   std::span<const Vec3> positions_;
   const IoContext& context_;
   std::size_t pieces_ = 1;
-  std::vector<std::size_t> kept_;   // fields
-  std::vector<std::string> types_;  // of these
+  std::vector<std::size_t> kept_;   // fields to be written
+  std::vector<std::string> types_;  // types of these fields
 };
 
 }  // namespace

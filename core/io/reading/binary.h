@@ -18,7 +18,7 @@
 
 namespace dmoscope {
 
-/// The number whose bytes begin at `bytes` (sizeof(Number) of them).
+/// The number at `bytes` (sizeof(Number) of them).
 template <class Number>
 requires std::is_arithmetic_v<Number>
 [[nodiscard]] Number load_number(const char* bytes, bool big_endian) noexcept {
@@ -37,7 +37,7 @@ requires std::is_arithmetic_v<Number>
   return raw;
 }
 
-/// Walks through binary data; every error is an InputError without a line.
+/// Reader of binary data; every error is an InputError without a line.
 class BinaryReader {
  public:
   BinaryReader(std::string_view bytes, std::size_t offset, bool big_endian, std::string file, Progress& progress)
@@ -45,7 +45,7 @@ class BinaryReader {
 
   [[nodiscard]] std::size_t offset() const noexcept { return offset_; }
   [[nodiscard]] std::size_t remaining() const noexcept { return bytes_.size() - offset_; }
-  /// The next number; `what` names it for the error when the file ends before it.
+  /// Reads the next number; `what` names it in the error if the file ends before it.
   template <class Number>
   [[nodiscard]] Number read(std::string_view what) {
     require(sizeof(Number), what);
@@ -59,7 +59,7 @@ class BinaryReader {
     offset_ += count;
     if (offset_ >= next_report_) report();
   }
-  /// Throws InputError unless `count` pieces of `bytes_each` are left: call it before allocating for them.
+  /// Throws InputError unless `count` entries of `bytes_each` are left; to be called before allocating memory for them.
   void require_count(std::uint64_t count, std::size_t bytes_each, std::string_view what) const {
     if (count > remaining() / bytes_each) {
       fail(fmt::format("truncated: {} {} need more than the {} bytes left", count, what, remaining()));
@@ -85,7 +85,7 @@ class BinaryReader {
   std::size_t next_report_ = 0;
 };
 
-/// From here on, not every whole number is a double.
+/// Least whole number above which not every whole number is a double.
 inline constexpr double kExactWhole = 9007199254740992.0;
 
 }  // namespace dmoscope

@@ -34,7 +34,7 @@ T nearest(double value) noexcept {
   if constexpr (std::is_integral_v<T>) {
     if (std::isnan(value)) return 0;
     const double whole = std::nearbyint(value);
-    // As doubles the upper ends of the 64-bit ranges round up to the first number that does not fit.
+    // Compares as doubles: the upper ends of the 64-bit ranges round up to the first number that does not fit.
     if (whole <= static_cast<double>(std::numeric_limits<T>::min())) return std::numeric_limits<T>::min();
     if (whole >= static_cast<double>(std::numeric_limits<T>::max())) return std::numeric_limits<T>::max();
     return static_cast<T>(whole);
@@ -48,7 +48,7 @@ T nearest(double value) noexcept {
   }
 }
 
-/// Calls `use` with a value of the C++ type that `type` stands for.
+/// Calls `use` with a value of the C++ type that corresponds to `type`.
 template <class Use>
 auto with_type(ScalarType type, Use&& use) noexcept {
   switch (type) {

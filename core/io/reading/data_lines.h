@@ -1,5 +1,5 @@
 #pragma once
-// A text file line by line, each cut at its commas: what Abaqus and Nastran files are made of.
+// Lines of a text file, split at commas, as in Abaqus and Nastran files.
 
 #include <cstdint>
 #include <span>
@@ -15,11 +15,11 @@ namespace dmoscope {
 
 class DataLines {
  public:
-  /// `source` must outlive this.
+  /// Begins before the first line. `source` must outlive this.
   DataLines(const SourceFile& source, Progress& progress)
       : lines_(source.bytes(), source.path().string(), {}, progress), numbers_(source.bytes(), source.path().string(), {}, unwatched_) {}
 
-  /// Goes on to the next line; false if there is none. Throws Cancelled.
+  /// Goes to the next line; false if there is none. Throws Cancelled.
   [[nodiscard]] bool next() {
     if (lines_.remaining() == 0) return false;
     begin_ = lines_.offset();
@@ -28,27 +28,27 @@ class DataLines {
     numbers_.seek(begin_, number_);
     return true;
   }
-  /// Goes on with the line that begins at byte `offset`, whose number is `line`.
+  /// Continues with the line that begins at byte `offset`, whose number is `line`.
   void seek(std::size_t offset, std::size_t line) noexcept { lines_.seek(offset, line); }
-  /// The line as it stands, without its end.
+  /// The whole line, without its end.
   [[nodiscard]] std::string_view line() const noexcept { return line_; }
-  /// 1-based.
+  /// Number of the line, from 1.
   [[nodiscard]] std::size_t number() const noexcept { return number_; }
-  /// Where the line begins in the file, and where the next one does.
+  /// Offset of the line's begin; the other function has that of the next line.
   [[nodiscard]] std::size_t begin() const noexcept { return begin_; }
   [[nodiscard]] std::size_t end() const noexcept { return lines_.offset(); }
-  /// Byte offset of a part of the file.
+  /// Byte offset in the file of a part of the text.
   [[nodiscard]] std::size_t offset_of(std::string_view part) const noexcept { return lines_.offset_of(part); }
-  /// What is between the line's commas, without blanks around; empty ones at its end are left out. Valid until it is called again.
+  /// The texts between the line's commas, without blanks around; empty ones at its end are left out. Valid until the next call.
   [[nodiscard]] std::span<const std::string_view> fields();
-  /// Does the line end with a comma?
+  /// Whether the line ends with a comma.
   [[nodiscard]] bool ends_with_comma() const noexcept { return trimmed(line_).ends_with(','); }
 
-  // Errors are InputError at this line. `what` names the thing expected.
+  // Errors of the following functions are InputError at this line. `what` names the value expected.
 
   [[nodiscard]] double real(std::string_view field, std::string_view what) const { return numbers_.parse_double(field, what); }
   [[nodiscard]] std::int64_t integer(std::string_view field, std::string_view what) const { return numbers_.parse_integer(field, what); }
-  /// A number that a thing is called by: from 1 to 2^31 - 1.
+  /// The number of a node, element or the like: from 1 to 2^31 - 1.
   [[nodiscard]] std::int32_t label(std::string_view field, std::string_view what) const;
   [[noreturn]] void fail(const std::string& what) const { numbers_.fail(what); }
   [[noreturn]] void fail_on(std::size_t line, const std::string& what) const { numbers_.fail_at(line, what); }
@@ -59,7 +59,7 @@ class DataLines {
  private:
   Progress unwatched_;
   Tokenizer lines_;
-  Tokenizer numbers_;  // knows the line that errors point at
+  Tokenizer numbers_;  // has the line number for errors
   std::string_view line_;
   std::size_t number_ = 0;
   std::size_t begin_ = 0;

@@ -12,7 +12,7 @@
 #include "core/base/error.h"
 #include "core/io/reading/unpack_budget.h"
 
-#ifdef DMOSCOPE_VTU  // zlib is there, then
+#ifdef DMOSCOPE_VTU  // zlib is available in such builds
 #include <zlib.h>
 #endif
 
@@ -24,9 +24,9 @@ bool is_gzip(std::string_view bytes) noexcept { return bytes.starts_with("\x1f\x
 namespace {
 
 constexpr std::size_t kPiece = std::size_t{1} << 20;
-constexpr int kGzip = 16 + MAX_WBITS;  // zlib's word for "with gzip's head and foot"
+constexpr int kGzip = 16 + MAX_WBITS;  // zlib's code for "with gzip's head and foot"
 
-/// inflate() behind each other: a file may be several that were joined.
+/// Calls inflate() repeatedly, since a file may consist of several that were joined.
 class Unpacker {
  public:
   explicit Unpacker(std::string_view packed) : rest_(packed) {
@@ -40,7 +40,7 @@ class Unpacker {
   /// Fills a part of `room`, `got` bytes.
   Step step(std::span<char> room, std::size_t& got) {
     constexpr std::size_t kMost = std::numeric_limits<uInt>::max();
-    stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(rest_.data()));  // zlib does not write there
+    stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(rest_.data()));  // zlib does not write to its input
     stream_.avail_in = static_cast<uInt>(std::min(rest_.size(), kMost));
     stream_.next_out = reinterpret_cast<Bytef*>(room.data());
     stream_.avail_out = static_cast<uInt>(std::min(room.size(), kMost));
@@ -50,7 +50,7 @@ class Unpacker {
     got = free - stream_.avail_out;
     if (result == Z_MEM_ERROR) throw std::bad_alloc();
     if (result == Z_STREAM_END) {
-      if (!is_gzip(rest_)) return Step::Done;  // what follows, zeros say, is none of ours
+      if (!is_gzip(rest_)) return Step::Done;  // ignores what follows, such as zeros
       inflateReset(&stream_);
       return Step::More;
     }
@@ -91,7 +91,7 @@ struct GzipPacker::Stream {
 };
 
 GzipPacker::GzipPacker(Sink sink) : stream_(std::make_unique<Stream>()), sink_(std::move(sink)) {
-  constexpr int kMemory = 8;  // zlib's default
+  constexpr int kMemory = 8;  // default of zlib
   if (deflateInit2(&stream_->z, Z_DEFAULT_COMPRESSION, Z_DEFLATED, kGzip, kMemory, Z_DEFAULT_STRATEGY) != Z_OK) throw std::bad_alloc();
 }
 
@@ -107,7 +107,7 @@ void GzipPacker::finish() { run({}, true); }
 void GzipPacker::run(std::string_view bytes, bool last) {
   z_stream& z = stream_->z;
   std::array<char, 65536> out;
-  z.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));  // zlib does not write there
+  z.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));  // zlib does not write to its input
   z.avail_in = static_cast<uInt>(bytes.size());
   do {
     z.next_out = reinterpret_cast<Bytef*>(out.data());

@@ -1,5 +1,5 @@
 #pragma once
-// Files that were packed by gzip (RFC 1952): mesh.vtk.gz. Needs zlib, which is not in every build.
+// Files packed by gzip (RFC 1952): mesh.vtk.gz. Needs zlib, which is not in every build.
 
 #include <filesystem>
 #include <functional>
@@ -11,25 +11,25 @@
 
 namespace dmoscope {
 
-/// Is zlib in this build?
+/// Whether zlib is in this build.
 [[nodiscard]] bool gzip_is_here() noexcept;
 [[nodiscard]] bool is_gzip(std::string_view bytes) noexcept;
 
-/// What the bytes unpack to; `path` is what errors call them. Some kilobytes may unpack to gigabytes: what is more than an UnpackBudget
-/// with context.most_memory has is refused. Throws InputError (damaged, truncated, too large, no zlib), Cancelled.
+/// The unpacked bytes; `path`: name in errors. Some kilobytes may unpack to gigabytes: more than an UnpackBudget with context.most_memory
+/// allows is refused. Throws InputError (damaged, truncated, too large, no zlib), Cancelled.
 [[nodiscard]] FileBytes gunzipped(const std::filesystem::path& path, std::string_view packed, const IoContext& context);
 
-/// Packs bytes as they come. The same bytes give the same file: no name and no time are in it.
+/// Packs bytes in a stream. Equal bytes give equal files: they contain no name and no time.
 class GzipPacker {
  public:
   using Sink = std::function<void(std::string_view packed)>;
-  /// Call it only where gzip_is_here().
+  /// Begins a stream; to be called only if gzip_is_here().
   explicit GzipPacker(Sink sink);
   ~GzipPacker();
   GzipPacker(const GzipPacker&) = delete;
   GzipPacker& operator=(const GzipPacker&) = delete;
   void add(std::string_view bytes);
-  /// Call it once, at the end.
+  /// Ends the stream; to be called once.
   void finish();
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// What reading and writing need of their caller.
+// Context of reading and writing, given by the caller.
 
 #include <cstdint>
 
@@ -10,16 +10,16 @@
 
 namespace dmoscope {
 
-/// Who watches the work, and the threads that share it. The result is the same for any number of them.
+/// Progress, threads and settings for reading and writing. The result does not depend on the number of threads.
 struct IoContext {
   IoContext(Progress& watched, ThreadPool* threads = nullptr, std::uint64_t memory = 0)  // NOLINT(google-explicit-constructor)
       : progress(watched), pool(threads), most_memory(memory) {}
   Progress& progress;
   ThreadPool* pool;                         // null: the calling thread alone
   std::uint64_t most_memory;                // bytes that a file may unpack to; 0: see UnpackBudget
-  Geographic geographic = Geographic::Off;  // whether coordinates are taken for degrees, by load_input()
-  Thin thin = Thin::Off;                    // whether a mesh one cell thick is taken for that of its front, by load_input()
-  std::size_t pieces = 0;                   // into which a format that has several files cuts a mesh; 0: as it likes
+  Geographic geographic = Geographic::Off;  // whether load_input() takes coordinates for degrees
+  Thin thin = Thin::Off;                    // whether load_input() replaces a mesh one cell thick by its front
+  std::size_t pieces = 0;                   // number of pieces in formats with several files; 0: the format's default
 };
 
 }  // namespace dmoscope

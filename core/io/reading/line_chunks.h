@@ -1,5 +1,5 @@
 #pragma once
-// Many lines of one kind, parsed by several threads.
+// Parsing of many lines of one kind by several threads.
 
 #include <cstddef>
 #include <string_view>
@@ -10,23 +10,23 @@
 
 namespace dmoscope {
 
-/// Where the lines of a chunk lie in a text. Both ends are begins of lines (or the text's end).
+/// Range of a chunk's lines in a text. Both ends are begins of lines (or the text's end).
 struct LineChunk {
   std::size_t begin = 0;
   std::size_t end = 0;
 };
 
-/// The next chunks of about `size` bytes each, at most `most` of them. Fewer, or none, where lines do not end with a line feed.
+/// The next chunks of about `size` bytes each, at most `most` of them. Fewer, or none, if lines do not end with a line feed.
 [[nodiscard]] std::vector<LineChunk> next_chunks(std::string_view text, std::size_t begin, std::size_t size, std::size_t most);
 
-/// Parses lines from `tokens` on in chunks, one per thread at a time, for as long as all is well:
+/// Parses lines from `tokens` on in chunks, one for each thread at a time, until an error:
 ///
-/// - parse(Tokenizer&, Part&) takes all lines of a chunk. Its Tokenizer ends where the chunk ends; offsets are those of the text.
-/// - take(Part&) adds what a chunk gave, chunk after chunk; false if it must not (it has more than is wanted).
+/// - parse(Tokenizer&, Part&) parses all lines of a chunk. Its Tokenizer ends where the chunk ends; offsets are those of the text.
+/// - take(Part&) adds the result of a chunk, chunk by chunk; false if it must not (it has more lines than wanted).
 ///
-/// Stops before the first chunk with an error or one that was not taken, and leaves `tokens` there: a reader that goes on line by line from
-/// there meets the error where it is, and finds where the lines of this kind end. Does nothing without threads to share the work.
-/// Throws Cancelled.
+/// Stops before the first chunk with an error or one that was not taken, and leaves `tokens` there: a reader that continues line by line
+/// from there reports the error in its place, and finds the end of the lines of this kind. Does nothing without several threads. Throws
+/// Cancelled.
 template <class Part, class Parse, class Take>
 void read_in_chunks(Tokenizer& tokens, const IoContext& context, Parse parse, Take take) {
   constexpr std::size_t kBytes = std::size_t{1} << 19U;

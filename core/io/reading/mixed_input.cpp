@@ -14,9 +14,9 @@ bool is_space(char c) noexcept { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
 constexpr TextSyntax kSyntax{.comment = '\0', .comma_is_blank = false, .backslash_joins_lines = false, .free_form = true};
 
-/// 1-based line of a byte, for line ends of all three kinds.
+/// Line of a byte, from 1, for line ends of all three kinds.
 std::size_t line_of(std::string_view bytes, std::size_t offset) {
-  // The end of a file belongs to its last line, not to the empty one after the last line end.
+  // Assigns the end of a file to its last line, not to the empty one after the last line end.
   if (offset >= bytes.size()) {
     offset = bytes.size();
     while (offset > 0 && is_space(bytes[offset - 1])) --offset;
@@ -61,7 +61,7 @@ std::string_view MixedInput::rest_of_line() {
   return line;
 }
 
-/// Runs the tokenizer's parsing, whose errors know no byte offsets.
+/// Calls the tokenizer's parsing, whose errors have no byte offsets.
 template <class Parse>
 auto MixedInput::parsed(Parse&& parse) {
   try {
@@ -107,7 +107,7 @@ std::size_t MixedInput::count(std::string_view what, double bytes_each) {
 
 void MixedInput::need(std::size_t n, double bytes_each, std::string_view what) const {
   if (n >= kNoIndex) fail(fmt::format("{} is {}: this program can hold {} at most", what, n, kNoIndex - 1));
-  // The last word of a text needs no separator after it, hence the one byte of grace.
+  // Allows one more byte, since the last word of a text needs no separator after it.
   if (static_cast<double>(n) * bytes_each > static_cast<double>(left()) + 1.0) {
     fail(fmt::format("{} is {}, but only {} bytes of the file are left", what, n, left()));
   }

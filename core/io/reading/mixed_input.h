@@ -1,6 +1,6 @@
 #pragma once
-// A cursor over a file that mixes words and binary blocks (VTK, PLY, STL): the tokenizer for the words, and blocks between them. Where
-// something is wrong is told as a line while the file is text, and as a byte offset once a binary block was met.
+// Cursor over a file that mixes words and binary blocks (VTK, PLY, STL), with a tokenizer for the words. Errors name a line in text, and a
+// byte offset after the first binary block.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,35 +15,35 @@ namespace dmoscope {
 
 class MixedInput {
  public:
-  /// `source` must outlive this.
+  /// Begins at the file's begin. `source` must outlive this.
   MixedInput(const SourceFile& source, Progress& progress);
 
-  /// True when only white space is left.
+  /// Whether only white space is left.
   [[nodiscard]] bool at_end() { return text_.at_end(); }
-  /// The next word, on whatever line it stands. Throws InputError naming `what` at the end of the file.
+  /// Takes the next word, on whatever line. Throws InputError naming `what` at the end of the file.
   std::string_view word(std::string_view what);
-  /// The next word without taking it; empty at the end of the file.
+  /// The next word, without taking it; empty at the end of the file.
   [[nodiscard]] std::string_view peek_word();
-  /// The next word of the current line; empty when the line has no more.
+  /// Takes the next word of the current line; empty if the line has no more.
   std::string_view word_on_line();
-  /// True when the current line has no more words.
+  /// Whether the current line has no more words.
   [[nodiscard]] bool line_over() { return !text_.more_on_line(); }
-  /// What is left of the current line, without surrounding white space; the line's end is taken.
+  /// Takes the rest of the current line with its end; returns it without surrounding white space.
   std::string_view rest_of_line();
-  /// A number, which may be infinite or NaN. Throws InputError naming `what`.
+  /// Takes a number, which may be infinite or NaN. Throws InputError naming `what`.
   double number(std::string_view what);
-  /// A finite number. Throws InputError.
+  /// Takes a finite number. Throws InputError.
   double coordinate();
   std::int64_t integer(std::string_view what);
-  /// A count: not negative, and with at least `bytes_each` bytes left in the file for each. Throws InputError.
+  /// Takes a count: not negative, and with at least `bytes_each` bytes left in the file for each. Throws InputError.
   std::size_t count(std::string_view what, double bytes_each);
-  /// Throws InputError when fewer than n * bytes_each bytes are left.
+  /// Throws InputError if fewer than n * bytes_each bytes are left.
   void need(std::size_t n, double bytes_each, std::string_view what) const;
-  /// The next n bytes, whatever they are. Throws InputError when the file ends before.
+  /// Takes the next n bytes. Throws InputError if the file ends before.
   std::string_view block(std::size_t n, std::string_view what);
 
   [[nodiscard]] std::size_t offset() const noexcept { return text_.offset(); }
-  /// Where the word or block taken last starts.
+  /// Offset of the word or block taken last.
   [[nodiscard]] std::size_t token() const noexcept { return token_; }
   [[nodiscard]] std::size_t left() const noexcept { return text_.remaining(); }
   /// Throws InputError that points at the word or block taken last.

@@ -16,13 +16,13 @@
 namespace dmoscope {
 namespace {
 
-constexpr std::size_t kChunk = std::size_t{1} << 22;  // bytes between two looks at the progress
+constexpr std::size_t kChunk = std::size_t{1} << 22;  // bytes between two progress reports
 
-/// An open file, closed when it goes.
+/// An open file, closed in the destructor.
 class Descriptor {
  public:
   explicit Descriptor(const std::filesystem::path& path)
-      : value_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK))  // of a pipe: without waiting
+      : value_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK))  // does not wait for a pipe
   {}
   ~Descriptor() {
     if (value_ >= 0) ::close(value_);
@@ -54,7 +54,7 @@ std::size_t SourceFile::line_of_row(const Mesh& mesh, std::size_t field, std::si
   FileBytes other;
   if (file != path_) try {
       other = read_whole_file(file, unwatched);
-    } catch (const InputError&) {  // it is no more
+    } catch (const InputError&) {  // ignored: the companion is missing now
       return 0;
     }
   const std::string_view text = file == path_ ? bytes() : other.view();
@@ -105,14 +105,14 @@ FileBytes read_whole_file(const std::filesystem::path& path, Progress& progress,
   struct stat status {};
   if (::fstat(file.get(), &status) != 0) fail(path, errno);
   if (S_ISDIR(status.st_mode)) fail(path, EISDIR);
-  // Others may never end (/dev/zero), or keep us waiting for ever.
+  // Refuses other kinds of files: they may be endless (/dev/zero), or block for ever.
   if (!S_ISREG(status.st_mode)) throw InputError(path.string(), 0, fmt::format("{} is no file that can be read", kind_of(status.st_mode)));
   const auto require_small = [&](std::size_t size) {
     if (size > most) throw InputError(path.string(), 0, fmt::format("too large: at most {} bytes are read of such a file", most));
   };
   require_small(static_cast<std::size_t>(std::max<off_t>(status.st_size, 0)));
   FileBytes bytes;
-  // A file tells its size; it may still grow: go on until nothing comes.
+  // Uses the file's size as a hint: it may still grow, so reading goes on to the end.
   (void)bytes.room(static_cast<std::size_t>(std::max<off_t>(status.st_size, 0)) + 1);
   for (;;) {
     progress.check();
@@ -123,7 +123,7 @@ FileBytes read_whole_file(const std::filesystem::path& path, Progress& progress,
     if (got < 0) fail(path, errno);
     if (got == 0) return bytes;
     bytes.took(static_cast<std::size_t>(got));
-    require_small(bytes.view().size());  // those of /proc tell no size
+    require_small(bytes.view().size());  // files in /proc have no size
   }
 }
 

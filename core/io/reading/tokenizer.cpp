@@ -14,9 +14,9 @@ namespace {
 
 constexpr std::size_t kReportEvery = std::size_t{1} << 20;  // bytes
 
-/// Is a decimal number that no double can hold too small (rather than too large)? Judged by the place of its first digit.
+/// Whether a decimal number beyond the range of double is too small (rather than too large), by the place of its first digit.
 bool is_tiny(std::string_view number) {
-  std::int64_t exponent = 0;  // of ten, of the first digit that is not 0
+  std::int64_t exponent = 0;  // power of ten of the first digit that is not 0
   bool point = false;
   bool leading = true;
   std::size_t i = 0;
@@ -40,11 +40,11 @@ bool is_tiny(std::string_view number) {
   const std::size_t digits = i + ((negative || number[i + 1] == '+') ? 2 : 1);
   std::int64_t power = 0;
   const auto result = std::from_chars(number.data() + digits, number.data() + number.size(), power);
-  if (result.ec != std::errc()) return negative;  // an exponent of more than 18 digits
+  if (result.ec != std::errc()) return negative;  // the exponent has more than 18 digits
   return exponent + (negative ? -power : power) < 0;
 }
 
-/// The nearest double of a plain decimal number; an infinite one where it is too large; nothing if it is no number.
+/// The nearest double of a plain decimal number; infinite if it is too large; none if it is no number.
 std::optional<double> plain_double(std::string_view number) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
@@ -55,7 +55,7 @@ std::optional<double> plain_double(std::string_view number) {
   return is_tiny(number) ? std::copysign(0.0, sign) : std::copysign(HUGE_VAL, sign);
 }
 
-/// The same for what others write: a leading +, Fortran's D exponent.
+/// The nearest double of a number in other spellings: a leading +, Fortran's D exponent.
 std::optional<double> foreign_double(std::string_view token) {
   std::string number(token);
   if (number.size() > 1 && number[0] == '+' && number[1] != '-' && number[1] != '+') number.erase(0, 1);
@@ -67,8 +67,8 @@ std::optional<double> foreign_double(std::string_view token) {
 
 bool is_digit(char c) noexcept { return c >= '0' && c <= '9'; }
 
-/// A number of few digits without an exponent: digits and power of ten are both exact as doubles, and so one division rounds to the
-/// nearest double. Returns where it ends; null if it is no such number.
+/// Parses a number of few digits without an exponent: digits and power of ten are both exact doubles, so one division rounds to the nearest
+/// double. Returns its end; null if it is no such number.
 const char* short_decimal(const char* at, const char* end, double& value) noexcept {
   constexpr std::array<double, 20> kPowers{1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,
                                            1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19};
@@ -221,7 +221,7 @@ std::size_t Tokenizer::check_count(std::int64_t count, std::string_view what, st
   if (count < 0) fail(fmt::format("{} is negative: {}", what, count));
   if (count >= static_cast<std::int64_t>(kNoIndex)) fail(fmt::format("{} is {}: a mesh can have {} at most", what, count, kNoIndex - 1));
   const auto wanted = static_cast<std::uint64_t>(count) * bytes_each;
-  if (wanted > remaining() + 1) {  // the last piece may lack its line end
+  if (wanted > remaining() + 1) {  // the last entry may lack its line end
     fail(fmt::format("{} is {}, but only {} bytes of the file are left", what, count, remaining()));
   }
   return static_cast<std::size_t>(count);

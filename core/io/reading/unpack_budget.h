@@ -1,5 +1,5 @@
 #pragma once
-// How much a file may become in memory, so that one of a few kilobytes does not fill all of it.
+// Limit for the unpacked size of a file, so that one of a few kilobytes does not fill the memory.
 
 #include <algorithm>
 #include <cstddef>
@@ -7,23 +7,23 @@
 
 namespace dmoscope {
 
-/// How many bytes a file may unpack to. Each piece is taken from the budget before its memory is allocated.
+/// Bytes that a file may unpack to. Each part is taken from the budget before its memory is allocated.
 class UnpackBudget {
  public:
-  /// `most`: the limit that the user gave; 0: none. Then a file may become a hundred times as large, and 256 MiB in any case:
-  /// real ones, even those of constant fields, stay far below.
+  /// Sets the budget. `most`: the limit that the user gave; 0: none. Then a file may unpack to a hundred times its size, and to 256 MiB in
+  /// any case: real ones, even those of constant fields, need far less.
   UnpackBudget(std::size_t file_bytes, std::uint64_t most) noexcept : left_(UnpackBudget::most(file_bytes, most)) {}
-  /// The bytes that such a file may become.
+  /// The bytes that a file of this size may unpack to.
   [[nodiscard]] static constexpr std::uint64_t most(std::size_t file_bytes, std::uint64_t most) noexcept {
     return most != 0 ? most : std::max(kAlways, kTimes * file_bytes);
   }
-  /// False: that is more than is left.
+  /// Takes bytes from the budget. False: fewer are left.
   [[nodiscard]] bool take(std::uint64_t bytes) noexcept {
     if (bytes > left_) return false;
     left_ -= bytes;
     return true;
   }
-  /// For the error: "the file of 103 kB unpacks to more than 256 MiB; ..." is said by who reads.
+  /// Second half of the error message "the file of 103 kB unpacks to more than 256 MiB; ..."; the reader adds the first.
   [[nodiscard]] static constexpr const char* advice() noexcept {
     return "more than a file of this size should; --max-memory SIZE (in a script: max-memory SIZE) says how much is fine";
   }

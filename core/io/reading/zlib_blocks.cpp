@@ -7,7 +7,7 @@
 namespace dmoscope {
 
 bool zlib_unpack(std::string_view packed, std::size_t size, std::vector<char>& out) {
-  constexpr std::size_t kMostPerByte = 1032;  // deflate's best
+  constexpr std::size_t kMostPerByte = 1032;  // best ratio of deflate
   if (size / kMostPerByte > packed.size()) return false;
   const std::size_t before = out.size();
   out.resize(before + size);
@@ -26,7 +26,7 @@ std::string zlib_packed(std::string_view bytes) {
   std::string packed(size, '\0');
   const int result = compress2(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
                                static_cast<uLong>(bytes.size()), Z_DEFAULT_COMPRESSION);
-  if (result != Z_OK) throw std::bad_alloc();  // the bound leaves no other reason
+  if (result != Z_OK) throw std::bad_alloc();  // the only remaining reason, given the bound
   packed.resize(size);
   return packed;
 }

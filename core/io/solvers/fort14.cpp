@@ -22,7 +22,7 @@
 namespace dmoscope {
 namespace {
 
-/// The numbers by which the file calls its nodes: mostly 1, 2, ... but any will do.
+/// Node numbers in the file: mostly 1, 2, ... but any are possible.
 class NodeNumbers {
  public:
   void reserve(std::size_t count) { numbers_.reserve(count); }
@@ -30,7 +30,7 @@ class NodeNumbers {
     dense_ = dense_ && number == static_cast<std::int64_t>(numbers_.size()) + 1;
     numbers_.push_back({number, static_cast<Index>(numbers_.size())});
   }
-  /// Call it when all are there. Returns the second of two nodes of one number, if there is one.
+  /// Completes the numbers, after all are added. Returns the second of two nodes with one number, if there is one.
   std::optional<Index> finish() {
     if (dense_) return std::nullopt;
     std::sort(numbers_.begin(), numbers_.end());
@@ -39,7 +39,7 @@ class NodeNumbers {
     return std::next(twice)->second;
   }
   [[nodiscard]] std::size_t size() const noexcept { return numbers_.size(); }
-  /// Reads a node's number; it is an error if no node has it.
+  /// Reads a node's number. Throws InputError if no node has it.
   Index read(Tokenizer& tokens, std::string_view what) const {
     if (dense_) return tokens.read_index(what, numbers_.size(), "vertices", 1);
     const std::int64_t number = tokens.read_integer(what);
@@ -110,13 +110,13 @@ class Reader {
 
 Mesh read_fort14(SourceFile& source, const IoContext& context) { return Reader(source, context.progress).read(); }
 
-// --- Writing anew ---
+// --- Writing new files ---
 
-/// A depth counts downwards, an elevation (of a 2dm file) upwards.
+/// Whether a field is an elevation (of a 2dm file), which counts upwards; a depth counts downwards.
 bool is_elevation(const Field& field) { return field.role == "elevation"; }
 
-/// The field that becomes the depth: the one of that name, else an elevation, else the first with one number per vertex.
-/// Throws OutputError for a depth that cannot be read back: nan and inf are no numbers there.
+/// The field that becomes the depth: the one of that name, else an elevation, else the first with one number for each vertex. Throws
+/// OutputError for a depth that cannot be read back: nan and inf are no numbers there.
 std::optional<std::size_t> depth_field(const AtomicFile& file, const Mesh& mesh, Notes& notes) {
   std::optional<std::size_t> chosen;
   const auto finite = [](const Field& field) { return std::ranges::all_of(field.values, [](double v) { return std::isfinite(v); }); };
@@ -138,7 +138,7 @@ std::optional<std::size_t> depth_field(const AtomicFile& file, const Mesh& mesh,
   return chosen;
 }
 
-/// The groups that can be written as boundaries. Those with weirs cannot: their columns are in the file they came from alone.
+/// The groups that can be written as boundaries. Those with weirs cannot: their further columns are in the original file only.
 std::vector<std::size_t> boundaries(const Mesh& mesh) {
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < mesh.groups.size(); ++i) {

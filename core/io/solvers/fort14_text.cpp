@@ -9,8 +9,7 @@
 namespace dmoscope {
 namespace {
 
-/// What follows the node number in a line of a land boundary, by IBTYPE: the node on a weir's other side, then heights and
-/// coefficients.
+/// Columns behind the node number in a line of a land boundary, by IBTYPE: the node on a weir's other side, then heights and coefficients.
 struct WeirColumns {
   bool pair = false;
   int numbers = 0;
@@ -26,7 +25,7 @@ WeirColumns weir_columns(int type) {
       return {true, 3};
     case 5:
     case 25:
-      return {true, 5};  // and a sixth, the pipe's diameter, that some files lack
+      return {true, 5};  // a sixth, the pipe's diameter, is missing in some files
     default:
       return {};
   }
@@ -37,7 +36,7 @@ class BoundaryReader {
   BoundaryReader(Tokenizer& tokens, const std::function<Index(Tokenizer&, std::string_view)>& number, SourceFile* source)
       : tokens_(tokens), number_(number), source_(source) {}
 
-  /// A file may end before the boundaries, or after the open ones.
+  /// Reads the boundaries; a file may end before them, or after the open ones.
   std::vector<Group> read() {
     constexpr std::size_t kShortestBoundary = 2;  // "0\n"
     if (tokens_.at_end()) return std::move(groups_);
@@ -62,7 +61,7 @@ class BoundaryReader {
     if (tokens_.at_end()) tokens_.fail_at_end(what);
   }
 
-  /// The sum over all boundaries: nothing depends on it, and files often have it wrong. Some end before it if there are none.
+  /// Skips the sum over all boundaries: nothing depends on it, and it is often wrong. Some files end before it if there are no boundaries.
   void read_total(std::size_t boundaries, std::string_view what) {
     if (boundaries == 0 && tokens_.at_end()) return;
     begin_line(what);
@@ -78,7 +77,7 @@ class BoundaryReader {
   void read_open(std::size_t b) {
     Group group{.name = fmt::format("{} {}", kFort14Open, b + 1), .role = std::string(kFort14Open), .code = 0, .dimension = 0};
     const std::size_t size = read_size();
-    const std::string_view type = tokens_.token_on_line();  // IBTYPEE may be left out; a remark may be there instead
+    const std::string_view type = tokens_.token_on_line();  // IBTYPEE may be missing, with a remark in its place
     int code = 0;
     if (const auto [end, error] = std::from_chars(type.data(), type.data() + type.size(), code);
         error == std::errc() && end == type.data() + type.size()) {
@@ -104,7 +103,7 @@ class BoundaryReader {
     const WeirColumns columns = weir_columns(group.code);
     if (is_fort14_weir(group.code) && source_ != nullptr)
       source_->add_only_in_file("heights, coefficients and pairs of vertices of the weirs");
-    // A weir has two banks; the file lists both in one string, the farther one beside the nearer.
+    // Adds a group for the far bank of a weir: the file lists both banks in one string, the farther one beside the nearer.
     Group far_side{.name = group.name + ", far side", .role = group.role, .code = group.code, .dimension = 0};
     group.members.reserve(size);
     for (std::size_t i = 0; i < size; ++i) {

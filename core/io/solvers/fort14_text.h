@@ -1,5 +1,5 @@
 #pragma once
-// The lines of ADCIRC's grid file: nodes, elements and boundary strings.
+// Lines of ADCIRC's grid file: nodes, elements and boundary strings.
 
 #include <functional>
 #include <string_view>
@@ -11,7 +11,7 @@
 
 namespace dmoscope {
 
-/// Fortran's list-directed input; whatever follows the numbers of a line is a remark.
+/// Syntax of Fortran's list-directed input; text behind the numbers of a line is a remark.
 inline constexpr TextSyntax kFort14Syntax{.comma_is_blank = true};
 inline constexpr std::string_view kFort14Open = "open boundary", kFort14Land = "land boundary";
 
@@ -22,7 +22,7 @@ struct Fort14Head {
 /// Reads the first two lines.
 [[nodiscard]] Fort14Head read_fort14_head(Tokenizer& tokens);
 
-/// A node as its line has it; `place`: the offset of its coordinates.
+/// A node from its line; `place`: the offset of its coordinates.
 struct Fort14Node {
   std::int64_t number = 0;
   Vec3 position;
@@ -31,14 +31,15 @@ struct Fort14Node {
 };
 [[nodiscard]] Fort14Node read_fort14_node(Tokenizer& tokens);
 
-/// Reads an element's line up to its corners' numbers, which follow; how many. Call end_numbers_of("an element") behind them.
+/// Reads an element's line up to the numbers of its corners, which follow; returns their count. end_numbers_of("an element") must be called
+/// behind them.
 [[nodiscard]] std::size_t read_fort14_element(Tokenizer& tokens);
 
-/// Does a land boundary of this type (IBTYPE) have heights or coefficients beside its nodes?
+/// Whether a land boundary of this type (IBTYPE) has heights or coefficients beside its nodes.
 [[nodiscard]] bool is_fort14_weir(int type);
 
-/// Reads what is left of the file: a group for each string, and one for the far side of a weir. `number`: reads a node's number and gives
-/// the vertex. `source`: told what it holds besides; may be null. Throws InputError.
+/// Reads the rest of the file: a group for each string, and one for the far side of a weir. `number`: reads a node's number and returns the
+/// vertex. `source`: gets notes on the remaining data; may be null. Throws InputError.
 [[nodiscard]] std::vector<Group> read_fort14_boundaries(Tokenizer& tokens, const std::function<Index(Tokenizer&, std::string_view)>& number,
                                                         SourceFile* source);
 

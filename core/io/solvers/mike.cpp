@@ -34,7 +34,8 @@ bool is_whole_word(std::string_view word) {
   return error == std::errc() && end == word.data() + word.size();
 }
 
-/// The kind and unit of the levels, which older files leave out, the number of nodes, and the projection; then "1 x y z code".
+/// Whether the file begins with the kind and unit of the levels, which older files leave out, the number of nodes, and the projection; then
+/// "1 x y z code".
 bool recognises_mike(std::string_view bytes) {
   const auto line = [&bytes] {
     const std::size_t end = std::min(bytes.find('\n'), bytes.size());
@@ -125,7 +126,7 @@ class MikeReader {
       std::size_t used = 0;
       for (; used < static_cast<std::size_t>(most) && tokens_.more_on_line(); ++used) {
         const std::size_t at = tokens_.offset(), line = tokens_.line();
-        if (used == 3 && tokens_.token_on_line() == "0") break;  // a triangle among quadrilaterals
+        if (used == 3 && tokens_.token_on_line() == "0") break;  // a triangle in a file with quadrilaterals
         if (used == 3) tokens_.seek(at, line);
         corners[used] = tokens_.read_index("vertex index", mesh_.positions.size(), "vertices", 1);
       }

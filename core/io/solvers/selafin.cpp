@@ -1,4 +1,4 @@
-// TELEMAC's files of meshes and results, SELAFIN (also called SERAFIN): Fortran's records of numbers in either byte order, x and y in
+// TELEMAC's format for meshes and results, SELAFIN (also called SERAFIN): Fortran's records of numbers in either byte order, x and y in
 // single or double precision, triangles or quadrilaterals in a plane, and the variables of each time step. http://wiki.opentelemac.org
 // (SERAFIN format)
 
@@ -21,7 +21,7 @@
 namespace dmoscope {
 namespace {
 
-constexpr std::size_t kTitleBytes = 80, kNameBytes = 32, kMark = 4;  // a record's size stands before and behind it
+constexpr std::size_t kTitleBytes = 80, kNameBytes = 32, kMark = 4;  // a record's size is before and behind it
 
 bool begins_record_of_80(std::string_view bytes, bool big_endian) {
   return bytes.size() >= kTitleBytes + 2 * kMark && load_number<std::uint32_t>(bytes.data(), big_endian) == kTitleBytes &&
@@ -50,7 +50,7 @@ class SelafinReader {
   }
 
  private:
-  // Records.
+  // --- Records ---
   void begin(std::uint64_t bytes, std::string_view what) {
     const auto said = in_.read<std::uint32_t>(what);
     if (said != bytes)
@@ -140,7 +140,7 @@ class SelafinReader {
     }
   }
 
-  /// The variables of the last time step that is whole.
+  /// Reads the variables of the last complete time step.
   void read_last_step() {
     const std::size_t points = mesh_.positions.size(), time = size_ + 2 * kMark, one = points * size_ + 2 * kMark;
     const std::size_t step = time + names_.size() * one, steps = in_.remaining() / step;
@@ -164,14 +164,14 @@ class SelafinReader {
   bool big_endian_;
   BinaryReader in_;
   Mesh mesh_;
-  std::size_t size_ = sizeof(float);  // of a real number
+  std::size_t size_ = sizeof(float);  // bytes of a real number
   std::uint64_t record_ = 0;
   std::vector<std::string> names_;
 };
 
 Mesh read_selafin(SourceFile& source, const IoContext& context) { return SelafinReader(source, context.progress).read(); }
 
-/// All x stand before all y: what is replaced does not come vertex after vertex.
+/// Patches the coordinates: all x come before all y, not vertex by vertex.
 Notes patch_selafin(AtomicFile& file, const Mesh& mesh, const MovedMesh& moved, const IoContext&) {
   const std::span<const Vec3> positions = moved.positions;
   const SourceFile& source = *mesh.source;

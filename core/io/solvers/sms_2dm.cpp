@@ -30,7 +30,7 @@ constexpr std::string_view kString = "nodestring", kMaterial = "material", kElev
 
 struct ElementCard {
   std::string_view card;
-  std::optional<CellShape> shape;  // nothing: of higher order
+  std::optional<CellShape> shape;  // none: an element of higher order
 };
 constexpr std::array kElementCards{
     ElementCard{"E2L", CellShape::Line}, ElementCard{"E3T", CellShape::Triangle}, ElementCard{"E4Q", CellShape::Quadrilateral},
@@ -156,7 +156,7 @@ class Sms2dmReader {
     if (number && !name.empty()) names_[*number] = name;
   }
 
-  /// Nodes over one or more lines; the last is negative. Behind it the string's number and name may stand.
+  /// Reads nodes over one or more lines; the last one is negative. The string's number and name may follow.
   void nodestring() {
     if (string_.empty()) string_line_ = tokens_.line();
     while (tokens_.more_on_line()) {
@@ -198,9 +198,9 @@ class Sms2dmReader {
     add_strings();
   }
 
-  /// A group for each number; strings without one are groups of their own.
+  /// Adds a group for each number; strings without one are groups of their own.
   void add_strings() {
-    std::map<std::pair<int, int>, std::size_t> known;  // by number and dimension
+    std::map<std::pair<int, int>, std::size_t> known;  // index of each group by number and dimension
     for (const String& string : strings_) {
       std::vector<Index> vertices;
       for (const auto& [number, line] : string.nodes) {
@@ -226,7 +226,7 @@ class Sms2dmReader {
   }
 
   struct String {
-    std::vector<std::pair<std::int64_t, std::size_t>> nodes;  // and the line on which each stands
+    std::vector<std::pair<std::int64_t, std::size_t>> nodes;  // nodes, with the line of each
     int number = 0;
     std::string_view name;
   };
@@ -238,9 +238,9 @@ class Sms2dmReader {
   std::optional<std::size_t> materials_;
   std::vector<double> elevations_;
   std::vector<OriginLabels> labels_;
-  std::map<int, std::uint32_t> origins_;  // by material
+  std::map<int, std::uint32_t> origins_;  // origins by material
   std::map<int, std::string_view> names_;
-  std::vector<std::pair<std::int64_t, std::size_t>> string_;  // that is being read
+  std::vector<std::pair<std::int64_t, std::size_t>> string_;  // nodes of the present string
   std::size_t string_line_ = 0;
   std::vector<String> strings_;
   std::size_t unnumbered_ = 0;
@@ -253,7 +253,7 @@ bool recognises_2dm(std::string_view bytes) {
          static_cast<unsigned char>(bytes[k2dmSignature.size()]) <= ' ';
 }
 
-// --- Writing anew ---
+// --- Writing new files ---
 
 class Writer : MeshWriter {
  public:
@@ -280,7 +280,7 @@ class Writer : MeshWriter {
   }
 
  private:
-  /// What each node's elevation is. A depth counts downwards.
+  /// Elevation of each node. A depth counts downwards.
   std::vector<double> elevations() {
     std::vector<double> values(positions_.size(), 0.0);
     for (const std::string_view name : {kElevation, std::string_view("depth")}) {

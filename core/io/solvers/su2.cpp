@@ -27,7 +27,7 @@ constexpr std::string_view kSu2Marker = "marker";
 constexpr std::int64_t kVertexType = 1;
 constexpr std::int64_t kLineType = 3;
 
-/// VTK's number for each ElementKind.
+/// Number of each ElementKind in VTK.
 constexpr std::array<std::int64_t, kElementKindCount> kTypes{5, 9, 10, 12, 13, 14};
 
 std::optional<ElementKind> kind_of_su2(std::int64_t type) {
@@ -36,7 +36,7 @@ std::optional<ElementKind> kind_of_su2(std::int64_t type) {
   return static_cast<ElementKind>(found - kTypes.begin());
 }
 
-/// Reads "KEY= value" up to the = at the begin of a line; empty if the line is none. Afterwards the value's tokens come.
+/// Reads "KEY= value" up to the = at the begin of a line; empty if the line has no key. The value's tokens follow.
 std::string_view read_key(Tokenizer& tokens) {
   const std::size_t begin = tokens.offset();
   const std::string_view word = tokens.token_on_line();
@@ -55,8 +55,8 @@ std::string_view read_key(Tokenizer& tokens) {
   return {};
 }
 
-/// Byte offset of the line with a key, wherever in the file; nothing if there is none. Sections may come in any order, but the
-/// elements need the number of points, and the points the dimension.
+/// Byte offset of the line with a key, anywhere in the file; none if there is none. Sections may come in any order, but elements need the
+/// number of points, and points the dimension.
 std::optional<std::size_t> find_key(std::string_view text, std::string_view key) {
   for (std::size_t at = text.find(key); at != std::string_view::npos; at = text.find(key, at + 1)) {
     const std::size_t before = text.find_last_not_of(" \t", at == 0 ? 0 : at - 1);
@@ -68,7 +68,7 @@ std::optional<std::size_t> find_key(std::string_view text, std::string_view key)
 }
 
 bool recognises_su2(std::string_view bytes) {
-  constexpr std::size_t kLook = 65536;  // bytes in which comments end and the first key must come
+  constexpr std::size_t kLook = 65536;  // bytes within which comments end and the first key must come
   Progress unwatched;
   Tokenizer tokens(bytes.substr(0, kLook), {}, kSu2Syntax, unwatched);
   if (tokens.at_end()) return false;
@@ -87,7 +87,7 @@ class Su2Reader {
       throw InputError(source_.path().string(), 0, fmt::format("NDIME= {}: only 2 and 3 dimensions are read", dimension));
     }
     dimension_ = static_cast<int>(dimension);
-    // A negative count is refused where it stands. Without one the elements are read all the same: their place says more about a
+    // Leaves the error for a negative count to its place. Without a count the elements are still read: their place says more about a
     // truncated file than the missing key does.
     vertices_ = find_key(source_.bytes(), "NPOIN") ? std::max<std::int64_t>(value_of("NPOIN"), 0) : kNoIndex;
     source_.set_layout({.components = dimension_, .syntax = kSu2Syntax});
@@ -132,7 +132,7 @@ class Su2Reader {
     }
   }
 
-  /// A key of which we know nothing owns the lines that follow it; anywhere else a line without a key is one too many.
+  /// Skips lines of an unknown key; anywhere else a line without a key is one too many.
   void other(std::string_view key) {
     if (key.empty() && !foreign_) tokens_.fail("expected KEY= value (more lines than the section's count says?)");
     if (!key.empty()) {
@@ -151,8 +151,8 @@ class Su2Reader {
     if (tokens_.at_end()) tokens_.fail_at_end(what);
   }
 
-  /// The end of an element's or a point's line, where its number may stand, on all lines or on none. A coordinate that is there twice
-  /// shifts those behind it: then there is one number too many, or one that is not whole.
+  /// Reads the end of an element's or a point's line, which may have its number, on all lines or on none. A repeated coordinate shifts
+  /// those behind it: then there is one number too many, or one that is not whole.
   void end_numbered(std::optional<bool>& numbered, std::string_view thing) {
     const bool has = tokens_.more_on_line();
     if (has) (void)tokens_.read_integer(fmt::format("the number of {}, or the end of the line", thing));
@@ -194,7 +194,7 @@ class Su2Reader {
     const std::size_t shortest = dimension_ == 2 ? 4 : 6;  // "0 0\n"
     const std::size_t count = tokens_.read_count("NPOIN", shortest);
     if (static_cast<std::int64_t>(count) != vertices_) tokens_.fail("NPOIN= a second time");
-    tokens_.end_line();  // a second count may follow: the points without those of neighbouring partitions
+    tokens_.end_line();  // the number of points without those of neighbouring partitions may follow
     reserve_large(mesh_.positions, count);
     source_.reserve_places(count);
     std::optional<bool> numbered;
@@ -214,7 +214,7 @@ class Su2Reader {
     foreign_ = false;
   }
 
-  /// Behind x and y: does another coordinate come before the point's number, as some programs write it in 2 dimensions, too?
+  /// Whether another coordinate comes behind x and y and before the point's number: some programs write it in 2 dimensions, too.
   bool has_flat_z() {
     const std::size_t offset = tokens_.offset(), line = tokens_.line();
     const std::string_view first = tokens_.token_on_line(), second = tokens_.token_on_line();
@@ -229,7 +229,7 @@ class Su2Reader {
     tokens_.end_line();
     MarkerElements found;
     for (std::size_t i = 0; i < count; ++i) {
-      std::optional<bool> numbered;  // points may have the number of a transformation where edges have none
+      std::optional<bool> numbered;  // for each element: points may have the number of a transformation where edges have none
       begin_line("an element of a marker");
       skip_send_recv();
       marker_element(found);
@@ -240,7 +240,7 @@ class Su2Reader {
     foreign_ = false;
   }
 
-  /// In the markers of partitioned files SEND_RECV= stands between MARKER_ELEMS= and the elements.
+  /// Skips SEND_RECV=, which is between MARKER_ELEMS= and the elements in the markers of partitioned files.
   void skip_send_recv() {
     const std::size_t offset = tokens_.offset();
     const std::size_t line = tokens_.line();
@@ -255,7 +255,7 @@ class Su2Reader {
 
   struct MarkerElements {
     std::vector<Index> points;
-    std::vector<Index> edges;  // two vertices each
+    std::vector<Index> edges;  // two vertices for each edge
     ElementTable faces;
   };
 
@@ -277,7 +277,7 @@ class Su2Reader {
     }
   }
 
-  /// Group has room for one kind of members: those of fewest dimensions beside others stay in the file alone.
+  /// Adds a marker. A Group holds only one kind of members: those of fewer dimensions beside others stay in the file only.
   void add_marker(MarkerElements found) {
     ++markers_;
     Group group{.name = tag_, .role = std::string(kSu2Marker), .code = 0, .dimension = 1};
@@ -311,24 +311,24 @@ class Su2Reader {
   std::int64_t vertices_ = 0;
   bool elements_read_ = false;
   bool points_read_ = false;
-  bool foreign_ = false;  // are we among the lines of a key that we do not know?
-  std::string tag_;       // of the marker whose elements come next
+  bool foreign_ = false;  // whether the present lines belong to an unknown key
+  std::string tag_;       // name of the marker whose elements come next
   std::size_t markers_ = 0;
   std::size_t markers_expected_ = 0;
 };
 
 Mesh read_su2(SourceFile& source, const IoContext& context) { return Su2Reader(source, context.progress).read(); }
 
-// --- Writing anew ---
+// --- Writing new files ---
 
-/// A marker as it is written.
+/// A marker to be written.
 struct Marker {
   std::string tag;
-  std::vector<Index> edges;             // two vertices each
-  const ElementTable* faces = nullptr;  // of a volume mesh
+  std::vector<Index> edges;             // two vertices for each edge
+  const ElementTable* faces = nullptr;  // faces of a volume mesh
 };
 
-/// The groups that SU2 can hold; `kept` gets their numbers.
+/// The groups that SU2 can hold; `kept` gets their indices.
 std::vector<Marker> markers_of(const Mesh& mesh, std::vector<std::size_t>& kept, Notes& notes) {
   std::vector<Marker> markers;
   std::vector<const Group*> strings;

@@ -24,7 +24,7 @@ constexpr std::string_view kMarker = "boundary marker";
 constexpr std::string_view kAttribute = "attribute";
 constexpr std::int64_t kMostAttributes = 1024;
 
-/// Columns of numbers that become fields; `before`: how many numbers come before them in a row.
+/// Makes fields of columns of numbers; `before`: number of numbers before them in a row.
 std::vector<Field> fields_of(Field::On on, std::size_t attributes, bool marker, std::size_t rows, std::size_t before) {
   std::vector<Field> fields;
   const auto add = [&](std::string name, std::string_view type, std::string_view role) {
@@ -52,7 +52,7 @@ class TetgenReader {
   }
 
  private:
-  /// A line's first number: they count on from the first one's, which is 0 or 1.
+  /// Reads a line's first number: they count up from the first one's, which is 0 or 1.
   static void number(Tokenizer& tokens, std::size_t i, std::int64_t& first, std::string_view thing) {
     const std::int64_t found = tokens.read_integer(fmt::format("number of a {}", thing));
     if (i == 0) {
@@ -64,7 +64,7 @@ class TetgenReader {
     }
   }
 
-  /// How many attributes: the next number of a header, which may be left out.
+  /// Number of attributes: the next number of a header, which may be missing.
   static std::size_t attributes(Tokenizer& tokens) {
     if (!tokens.more_on_line()) return 0;
     const std::int64_t n = tokens.read_integer("number of attributes");
@@ -162,9 +162,9 @@ class TetgenReader {
 
 Mesh read_tetgen(SourceFile& source, const IoContext& context) { return TetgenReader(source, context.progress).read(); }
 
-// --- Writing anew: everything counts from 1 ---
+// --- Writing new files: everything counts from 1 ---
 
-/// One column of an attribute: values[row * stride] from `first` on.
+/// A column of an attribute: values[row * stride] from `first` on.
 struct ValueColumn {
   const Field* field;
   std::size_t component;
@@ -174,7 +174,7 @@ struct ValueColumn {
 struct Columns {
   std::vector<ValueColumn> attributes;
   const Field* marker = nullptr;
-  std::vector<std::size_t> kept;  // fields
+  std::vector<std::size_t> kept;  // indices of the fields
 };
 
 bool is_marker(const Field& field) {
@@ -205,7 +205,7 @@ Columns columns_of(const Mesh& mesh, Field::On on) {
   return columns;
 }
 
-/// Says under which number each named attribute is found.
+/// Notes the number of each named attribute in the file.
 void note_names(const Columns& columns, Notes& notes) {
   for (std::size_t k = 0; k < columns.attributes.size(); ++k) {
     const ValueColumn& column = columns.attributes[k];
@@ -215,7 +215,7 @@ void note_names(const Columns& columns, Notes& notes) {
   }
 }
 
-/// The one kind of element that all are. Throws OutputError if they are not.
+/// The kind of all elements. Throws OutputError if there are several.
 ElementKind only_kind(const AtomicFile& file, const Mesh& mesh) {
   const auto kinds = mesh.elements.kinds();
   for (const ElementKind kind : kinds) {

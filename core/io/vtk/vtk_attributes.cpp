@@ -66,7 +66,7 @@ VtkType VtkAttributes::type(std::string& word) {
   return values_.any_type();
 }
 
-/// FreeFem joins the type and the number of components: "int1".
+/// Reads the type and number of components of scalars; FreeFem joins them: "int1".
 VtkType VtkAttributes::type_of_scalars(const std::string& name, std::string& word, std::size_t& components) {
   VtkType kind = type(word);
   if (kind.kind != VtkType::Kind::Unknown || word.size() < 2 || word.back() < '1' || word.back() > '4') return kind;
@@ -128,7 +128,7 @@ void VtkAttributes::scalars() {
       values_.in.fail("expected a number of components, got " + quote_token(given));
     }
   }
-  // The table is named in the next line; old files leave it out.
+  // Skips the name of the table in the next line, which old files leave out.
   if (equal_ignoring_case(values_.in.peek_word(), "LOOKUP_TABLE")) {
     values_.in.word("LOOKUP_TABLE");
     const std::string table(values_.in.word("the name of the lookup table"));

@@ -10,15 +10,14 @@
 
 namespace dmoscope {
 
-/// Reads data attributes. What becomes no field (lookup tables, strings, data of neither points nor cells) is named in the source.
+/// Reads data attributes. Data that become no field (lookup tables, strings, data of neither points nor cells) are named in the source.
 class VtkAttributes {
  public:
   VtkAttributes(VtkValues& values, SourceFile& source) : values_(values), source_(source) {}
 
-  /// POINT_DATA or CELL_DATA was taken: what follows belongs to `count` points or cells. Throws InputError when the file says
-  /// another count.
+  /// Begins the attributes of `count` points or cells, behind POINT_DATA or CELL_DATA. Throws InputError if the file has another count.
   void begin(Field::On on, std::size_t count, std::string_view keyword);
-  /// Reads the attribute that `keyword`, the word taken last, starts; false if it starts none. Before begin(), only FIELD is one.
+  /// Reads the attribute that begins with `keyword`, the word taken last; false if none does. Before begin(), only FIELD is possible.
   bool read(std::string_view keyword);
   /// The fields read; those of cells have a row for each cell of the file.
   [[nodiscard]] std::vector<Field>& fields() noexcept { return fields_; }
@@ -46,7 +45,7 @@ class VtkAttributes {
   std::vector<Field> fields_;
 };
 
-/// A data name as VTK writes it: blanks, quotes, percent signs and bytes beyond ASCII as %XX; and back.
+/// A data name in VTK's encoding: blanks, quotes, percent signs and bytes beyond ASCII as %XX; the other function decodes.
 [[nodiscard]] std::string vtk_encoded(std::string_view name);
 [[nodiscard]] std::string vtk_decoded(std::string_view word);
 

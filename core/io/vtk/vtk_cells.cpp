@@ -22,7 +22,7 @@ Index checked_corner(const VtkValues& values, std::int64_t corner, std::size_t p
   return static_cast<Index>(corner);
 }
 
-/// Up to version 4.2: every cell as its number of corners and the corners.
+/// Reads cells up to version 4.2: every cell as its number of corners and the corners.
 VtkCells read_counted(VtkValues& values, const std::string& keyword, std::size_t cells, std::size_t size, std::size_t header,
                       std::size_t points) {
   VtkCells found;
@@ -51,7 +51,7 @@ VtkCells read_counted(VtkValues& values, const std::string& keyword, std::size_t
   return found;
 }
 
-/// From version 5: offsets into one array of corners. `entries` is the number of offsets, one more than there are cells.
+/// Reads cells from version 5 on: offsets into one array of corners. `entries`: number of offsets, one more than there are cells.
 VtkCells read_offsets(VtkValues& values, const std::string& keyword, std::size_t entries, std::size_t size, std::size_t header,
                       std::size_t points) {
   VtkCells found;
@@ -79,7 +79,7 @@ VtkCells read_offsets(VtkValues& values, const std::string& keyword, std::size_t
   return found;
 }
 
-/// What VTK's numbers from `first` on are called.
+/// Names of VTK's type numbers from `first` on.
 struct TypeNames {
   std::int64_t first;
   std::span<const std::string_view> names;
@@ -114,7 +114,7 @@ constexpr std::array<std::string_view, 14> kLagrange{
 constexpr std::array kHigherTypes{TypeNames{21, kSecondOrder}, TypeNames{51, kParametric}, TypeNames{60, kHigherOrderCells},
                                   TypeNames{68, kLagrange}};
 
-/// Why a cell of this type cannot be read.
+/// Reason why a cell of this type cannot be read.
 std::string unsupported(std::int64_t type) {
   for (const TypeNames& some : kHigherTypes) {
     if (type < some.first || type - some.first >= static_cast<std::int64_t>(some.names.size())) continue;
@@ -146,7 +146,7 @@ VtkCells read_vtk_cells(VtkValues& values, const std::string& keyword, std::size
 }
 
 VtkElement element_of_vtk_cell(std::int64_t type, std::span<Index> corners) {
-  // Element kinds of the cell types 0 to 14; -1: no element, -2: see below.
+  // Element kinds of the cell types 0 to 14; -1: no element, -2: handled separately.
   constexpr static std::array<int, 15> kinds{-1, kVertexCell, kVertexCell, kLineCell, kLineCell, 0, -2, -2, 1, 1, 2, 3, 3, 4, 5};
   const int known = type >= 0 && type < static_cast<std::int64_t>(kinds.size()) ? kinds[static_cast<std::size_t>(type)] : -2;
   if (known == -1) return {};  // an empty cell
@@ -170,7 +170,7 @@ VtkElement element_of_vtk_cell(std::int64_t type, std::span<Index> corners) {
 
 namespace {
 
-/// Cells of fewer dimensions than the elements, as the groups that they become.
+/// Groups made of cells of fewer dimensions than the elements.
 class LowCells {
  public:
   void add(std::uint8_t kind, std::span<const Index> corners) {

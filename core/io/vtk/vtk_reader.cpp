@@ -135,7 +135,8 @@ class VtkReader {
     if (size_) in().fail("a second DIMENSIONS");
     VtkGridSize size;
     for (std::size_t& n : size.points) n = in().count("a number of points", 0.0);
-    // A grid whose points are not listed may have more of them than its file has bytes, but not by orders of magnitude.
+    // Limits the number of points: a grid whose points are not listed may have more of them than its file has bytes, but not by orders of
+    // magnitude.
     constexpr std::size_t kAlways = 1'000'000;
     const std::string fault = size.fault(std::min<std::size_t>(kNoIndex / 8, kAlways + source_.bytes().size()));
     if (!fault.empty()) in().fail(fault);
@@ -173,7 +174,7 @@ class VtkReader {
     });
   }
 
-  /// Makes the points that the file does not list. Done once, when all of the geometry has been read.
+  /// Generates the points that the file does not list, once, after all of the geometry is read.
   void make_points() {
     if (!structured() || dataset_ == Dataset::StructuredGrid || points_read_) return;
     if (!size_) in().fail("the file has no DIMENSIONS");
@@ -255,7 +256,7 @@ class VtkReader {
     values_.wholes(type, n, "a cell type", [&](std::int64_t value, std::size_t place) { add_kind(value, place); });
   }
 
-  /// Takes the next cell as VTK's type `type`; pixels and voxels get the corner order of quadrilaterals and hexahedra.
+  /// Adds the next cell with VTK's type `type`; pixels and voxels get the corner order of quadrilaterals and hexahedra.
   void add_kind(std::int64_t type, std::size_t type_place) {
     VtkCells& cells = *cells_;
     const std::size_t c = kinds_.size();
@@ -298,7 +299,7 @@ class VtkReader {
   }
 
   void add_elements() {
-    // Cell data of POLYDATA have the rows of vertices and lines first.
+    // Number of rows of vertices and lines, which come first in cell data of POLYDATA.
     const std::size_t before = (vertices_ ? vertices_->size() : 0) + (lines_ ? lines_->size() : 0);
     rows_ = add_vtk_elements(mesh_, source_, *cells_, kinds_, vertices_ ? &*vertices_ : nullptr, lines_ ? &*lines_ : nullptr);
     for (std::size_t& row : rows_) row += before;
@@ -313,14 +314,14 @@ class VtkReader {
   bool types_read_ = false;
   bool data_begun_ = false;
   std::optional<VtkCells> cells_;     // CELLS or POLYGONS
-  std::optional<VtkCells> vertices_;  // of POLYDATA
-  std::optional<VtkCells> lines_;     // of POLYDATA
-  // For structured grids:
+  std::optional<VtkCells> vertices_;  // vertices of POLYDATA
+  std::optional<VtkCells> lines_;     // lines of POLYDATA
+  // --- Structured grids ---
   std::optional<VtkGridSize> size_;
   std::array<double, 3> origin_{0.0, 0.0, 0.0}, spacing_{1.0, 1.0, 1.0};
-  std::array<std::vector<double>, 3> coordinates_;  // along each axis
-  std::vector<std::uint8_t> kinds_;                 // of each of cells_: VtkElement::kind
-  std::vector<std::size_t> rows_;                   // of each element: its row of cell data
+  std::array<std::vector<double>, 3> coordinates_;  // coordinates along each axis
+  std::vector<std::uint8_t> kinds_;                 // VtkElement::kind of each of cells_
+  std::vector<std::size_t> rows_;                   // row of cell data of each element
 };
 
 bool recognises_vtk(std::string_view bytes) { return equal_ignoring_case(bytes.substr(0, kSignature.size()), kSignature); }

@@ -14,11 +14,11 @@
 
 namespace dmoscope {
 
-/// Reads a VTK legacy file; see FormatHandler::read. Cells of fewer dimensions than the elements (vertices, lines, the faces of a
-/// volume mesh) are passed over with a note, and their rows of cell data with them; writing the same file again keeps both.
+/// Reader, see FormatHandler::read. Cells of fewer dimensions than the elements (vertices, lines, the faces of a volume mesh) are skipped
+/// with a note, and their rows of cell data with them; writing the same file again keeps both.
 [[nodiscard]] Mesh read_vtk(SourceFile& source, const IoContext& context);
 
-/// Makes a VTK legacy file anew: UNSTRUCTURED_GRID, ASCII, version 3.0; see FormatHandler::write.
+/// Writer of new files: UNSTRUCTURED_GRID, ASCII, version 3.0; see FormatHandler::write.
 std::vector<std::string> write_vtk(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context);
 
 }  // namespace dmoscope

@@ -29,8 +29,8 @@ std::size_t VtkGridSize::cell_count() const noexcept {
 }
 
 void add_structured_cells(Mesh& mesh, const SourceFile& source, const VtkGridSize& size) {
-  const std::array<std::size_t, 3> step{1, size.points[0], size.points[0] * size.points[1]};  // from a point to the next, along x, y, z
-  std::array<std::size_t, 3> axes{};                                                          // along which there are cells
+  const std::array<std::size_t, 3> step{1, size.points[0], size.points[0] * size.points[1]};  // strides of points along x, y, z
+  std::array<std::size_t, 3> axes{};                                                          // axes along which there are cells
   std::size_t used = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (size.points[axis] > 1) axes[used++] = axis;

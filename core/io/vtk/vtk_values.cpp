@@ -52,7 +52,7 @@ void VtkValues::skip_strings(std::size_t n) {
       in.rest_of_line();
       continue;
     }
-    // The two upper bits of the first byte tell how many bytes the length takes: 8, 4, 2 or 1.
+    // The two upper bits of the first byte give the number of bytes of the length: 8, 4, 2 or 1.
     const auto first = static_cast<unsigned char>(in.block(1, "the length of a string")[0]);
     const std::size_t more = (std::size_t{8} >> (first >> 6)) - 1;
     std::uint64_t length = first & 0x3fU;

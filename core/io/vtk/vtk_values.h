@@ -1,5 +1,5 @@
 #pragma once
-// Runs of numbers in a VTK legacy file: words in an ASCII file, big-endian blocks in a BINARY one.
+// Sequences of numbers in a VTK legacy file: words in an ASCII file, big-endian blocks in a BINARY one.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,8 +11,8 @@
 
 namespace dmoscope {
 
-/// What VTK calls a data type. Bits are packed eight to a byte in binary files; strings and variants are skipped only, and so is what VTK
-/// does not know.
+/// A data type of VTK. Bits are packed eight to a byte in binary files; strings and variants are only skipped, and so are types unknown to
+/// VTK.
 struct VtkType {
   enum class Kind : std::uint8_t { Scalar, Bit, String, Unknown };
   Kind kind = Kind::Scalar;
@@ -25,30 +25,30 @@ class VtkValues {
 
   /// Takes the word for a data type. Throws InputError for one that VTK does not know.
   VtkType type();
-  /// The same, but the kind is Unknown for a word that VTK does not know.
+  /// Takes the word for a data type; the kind is Unknown for a word that VTK does not know.
   VtkType any_type();
-  /// Takes a count of values of `type` that start on the next line, checked against what is left of the file.
+  /// Takes a count of values of `type` that begin on the next line, checked against the rest of the file.
   std::size_t count(std::string_view what, const VtkType& type);
-  /// Bytes that one value needs at least in this file.
+  /// Least number of bytes of a value in this file.
   [[nodiscard]] double least_bytes(const VtkType& type) const noexcept;
-  /// n numbers: each(value, offset of the value in the file). Bits are 0 and 1.
+  /// Reads n numbers: each(value, offset of the value in the file). Bits are 0 and 1.
   template <class Each>
   void numbers(const VtkType& type, std::size_t n, std::string_view what, Each&& each);
-  /// n whole numbers, exactly.
+  /// Reads n whole numbers, exactly.
   template <class Each>
   void wholes(const VtkType& type, std::size_t n, std::string_view what, Each&& each);
-  /// Skips n values of a type that is not known, which `what` names. Throws InputError in a binary file: nothing tells their size.
+  /// Skips n values of an unknown type, which `what` names. Throws InputError in a binary file, where their size is unknown.
   void skip_unknown(std::size_t n, std::string_view what);
   /// Skips n strings.
   void skip_strings(std::size_t n);
-  /// Skips a METADATA block, whose word was taken: everything up to an empty line.
+  /// Skips a METADATA block, whose word was taken, up to an empty line.
   void skip_metadata();
 
   MixedInput in;
   bool binary = false;
 
  private:
-  /// Binary data starts right after the newline that ends its header.
+  /// Takes binary data, which begin right after the newline that ends their header.
   std::string_view block(std::size_t n, std::size_t bytes_each, std::string_view what);
 };
 

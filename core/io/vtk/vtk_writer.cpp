@@ -15,7 +15,7 @@
 namespace dmoscope {
 namespace {
 
-constexpr std::size_t kLongestTitle = 255;  // VTK reads 256 bytes, the line end among them
+constexpr std::size_t kLongestTitle = 255;  // VTK reads 256 bytes, with the line end
 
 class VtkWriter : MeshWriter {
  public:
@@ -103,14 +103,14 @@ class VtkWriter : MeshWriter {
     return true;
   }
 
-  /// VTK's word for the field's type; "double" where the values would not fit or VTK has no such type.
+  /// VTK's word for the field's type; "double" if the values would not fit or VTK has no such type.
   static std::string_view type_word(const Field& field) {
     if (field.type == "bit" && std::all_of(field.values.begin(), field.values.end(), [](double v) { return v == 0.0 || v == 1.0; })) {
       return "bit";
     }
     ScalarType type = ScalarType::Float64;
     if (!scalar_of_word(field.type, type)) return "double";
-    // An ASCII file may hold more digits than its type has; those are kept. VTK rounds them, as it did before.
+    // Keeps more digits than the type has, which an ASCII file may hold; VTK rounds them when reading.
     if (!is_whole(type)) return vtk_word(type);
     const bool fits = std::all_of(field.values.begin(), field.values.end(), [type](double v) { return holds_exactly(type, v); });
     return fits ? vtk_word(type) : "double";

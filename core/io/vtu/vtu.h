@@ -1,5 +1,5 @@
 #pragma once
-// VTU and VTP files: VTK's XML UnstructuredGrid and PolyData; and its structured grids (.vts, .vtr, .vti), which are read alone. ASCII,
+// VTU and VTP files: VTK's XML UnstructuredGrid and PolyData; and its structured grids (.vts, .vtr, .vti), which are only read. ASCII,
 // base64 (inline or appended) and raw appended data, uncompressed or zlib, either byte order, sizes of 32 or 64 bits.
 
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace dmoscope {
 
-/// The attribute of PointData and CellData that names the array which has a role, and the role's name in VTK legacy files.
+/// An attribute of PointData and CellData that names the array with a role, and the role's name in VTK legacy files.
 struct VtuRole {
   const char* attribute;
   std::string_view role;
@@ -28,20 +28,20 @@ inline constexpr std::array kVtuRoles{VtuRole{"Scalars", "SCALARS"},
                                       VtuRole{"GlobalIds", "GLOBAL_IDS"},
                                       VtuRole{"PedigreeIds", "PEDIGREE_IDS"}};
 
-/// Reads a VTU or VTP file; see FormatHandler::read. Several pieces become one mesh, without joining points on their seams. Cells of fewer
-/// dimensions than the elements are passed over as in VTK legacy files.
+/// Reader, see FormatHandler::read. Several pieces become one mesh, without joining points on their seams. Cells of fewer dimensions than
+/// the elements are skipped as in VTK legacy files.
 [[nodiscard]] Mesh read_vtu(SourceFile& source, const IoContext& context);
 
-/// Makes a VTU file anew: appended raw data of double precision, zlib, 64-bit sizes; see FormatHandler::write.
+/// Writer of new VTU files: appended raw data of double precision, zlib, 64-bit sizes; see FormatHandler::write.
 std::vector<std::string> write_vtu(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context);
 
-/// Makes a VTP file anew, encoded as write_vtu() does. Throws OutputError for volume elements.
+/// Writer of new VTP files, encoded like those of write_vtu(). Throws OutputError for volume elements.
 std::vector<std::string> write_vtp(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context);
 
-/// The type that write_vtu() gives a field: its own where that holds all its values exactly, else double; and VTU's word for it.
+/// VTU's word for the type that write_vtu() gives a field: its own if that holds all its values exactly, else double.
 [[nodiscard]] std::string_view vtu_type_word(const Field& field);
 
-/// Writes mesh.source again with moved coordinates, in its own encoding; all but the points stays byte for byte.
+/// Writes mesh.source again with moved coordinates, in its own encoding; all else stays byte for byte.
 std::vector<std::string> patch_vtu(AtomicFile& file, const Mesh& mesh, const MovedMesh& moved, const IoContext& context);
 
 }  // namespace dmoscope

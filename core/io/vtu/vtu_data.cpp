@@ -19,12 +19,12 @@ namespace {
 
 constexpr std::string_view kZlib = "vtkZLibDataCompressor";
 
-/// What an array's place in the file holds, piece by piece: base64 decoded, raw bytes as they are.
+/// The content of an array's place in the file, part by part: base64 decoded, raw bytes unchanged.
 class EncodedBytes {
  public:
   EncodedBytes(std::string_view text, bool base64) : text_(text), base64_(base64), reader_(text) {}
 
-  /// The next bytes; they stay until the next call. Throws nothing: none when the text ends before.
+  /// The next bytes, valid until the next call; none if the text ends before. Throws nothing.
   std::optional<std::string_view> take(std::size_t count) {
     if (base64_) {
       buffer_.clear();
@@ -35,10 +35,10 @@ class EncodedBytes {
     at_ += count;
     return text_.substr(at_ - count, count);
   }
-  /// At most this many bytes are left.
+  /// Upper bound of the bytes left.
   [[nodiscard]] std::size_t left() const noexcept { return base64_ ? text_.size() - reader_.position() : text_.size() - at_; }
   [[nodiscard]] std::size_t position() const noexcept { return base64_ ? reader_.position() : at_; }
-  /// Makes what was taken last the caller's own.
+  /// Moves the bytes taken last into the caller's data.
   void give(VtuData& data, std::string_view taken) {
     if (base64_) {
       data.owned = std::move(buffer_);
@@ -81,7 +81,7 @@ class ArrayDecoder {
     if (!bytes) fail(fmt::format("the data end, or are no {}, within {}", array_.base64 ? "base64" : "such bytes", what));
     return *bytes;
   }
-  /// A size as headers hold it.
+  /// A size in a header.
   [[nodiscard]] std::uint64_t size_at(std::string_view header, std::size_t i) const {
     const char* const bytes = header.data() + i * size_of(document_.header());
     return document_.header() == ScalarType::UInt64 ? load_number<std::uint64_t>(bytes, document_.big_endian())
@@ -102,7 +102,7 @@ class ArrayDecoder {
     const std::uint64_t blocks = size_at(head, 0);
     const std::uint64_t block = size_at(head, 1);
     const std::uint64_t last = size_at(head, 2);
-    // Divisions, not products, which could overflow; the last block's size is 0 when it is a whole one.
+    // Divides instead of multiplying, which could overflow; the last block's size is 0 if it is a whole one.
     const bool fits = blocks > 0 && block > 0 && blocks - 1 <= expected_ / block && last <= block;
     const std::uint64_t total = !fits ? 0 : (blocks - 1) * block + (last == 0 ? block : last);
     if (total != expected_) fail(fmt::format("{} blocks of {} and {} bytes, but its numbers take {}", blocks, block, last, expected_));
@@ -152,7 +152,7 @@ std::vector<Value> ascii(const VtuDocument& document, const VtuArray& array, std
   return values;
 }
 
-/// Numbers take 8 bytes each here. What packed bytes unpack to may be a thousand times as many, and arrays may share their data.
+/// Accounts for the memory of numbers, 8 bytes each: packed bytes may unpack to a thousand times as many, and arrays may share their data.
 void take_memory(const VtuDocument& document, const VtuArray& array, std::size_t count, UnpackBudget& budget) {
   if (!budget.take(std::uint64_t{8} * count))
     document.fail(array.node, fmt::format("the file's arrays unpack to {}", UnpackBudget::advice()));

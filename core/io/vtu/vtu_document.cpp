@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::string_view kAppended = "<AppendedData";
 
-/// The value of an attribute in the text of a tag, as it stands there; empty if there is none.
+/// The unparsed value of an attribute in the text of a tag; empty if there is none.
 std::string_view value_in_tag(std::string_view tag, std::string_view attribute) {
   std::size_t at = 0;
   while (at < tag.size()) {
@@ -66,7 +66,7 @@ VtuDocument::VtuDocument(const SourceFile& source, std::size_t file_size, Progre
   parse();
 }
 
-/// Raw appended data are no XML: only what comes before them is parsed.
+/// Cuts off raw appended data, which are no XML: only the text before them is parsed.
 void VtuDocument::cut_appended() {
   appended_begin_ = bytes().size();
   appended_end_ = file_size_;
@@ -94,7 +94,7 @@ void VtuDocument::cut_appended() {
 }
 
 void VtuDocument::parse() {
-  // Nothing that would change the text: its places in the file are needed.
+  // Parses without changes to the text, since its places in the file are needed.
   const pugi::xml_parse_result result =
       document_.load_buffer_inplace(xml_.data(), xml_.size(), pugi::parse_minimal | pugi::parse_escapes, pugi::encoding_utf8);
   if (result.status == pugi::status_out_of_memory) throw std::bad_alloc();
@@ -176,7 +176,7 @@ void VtuDocument::find_inline_text(VtuArray& array) const {
   array.begin = array.limit = place_of(array.node);
   bool found = false;
   for (const pugi::xml_node child : array.node) {
-    if (child.type() != pugi::node_pcdata) continue;  // VTK's information keys
+    if (child.type() != pugi::node_pcdata) continue;  // skips VTK's information keys
     if (found) fail(array.node, "its numbers are in several parts");
     found = true;
     array.begin = static_cast<std::size_t>(std::max<std::ptrdiff_t>(child.offset_debug(), 0));
@@ -191,7 +191,7 @@ std::vector<VtuDocument::Appended> VtuDocument::appended() const {
     const std::optional<std::uint64_t> offset = unsigned_number(node.attribute("offset").value());
     if (offset) found.push_back({node, static_cast<std::size_t>(*offset), appended_begin_ + static_cast<std::size_t>(*offset)});
   };
-  for (pugi::xml_node node = document_.first_child(); node;) {  // all elements, without recursion
+  for (pugi::xml_node node = document_.first_child(); node;) {  // visits all elements, without recursion
     gather(node);
     if (node.first_child()) {
       node = node.first_child();

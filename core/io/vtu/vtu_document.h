@@ -1,6 +1,6 @@
 #pragma once
-// The XML of a VTU or VTP file (VTK's UnstructuredGrid and PolyData), and what its arrays say of themselves.
-// Format: https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html
+// The XML of a VTU or VTP file (VTK's UnstructuredGrid and PolyData), and the attributes of its arrays. Format:
+// https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html
 
 #include <cstddef>
 #include <optional>
@@ -26,20 +26,20 @@ struct VtuArray {
   bool ascii = false;
   bool appended = false;
   bool base64 = false;
-  std::size_t begin = 0, limit = 0;  // bytes of the file between which its numbers lie: they start at `begin` and end at `limit` or before
+  std::size_t begin = 0, limit = 0;  // range in the file of its numbers, which begin at `begin` and end at `limit` or before
 };
 
 class VtuDocument {
  public:
-  /// Parses; `source` must outlive this. Throws InputError with the line.
+  /// Parses a document; `source` must outlive this. Throws InputError with the line.
   VtuDocument(const SourceFile& source, Progress& progress) : VtuDocument(source, source.bytes().size(), progress) {}
-  /// Of a file of `file_size` bytes of which the source holds but the head, up to the underscore before the appended data.
+  /// Parses the head of a file of `file_size` bytes, which is all that the source holds, up to the underscore before the appended data.
   VtuDocument(const SourceFile& source, std::size_t file_size, Progress& progress);
 
   [[nodiscard]] pugi::xml_node grid() const noexcept { return grid_; }
-  /// Is it one of the grids whose cells are not listed (.vts, .vtr, .vti)?
+  /// Whether it is one of the grids whose cells are not listed (.vts, .vtr, .vti).
   [[nodiscard]] bool structured() const noexcept { return structured_; }
-  /// Is it PolyData (.vtp), whose cells are in lists of a kind each?
+  /// Whether it is PolyData (.vtp), whose cells are in lists of one kind each.
   [[nodiscard]] bool is_poly() const noexcept { return poly_; }
   [[nodiscard]] bool big_endian() const noexcept { return big_endian_; }
   [[nodiscard]] ScalarType header() const noexcept { return header_; }
@@ -51,21 +51,21 @@ class VtuDocument {
   /// The bytes before the appended data: all that is XML.
   [[nodiscard]] std::string_view xml() const noexcept { return bytes().substr(0, appended_begin_); }
 
-  /// A count in an attribute; `most` at most.
+  /// A count in an attribute, at most `most`.
   [[nodiscard]] std::size_t count(pugi::xml_node node, const char* attribute, std::size_t most) const;
-  /// What a DataArray says of itself. Throws InputError; none for an array of strings or another type that holds no numbers.
+  /// The attributes of a DataArray. Throws InputError; none for an array of strings or another type without numbers.
   [[nodiscard]] std::optional<VtuArray> array(pugi::xml_node node) const;
-  /// Every array in appended data: its element, and where it starts in the file.
+  /// An array in appended data: its element, and its begin in the file.
   struct Appended {
     pugi::xml_node node;
-    std::size_t offset;  // as the attribute says it
+    std::size_t offset;  // value of the attribute
     std::size_t begin;
   };
   [[nodiscard]] std::vector<Appended> appended() const;
-  /// Where the value of an element's attribute lies in the file: begin and size.
+  /// Place of an attribute's value in the file: begin and size.
   [[nodiscard]] std::pair<std::size_t, std::size_t> attribute_place(pugi::xml_node node, std::string_view attribute) const;
 
-  /// 1-based line of a byte. Counts from the place that was asked for last: cheap for places that are near each other.
+  /// Line of a byte, from 1. Counts from the byte asked for last: cheap for bytes that are near each other.
   [[nodiscard]] std::size_t line_at(std::size_t offset) const;
   /// Throws InputError at the line of an element, naming it.
   [[noreturn]] void fail(pugi::xml_node node, const std::string& what) const;
@@ -88,7 +88,7 @@ class VtuDocument {
   ScalarType header_ = ScalarType::UInt32;
   std::string compressor_;
   std::size_t file_size_;
-  std::size_t appended_begin_ = 0, appended_end_ = 0;      // of the data itself, behind its underscore
+  std::size_t appended_begin_ = 0, appended_end_ = 0;      // range of the data itself, behind its underscore
   mutable std::size_t counted_at_ = 0, counted_line_ = 1;  // a byte and its line
   bool has_appended_ = false;
   bool appended_base64_ = false;

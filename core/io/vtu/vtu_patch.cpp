@@ -26,7 +26,7 @@ struct ArrayChange {
   bool of_points = false;
 };
 
-/// Writes arrays anew whose numbers changed: points, and fields of points. Moves the offsets of what comes behind them in appended data.
+/// Writes arrays again whose numbers changed: points, and fields of points. Moves the offsets of arrays behind them in appended data.
 class VtuPatcher {
  public:
   VtuPatcher(AtomicFile& file, const Mesh& mesh, const MovedMesh& moved, const IoContext& context)
@@ -56,7 +56,7 @@ class VtuPatcher {
   }
 
  private:
-  /// Bytes of the source that others take the place of.
+  /// A range of the source, and the bytes that replace it.
   struct Replacement {
     std::size_t begin, end;
     std::string bytes;
@@ -69,7 +69,7 @@ class VtuPatcher {
     replace(*document_.array(node), {numbers(mesh_.positions), numbers(moved_.positions), true});
   }
 
-  /// An array is that of the first field of its name that was not met in this piece, as it was read.
+  /// Replaces the fields of points. As in the reader, an array belongs to the first field of its name that was not met in this piece.
   void fields(pugi::xml_node data, std::size_t first, std::size_t count) {
     std::vector<std::uint8_t> met(mesh_.fields.size(), 0);
     for (const pugi::xml_node node : data.children("DataArray")) {
@@ -91,7 +91,7 @@ class VtuPatcher {
   void replace(const VtuArray& array, const ArrayChange& change) {
     if (same_numbers(change.before, change.after)) return;
     const bool shared =
-        array.appended && std::ranges::count(appended_, array.begin, &VtuDocument::Appended::begin) > 1;  // see find_shared_data()
+        array.appended && std::ranges::count(appended_, array.begin, &VtuDocument::Appended::begin) > 1;  // set by find_shared_data()
     if (shared && !change.of_points)
       return notes_.push_back(fmt::format("Field \"{}\" was carried: other data share its bytes.", array.name));
     if (array.ascii) return replace_text(array, change);
@@ -138,12 +138,12 @@ class VtuPatcher {
     if (static_cast<double>(static_cast<float>(value)) != value) ++rounded_;
   }
 
-  /// Adds to the offsets of appended arrays by how much the encoded sizes of those before them changed.
+  /// Moves the offsets of appended arrays by the changes in size of those before them.
   void move_offsets() {
     const auto by_begin = [](const Replacement& a, const Replacement& b) { return a.begin < b.begin; };
     std::sort(replacements_.begin(), replacements_.end(), by_begin);
-    std::vector<std::size_t> ends;    // of replaced appended data, ascending
-    std::vector<std::size_t> growth;  // of all up to there; below zero it wraps around, and back when it is added
+    std::vector<std::size_t> ends;    // ends of replaced appended data, ascending
+    std::vector<std::size_t> growth;  // growth up to each end; below zero it wraps around, and back when it is added
     for (const Replacement& one : replacements_) {
       if (!one.appended) continue;
       ends.push_back(one.end);

@@ -66,7 +66,7 @@ class VtuReader {
   }
 
  private:
-  /// "0 2 0 1 3 3": the first and the last point along x, y and z.
+  /// Reads an extent such as "0 2 0 1 3 3": the first and the last point along x, y and z.
   std::array<std::int64_t, 6> extent(pugi::xml_node piece) {
     const pugi::xml_attribute given = piece.attribute("Extent") ? piece.attribute("Extent") : document_.grid().attribute("WholeExtent");
     const std::vector<double> numbers = several(piece, given.value(), 6);
@@ -94,10 +94,10 @@ class VtuReader {
     return numbers;
   }
 
-  /// The one piece of a grid whose cells are not listed.
+  /// Reads the only piece of a grid whose cells are not listed.
   void structured_piece(pugi::xml_node node) {
     if (pieces_read_) document_.fail(node, "structured grids of several pieces are not read: save it as one, or as an unstructured grid");
-    constexpr std::size_t kAlways = 1'000'000, kTimes = 256;  // what is packed may be of more points than the file has bytes
+    constexpr std::size_t kAlways = 1'000'000, kTimes = 256;  // packed data may have more points than the file has bytes
     const std::array<std::int64_t, 6> range = extent(node);
     VtkGridSize size;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -159,7 +159,7 @@ class VtuReader {
     if (document_.is_poly()) return poly_piece(node);
     const std::size_t point_count = document_.count(node, "NumberOfPoints", kNoIndex - 1 - mesh_.positions.size());
     const std::size_t cell_count = document_.count(node, "NumberOfCells", kNoIndex - 1 - kinds_.size());
-    if (point_count == 0 && cell_count == 0) return;  // a process that had nothing
+    if (point_count == 0 && cell_count == 0) return;  // a piece of a process without data
     points(node, point_count);
     cells(node, node.child("Cells"), point_count, cell_count, {});
     attributes(node.child("PointData"), Field::On::Vertices, point_count);
@@ -171,7 +171,7 @@ class VtuReader {
   void poly_piece(pugi::xml_node node) {
     struct List {
       const char *name, *count;
-      std::int64_t type;  // VTK's, of all its cells
+      std::int64_t type;  // VTK's type of all its cells
     };
     constexpr static std::array kLists{List{"Verts", "NumberOfVerts", 2}, List{"Lines", "NumberOfLines", 4},
                                        List{"Polys", "NumberOfPolys", 7}};
@@ -192,7 +192,7 @@ class VtuReader {
     end_piece(node, std::array<std::string_view, 4>{"Verts", "Lines", "Strips", "Polys"});
   }
 
-  /// `cells`: the names of its elements that hold cells.
+  /// Ends a piece. `cells`: names of its elements that hold cells.
   void end_piece(pugi::xml_node node, std::span<const std::string_view> cells) {
     for (const pugi::xml_node child : node) {
       const std::string_view name = child.name();
@@ -243,7 +243,7 @@ class VtuReader {
     points_.push_back({array, count, end});
   }
 
-  /// `type`: VTK's, of all of them; none: the file lists theirs.
+  /// Reads cells. `type`: VTK's type of all of them; none: the file lists their types.
   void cells(pugi::xml_node piece, pugi::xml_node cells, std::size_t points, std::size_t count, std::optional<std::int64_t> type) {
     std::optional<VtuArray> connectivity, offsets, types;
     for (const pugi::xml_node node : cells.children("DataArray")) {
@@ -254,7 +254,7 @@ class VtuReader {
         offsets = geometry(node);
       } else if (name == "types") {
         types = geometry(node);
-      } else if (name != "faces" && name != "faceoffsets") {  // those belong to polyhedra, which are refused
+      } else if (name != "faces" && name != "faceoffsets") {  // belong to polyhedra, which are refused
         source_.add_only_in_file(fmt::format("cell array \"{}\"", name));
       }
     }
@@ -294,7 +294,7 @@ class VtuReader {
     }
   }
 
-  /// PointData or CellData of a piece: `count` rows, which come behind those of the pieces before.
+  /// Reads PointData or CellData of a piece: `count` rows, which follow those of the pieces before.
   void attributes(pugi::xml_node data, Field::On on, std::size_t count) {
     std::vector<std::uint8_t> met(fields_.size(), 0);
     for (const pugi::xml_node node : data) {
@@ -317,7 +317,7 @@ class VtuReader {
     }
   }
 
-  /// The number of the field that an array belongs to, one that was not met in this piece; a new one in the first piece.
+  /// The index of the field that an array belongs to, one that was not met in this piece; a new one in the first piece.
   std::size_t field_of(pugi::xml_node data, const VtuArray& array, Field::On on, const std::vector<std::uint8_t>& met) {
     for (std::size_t i = 0; i < fields_.size(); ++i) {
       if (fields_[i].on != on || fields_[i].name != array.name || met[i] != 0) continue;
@@ -367,14 +367,14 @@ class VtuReader {
   struct PointArray {
     VtuArray array;
     std::size_t count;
-    std::size_t end;  // where it ends in the file
+    std::size_t end;  // end in the file
   };
   struct Range {
     std::size_t begin, end;
     bool of_points;
   };
 
-  /// How coordinates are replaced: in place where they are text or raw, else patch_vtu() encodes them again.
+  /// Sets how coordinates are replaced: in place if they are text or raw; otherwise patch_vtu() encodes them again.
   void layout() {
     if (points_.empty()) return;
     const VtuArray& first = points_.front().array;
@@ -396,19 +396,19 @@ class VtuReader {
     if (layout.binary && !first.base64 && !document_.compressed()) raw_places(size);
   }
 
-  /// Writers may let arrays share their data; moved points would then move in the other arrays, too.
+  /// Finds arrays that share data with the points, as some writers allow: moved points would then move the other arrays, too.
   void find_shared_data() {
     std::vector<Range> ranges = others_;
     std::unordered_set<std::size_t> of_points;
     for (const PointArray& some : points_) of_points.insert(some.array.node.hash_value());
-    for (const auto& array : document_.appended()) {  // those of strings, say, whose ends are not known
+    for (const auto& array : document_.appended()) {  // for example arrays of strings, whose ends are not known
       if (!of_points.contains(array.node.hash_value())) ranges.push_back({array.begin, array.begin + 1, false});
     }
     for (const PointArray& some : points_) {
       if (some.array.appended) ranges.push_back({some.array.begin, some.end, true});
     }
     std::sort(ranges.begin(), ranges.end(), [](const Range& a, const Range& b) { return a.begin < b.begin; });
-    std::size_t end = 0, end_of_points = 0;  // of all before
+    std::size_t end = 0, end_of_points = 0;  // greatest ends of all ranges before
     for (const Range& range : ranges) {
       if (range.end > range.begin && range.begin < (range.of_points ? end : end_of_points)) {
         return source_.set_not_patchable("other data share the bytes of its points");
@@ -435,14 +435,14 @@ class VtuReader {
   UnpackBudget budget_;
   Mesh mesh_;
   VtkCells cells_;
-  std::vector<std::uint8_t> kinds_;  // of each cell: VtkElement::kind
-  std::vector<Field> fields_;        // with a row for each cell
-  std::vector<PointArray> points_;   // of each piece that has any
-  std::vector<Range> others_;        // where the appended arrays lie that are no points
+  std::vector<std::uint8_t> kinds_;  // VtkElement::kind of each cell
+  std::vector<Field> fields_;        // fields with a row for each cell
+  std::vector<PointArray> points_;   // arrays of the pieces' points
+  std::vector<Range> others_;        // ranges of the appended arrays that are no points
   bool pieces_read_ = false;
 };
 
-/// An element VTKFile at the begin, behind a declaration and comments: its attributes; empty where there is none.
+/// The attributes of an element VTKFile at the begin, behind a declaration and comments; empty if there is none.
 std::string_view vtk_file_tag(std::string_view bytes) {
   constexpr std::size_t kLook = 4096;
   const std::string_view begin = bytes.substr(0, kLook);

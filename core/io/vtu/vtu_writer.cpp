@@ -20,16 +20,16 @@ namespace dmoscope {
 namespace {
 
 constexpr bool kBigEndian = std::endian::native == std::endian::big;
-constexpr std::size_t kBlockBytes = std::size_t{1} << 18;  // bytes that are compressed together
+constexpr std::size_t kBlockBytes = std::size_t{1} << 18;  // bytes in a compressed block
 
-/// VTU's word for a type of number.
+/// Word of VTU for a type of number.
 std::string_view vtu_word(ScalarType type) {
   constexpr static std::array<std::string_view, 10> words{"Int8",   "UInt8", "Int16",  "UInt16",  "Int32",
                                                           "UInt32", "Int64", "UInt64", "Float32", "Float64"};
   return words[static_cast<std::size_t>(type)];
 }
 
-/// The field's own type where that holds all its values; else double.
+/// The field's own type if that holds all its values; else double.
 ScalarType type_of(const Field& field) {
   ScalarType type = ScalarType::Float64;
   if (field.type == "bit") type = ScalarType::UInt8;
@@ -40,7 +40,7 @@ ScalarType type_of(const Field& field) {
 
 class VtuWriter {
  public:
-  /// `poly`: as PolyData.
+  /// Begins a file. `poly`: as PolyData.
   VtuWriter(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context, bool poly)
       : poly_(poly),
         file_(file),
@@ -150,7 +150,7 @@ class VtuWriter {
   const IoContext& context_;
   VtuEncoding encoding_;
   std::string xml_;
-  std::vector<std::string> appended_;  // the arrays as they stand behind the underscore
+  std::vector<std::string> appended_;  // arrays as they will be behind the underscore
   std::size_t offset_ = 0;
   std::vector<std::size_t> kept_;
 };

@@ -18,10 +18,10 @@
 namespace dmoscope {
 namespace {
 
-/// Some file systems cannot tell that something is on the disk; then there is nothing to wait for.
+/// Whether an error means that the file system cannot tell when data are on disk; then there is nothing to wait for.
 bool cannot_sync(int error) { return error == EINVAL || error == ENOTSUP || error == ENOSYS || error == EROFS; }
 
-/// The folder's own entry for a new name. Best effort: the file is whole by then, under its old contents or its new ones.
+/// Writes the folder's entry for a new name to disk. Best effort: the file is complete by then, with its old or new contents.
 void sync_folder(const std::filesystem::path& file) noexcept {
   const std::filesystem::path folder = file.parent_path();
   const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -33,7 +33,7 @@ void sync_folder(const std::filesystem::path& file) noexcept {
 }  // namespace
 
 std::filesystem::path follow_links(const std::filesystem::path& path) {
-  constexpr int kMostLinks = 40;  // as the system's own limit
+  constexpr int kMostLinks = 40;  // limit of the system
   std::filesystem::path target = path;
   std::error_code error;
   for (int i = 0; i < kMostLinks && std::filesystem::is_symlink(target, error); ++i) {
@@ -48,7 +48,7 @@ bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
   namespace fs = std::filesystem;
   if (a.empty() || b.empty()) return false;
   std::error_code error;
-  // equivalent() follows links but needs both files; the absolute names also tell of one that is still to be made.
+  // equivalent() follows links but needs both files; the absolute names also identify one that does not exist yet
   if (fs::equivalent(a, b, error)) return true;
   const fs::path first = fs::weakly_canonical(fs::absolute(follow_links(a)), error);
   if (error) return false;
@@ -79,9 +79,9 @@ AtomicFile::AtomicFile(const std::filesystem::path& path) : path_(path), target_
 }
 
 void AtomicFile::open_temporary() {
-  static std::atomic<unsigned> counter{0};  // so that two threads never meet; other processes differ by their id
+  static std::atomic<unsigned> counter{0};  // keeps threads apart; other processes differ by their id
   for (;;) {
-    // Short, whatever the target's name, so that it never is too long for the file system.
+    // Short for any name of the target, so that it is never too long for the file system.
     temporary_ = target_.parent_path() / litter_name(::getpid(), counter++);
     descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor_ < 0 && errno == EEXIST) continue;
@@ -90,11 +90,11 @@ void AtomicFile::open_temporary() {
       temporary_.clear();
       fail(error);
     }
-    // Whoever cleans up takes a file that nobody has locked for litter, and this one was not for a moment: who has locked it by now is
-    // about to remove it, which is waited for, and then it has no name.
+    // Checks that the file still exists: a cleaner takes an unlocked file for litter, as this one was for a moment. Waits for one that has
+    // locked it by now, which then removes it.
     struct stat status {};
     while (::flock(descriptor_, LOCK_EX) != 0 && errno == EINTR) {
-    }  // where there are no locks, nobody cleans up
+    }  // without locks nobody cleans up
     if (::fstat(descriptor_, &status) == 0 && status.st_nlink > 0) return;
     ::close(descriptor_);
   }
@@ -142,7 +142,7 @@ void AtomicFile::finish() {
 
 void AtomicFile::commit() {
   finish();
-  // Renamed before it is closed: closing would unlock it.
+  // Renames before closing, which would unlock the file.
   if (!temporary_.empty()) {
     if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
     temporary_.clear();

@@ -10,11 +10,11 @@ namespace {
 
 /// A positive number as its digits, d.ddd times ten to a power.
 struct Digits {
-  std::string digits;  // the first is not 0, unless it is alone
+  std::string digits;  // digits; the first is not 0, unless it is the only one
   int power = 0;
 };
 
-/// `text`: a number as to_chars gives it in the scientific way, without a sign.
+/// The digits of `text`, a number in the scientific notation of to_chars, without a sign.
 Digits digits_of(std::string_view text) {
   Digits result;
   const std::size_t e = text.find('e');
@@ -28,9 +28,9 @@ Digits digits_of(std::string_view text) {
   return result;
 }
 
-/// 123.45, or 0.0123 (or .0123 where a character must be saved).
+/// The number in plain notation: 123.45, or 0.0123 (or .0123 to save a character).
 std::string plain(const Digits& number, bool leading_zero) {
-  constexpr int kMost = 32;  // longer ones fit nowhere
+  constexpr int kMost = 32;  // longer ones fit in no field
   if (number.power > kMost || number.power < -kMost) return std::string(2 * kMost, '0');
   if (number.power < 0) {
     return (leading_zero ? "0." : ".") + std::string(static_cast<std::size_t>(-number.power - 1), '0') + number.digits;
@@ -57,7 +57,7 @@ double value_of(const Digits& number) {
 }  // namespace
 
 FieldNumber number_in_field(double value, std::size_t width, ExponentStyle style) {
-  constexpr int kDigits = 17;  // tell every double from every other
+  constexpr int kDigits = 17;  // digits that distinguish every double
   const bool negative = std::signbit(value);
   const double size = std::abs(value);
   std::array<char, 64> buffer{};
@@ -68,13 +68,13 @@ FieldNumber number_in_field(double value, std::size_t width, ExponentStyle style
     }
   }
   for (int digits = kDigits + 1; digits > 0; --digits) {
-    // First the shortest that is this very double, then fewer and fewer digits.
+    // Tries the shortest text that is exactly this double, then fewer and fewer digits.
     const auto written = digits > kDigits
                              ? std::to_chars(buffer.data(), buffer.data() + buffer.size(), size, std::chars_format::scientific)
                              : std::to_chars(buffer.data(), buffer.data() + buffer.size(), size, std::chars_format::scientific, digits - 1);
     const Digits number = digits_of({buffer.data(), static_cast<std::size_t>(written.ptr - buffer.data())});
     const double back = value_of(number);
-    if (!std::isfinite(back)) continue;  // the largest doubles, rounded up
+    if (!std::isfinite(back)) continue;  // for the largest doubles, rounded up
     for (std::string text : {plain(number, true), scientific(number, style), plain(number, false)}) {
       if (negative) text.insert(text.begin(), '-');
       if (text.size() <= width) return {std::move(text), negative ? -back : back};

@@ -10,13 +10,14 @@
 namespace dmoscope {
 namespace {
 
-/// The owner alone may not be given away by most; the group may, to one of our own.
+/// Gives a file its former owner and group, or else the group alone: most users may not give a file away, but may choose one of their
+/// groups.
 void keep_owner(const struct stat& status, int descriptor) {
   struct stat now {};
   if (::fstat(descriptor, &now) != 0) return;
   if (now.st_uid == status.st_uid && now.st_gid == status.st_gid) return;
   if (::fchown(descriptor, status.st_uid, status.st_gid) == 0) return;
-  if (::fchown(descriptor, static_cast<uid_t>(-1), status.st_gid) != 0) return;  // then the group stays ours, too
+  if (::fchown(descriptor, static_cast<uid_t>(-1), status.st_gid) != 0) return;  // then the group stays that of the process, too
 }
 
 void keep_extended(const std::filesystem::path& from, int descriptor) {

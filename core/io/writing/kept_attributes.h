@@ -1,5 +1,5 @@
 #pragma once
-// What a file keeps of the one that it replaces.
+// Attributes that a file takes over from the one that it replaces.
 
 #include <filesystem>
 
@@ -7,8 +7,8 @@
 
 namespace dmoscope {
 
-/// Gives an open file the permissions of another and, where the system lets us, its owner, its group and its extended attributes (access
-/// lists are among them). Returns 0, or the system's error where the permissions cannot be given.
+/// Gives an open file the permissions of another and, if the system allows it, its owner, its group and its extended attributes (with
+/// access lists). Returns 0, or the system's error if the permissions cannot be given.
 [[nodiscard]] int keep_attributes(const std::filesystem::path& from, const struct stat& status, int descriptor);
 
 }  // namespace dmoscope

@@ -19,8 +19,8 @@ bool all_digits(std::string_view text) noexcept {
   return !text.empty() && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
 }
 
-/// The lock goes with the process that held it, however it ended. It is held here while the file is removed: a process that has just made
-/// it, and has not locked it yet, waits and sees that it is gone. A name that by now is another file's is left alone.
+/// Removes a file whose process is dead, which released its lock. It is locked here meanwhile: a process that has just created it, and has
+/// not locked it yet, waits and sees that it is gone. A name that by now is another file's is left alone.
 void remove_if_dead(int folder, const char* name) noexcept {
   const int descriptor = ::openat(folder, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) return;

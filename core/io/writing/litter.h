@@ -1,5 +1,5 @@
 #pragma once
-// Temporary files of this program: their names, and what becomes of those that a killed process left.
+// Names of this program's temporary files, and removal of those that a killed process left.
 
 #include <filesystem>
 #include <string>
@@ -9,12 +9,13 @@
 
 namespace dmoscope {
 
-/// ".dmoscope-PID-N.tmp".
+/// Name of a temporary file: ".dmoscope-PID-N.tmp".
 [[nodiscard]] std::string litter_name(pid_t process, unsigned number);
 /// Whether a file's name is one of these.
 [[nodiscard]] bool is_litter_name(std::string_view name) noexcept;
 
-/// Removes the temporary files in a folder (empty: the current one) that nobody has locked. Never fails: what cannot be removed stays.
+/// Removes the temporary files in a folder (empty: the current one) that no process has locked. Never fails: files that cannot be removed
+/// stay.
 void remove_litter(const std::filesystem::path& folder) noexcept;
 
 }  // namespace dmoscope

@@ -1,26 +1,26 @@
 #pragma once
-// Text of others within one line of a file.
+// Foreign text within one line of a file.
 
 #include <algorithm>
 #include <string>
 
 namespace dmoscope {
 
-/// The text with blanks for control characters, line ends among them: what follows a title is not part of it.
+/// The text with blanks for control characters, line ends among them, so that a title ends with its line.
 [[nodiscard]] inline std::string one_line(std::string text) {
   std::ranges::replace_if(
       text, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }, ' ');
   return text;
 }
 
-/// With blanks for line ends alone.
+/// The text with blanks for line ends only.
 [[nodiscard]] inline std::string without_line_ends(std::string text) {
   std::ranges::replace_if(
       text, [](char c) { return c == '\n' || c == '\r'; }, ' ');
   return text;
 }
 
-/// Makes a text fit to stand between double quotes: a blank for each control character, single quotes for double ones.
+/// The text for use between double quotes: a blank for each control character, single quotes for double ones.
 [[nodiscard]] inline std::string in_quotes(std::string text) {
   std::ranges::replace_if(
       text, [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');

@@ -26,7 +26,7 @@ using Coordinates = std::array<double, 3>;
 
 Coordinates coordinates(Vec3 p) { return {p.x, p.y, p.z}; }
 
-/// A field that changed, and how its numbers are stored.
+/// A field that changed, and the storage of its numbers.
 struct ChangedField {
   const Field* field;
   const std::vector<double>* after;
@@ -40,10 +40,10 @@ struct ChangedField {
   }
 };
 
-/// Copies a part of the source and replaces in it, place after place.
+/// Copies a part of the source and replaces numbers in it, place by place.
 class Patcher {
  public:
-  /// `begin`: where the part begins in the source. `file` is what errors call the target. `fields`: those at the places of vertices.
+  /// Begins a part. `begin`: its offset in the source. `file`: name of the target in errors. `fields`: those at the places of vertices.
   Patcher(const std::string& file, const SourceFile& source, std::size_t begin, TextBuffer& out, std::span<const ChangedField> fields = {})
       : file_(file),
         source_(source),
@@ -71,7 +71,7 @@ class Patcher {
       return fields_[number.field].differs(vertex * fields_[number.field].components() + number.component);
     };
     if (std::ranges::none_of(numbers_, changed)) return;
-    std::size_t next = 0;  // text: number of the token that comes next
+    std::size_t next = 0;  // text: number of the next token
     if (!layout_.binary) tokens_.seek(source_.place(i));
     for (const Number& number : numbers_) {
       std::string_view token;
@@ -91,7 +91,7 @@ class Patcher {
     }
   }
 
-  /// A field that stands by itself, from its first row to its last.
+  /// Replaces a field that is stored separately, from its first row to its last.
   void run(const ChangedField& field) {
     const Field::Place& place = field.field->place;
     const std::size_t n = field.components();
@@ -116,13 +116,13 @@ class Patcher {
     out_ << source_.bytes().substr(copied_, offset - copied_);
     copied_ = offset;
   }
-  /// Bytes of the source that were copied or replaced.
+  /// Number of the source's bytes that were copied or replaced.
   [[nodiscard]] std::size_t copied() const noexcept { return copied_; }
   [[nodiscard]] std::size_t rounded() const noexcept { return rounded_; }
 
  private:
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-  /// One at the place of a vertex; `at`: words or bytes from there.
+  /// A number at the place of a vertex; `at`: words or bytes from there.
   struct Number {
     std::size_t at, field, component;  // kNone: a coordinate
   };
@@ -178,14 +178,14 @@ class Patcher {
   const CoordinateLayout& layout_;
   TextBuffer& out_;
   std::span<const ChangedField> fields_;
-  std::vector<Number> numbers_;  // as they come in the file
-  Progress unwatched_;           // the writer watches
+  std::vector<Number> numbers_;  // numbers in the order of the file
+  Progress unwatched_;           // unused: the writer reports progress
   Tokenizer tokens_;
   std::size_t copied_;
   std::size_t rounded_ = 0;
 };
 
-/// The fields that changed: at the places of vertices, and by themselves as they come in the file.
+/// The fields that changed: those at the places of vertices, and those stored separately, in the order of the file.
 struct ChangedFields {
   std::vector<ChangedField> with_positions, runs;
 };
@@ -231,7 +231,7 @@ std::size_t patch_part(TextBuffer& out, const std::string& file, const SourceFil
 
 namespace {
 
-/// Writes the source from byte to byte: what is between the places of vertices and the fields by themselves, and these.
+/// Writes the source byte by byte, with the places of vertices and the separate fields replaced.
 class PatchedFile {
  public:
   PatchedFile(AtomicFile& file, const Mesh& mesh, const MovedMesh& moved, const IoContext& context)

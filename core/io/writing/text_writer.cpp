@@ -10,7 +10,7 @@
 namespace dmoscope {
 namespace {
 
-/// Lets the threads that work on chunks write one after the other, and lends them buffers.
+/// Lets threads that work on chunks write in turn, and lends them buffers.
 class Turns {
  public:
   std::unique_ptr<TextBuffer> borrow() {
@@ -62,7 +62,7 @@ void TextBuffer::grow(std::size_t least) {
 
 void TextWriter::bytes(std::string_view bytes) {
   finish();
-  while (!bytes.empty()) {  // in pieces, so that a cancel is seen in time
+  while (!bytes.empty()) {  // writes in parts, so that a cancel is noticed in time
     context_.progress.check();
     file_->write(bytes.substr(0, kPiece));
     bytes.remove_prefix(std::min(kPiece, bytes.size()));

@@ -1,5 +1,5 @@
 #pragma once
-// Fast output of text and bytes: into memory, and into a file, where several threads can share the work.
+// Fast output of text and bytes into memory, and into a file with several threads.
 
 #include <charconv>
 #include <concepts>
@@ -33,7 +33,7 @@ class TextBuffer {
     bytes_[size_++] = c;
     return *this;
   }
-  /// The shortest decimal number that reads back as the same double.
+  /// Appends the shortest decimal number that reads back as the same double.
   TextBuffer& operator<<(double value) { return number(value); }
   template <std::integral Integer>
   requires(!std::same_as<Integer, char> && !std::same_as<Integer, bool>) TextBuffer& operator<<(Integer value) { return number(value); }
@@ -60,8 +60,8 @@ class TextBuffer {
   std::size_t capacity_;
 };
 
-/// Collects output for a file and hands it on in large pieces. Call finish() at the end: the destructor writes nothing.
-/// Throws OutputError, Cancelled.
+/// Collects output for a file and passes it on in large parts. finish() must be called at the end: the destructor writes nothing. Throws
+/// OutputError, Cancelled.
 class TextWriter {
  public:
   TextWriter(AtomicFile& file, const IoContext& context) : file_(&file), context_(context), buffer_(kPiece + kPiece / 4) {}
@@ -72,13 +72,13 @@ class TextWriter {
     if (buffer_.text().size() >= kPiece) finish();
     return *this;
   }
-  /// Bytes that are there already: they are not copied.
+  /// Writes bytes without copying them.
   void bytes(std::string_view bytes);
-  /// Calls format(part, first, last) for chunks of at most `grain` of `count` things, on the context's threads, and writes the parts one
-  /// after the other in the things' order. The first exception in that order is thrown.
+  /// Calls format(part, first, last) for chunks of at most `grain` of `count` items, on the context's threads, and writes the parts one
+  /// after the other in the items' order. The first exception in that order is thrown.
   void in_parts(std::size_t count, std::size_t grain,
                 const std::function<void(TextBuffer& part, std::size_t first, std::size_t last)>& format);
-  /// The same for things that are formatted one by one: each(part, i).
+  /// Writes items that are formatted one by one, by each(part, i), like in_parts().
   template <class Each>
   void for_each(std::size_t count, Each each) {
     constexpr std::size_t kGrain = 16384;

@@ -13,25 +13,25 @@
 
 namespace dmoscope {
 
-/// XDMF's number of each CellShape in a mixed topology, and its name of a topology. It says nothing of how the corners of volume elements
-/// are wound: they are taken as they are, as most programs that write such files do.
+/// Number of each CellShape in a mixed topology of XDMF, and its name for a topology. The format does not define the winding of volume
+/// elements: it is taken from the file, as most programs do.
 inline constexpr std::array<std::int64_t, kCellShapeCount> kXdmfTypes{1, 2, 4, 5, 6, 9, 8, 7};
 inline constexpr std::array<std::string_view, kCellShapeCount> kXdmfNames{"Polyvertex",  "Polyline",   "Triangle", "Quadrilateral",
                                                                           "Tetrahedron", "Hexahedron", "Wedge",    "Pyramid"};
 
-/// See FormatHandler. One uniform grid, unstructured, of first order. Throws InputError, Cancelled.
+/// Reader, see FormatHandler. One uniform grid, unstructured, of first order. Throws InputError, Cancelled.
 Mesh read_xdmf(SourceFile& source, const IoContext& context);
-/// See FormatHandler. Throws OutputError, Cancelled.
+/// Writer, see FormatHandler. Throws OutputError, Cancelled.
 Notes write_xdmf(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context);
 
-/// See FormatHandler. Where the numbers are in an HDF5 file, that is written beside the XML, under its own name or, where the XML has
-/// another name than the one that was read, under that one with .h5. Throws OutputError, Cancelled.
+/// Patcher, see FormatHandler. An HDF5 file with the numbers is written beside the XML: under its own name or, if the XML gets another name
+/// than it was read with, under that one with .h5. Throws OutputError, Cancelled.
 Notes patch_xdmf(AtomicFile& file, const Mesh& mesh, const MovedMesh& moved, const IoContext& context);
 
-/// The name of the file with the numbers for an XML of this name, where they are not in it.
+/// Name of the file with the numbers for an XML of this name that does not hold them.
 [[nodiscard]] std::string numbers_beside(const std::filesystem::path& xml);
 
-/// The points of a DataItem whose numbers are in an HDF5 file, into `positions`. Throws InputError.
+/// Reads the points of a DataItem whose numbers are in an HDF5 file into `positions`. Throws InputError.
 [[nodiscard]] CoordinateArrays read_xdmf_points(const XdmfDocument& document, pugi::xml_node item, bool plane,
                                                 std::vector<Vec3>& positions);
 

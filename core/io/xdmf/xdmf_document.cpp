@@ -13,7 +13,7 @@ TextSyntax xdmf_text_syntax() { return {.comment = '<', .comma_is_blank = false,
 
 XdmfDocument::XdmfDocument(const SourceFile& source, const IoContext& context)
     : source_(source), context_(context), progress_(context.progress), xml_(source.bytes()) {
-  // Nothing that would change the text: its places in the file are needed.
+  // Parses without changes to the text, since its places in the file are needed.
   const pugi::xml_parse_result result =
       document_.load_buffer_inplace(xml_.data(), xml_.size(), pugi::parse_minimal | pugi::parse_escapes, pugi::encoding_utf8);
   if (result.status == pugi::status_out_of_memory) throw std::bad_alloc();
@@ -92,7 +92,7 @@ std::optional<XdmfDocument::Elsewhere> XdmfDocument::elsewhere(pugi::xml_node it
   const std::size_t tag = std::min(source_.bytes().find('<', begin), source_.bytes().size());
   const std::size_t end = std::max(begin, std::min(source_.bytes().rfind(':', tag), tag));
   std::string array(words.substr(colon + 1));
-  if (array.front() != '/') array.insert(0, 1, '/');  // as FEniCS writes it
+  if (array.front() != '/') array.insert(0, 1, '/');  // FEniCS writes no leading slash
   return Elsewhere{std::string(words.substr(0, colon)), std::move(array), begin, end};
 }
 

@@ -20,29 +20,30 @@ namespace dmoscope {
 
 class XdmfDocument {
  public:
-  /// Where a DataItem's numbers are that are not in the XML: "mesh.h5:/points".
+  /// Place of a DataItem's numbers outside of the XML: "mesh.h5:/points".
   struct Elsewhere {
     std::string file, array;
-    std::size_t begin, end;  // where the file's name stands
+    std::size_t begin, end;  // range of the file's name in the XML
   };
 
-  /// Parses; `source` must outlive this. Throws InputError with the line.
+  /// Parses a document; `source` must outlive this. Throws InputError with the line.
   XdmfDocument(const SourceFile& source, const IoContext& context);
 
-  /// The one grid that the file holds. Throws InputError where it has none, or several.
+  /// The only grid in the file. Throws InputError if there is none, or several.
   [[nodiscard]] pugi::xml_node grid() const;
-  /// The one DataItem of an element. Throws InputError.
+  /// The only DataItem of an element. Throws InputError.
   [[nodiscard]] pugi::xml_node item(pugi::xml_node of) const;
-  /// The numbers of a DataItem; `places`: their offsets in the file. Throws InputError: no inline XML, no numbers, not as many as it says.
+  /// The numbers of a DataItem; `places`: gets their offsets in the file. Throws InputError: no inline XML, no numbers, another count than
+  /// declared.
   [[nodiscard]] std::vector<double> numbers(pugi::xml_node item, std::vector<std::uint64_t>* places = nullptr) const;
   [[nodiscard]] std::vector<std::int64_t> wholes(pugi::xml_node item) const;
-  /// Throws InputError unless an item's Dimensions give this number of values, or nothing.
+  /// Throws InputError unless an item's Dimensions give this number of values, or are missing.
   void require_expected(pugi::xml_node item, std::size_t found) const;
-  /// Nothing where the numbers are in the XML. Throws InputError for a binary file, and for words that are no place.
+  /// Place of a DataItem's numbers; none if they are in the XML. Throws InputError for a binary file, and for words that are no place.
   [[nodiscard]] std::optional<Elsewhere> elsewhere(pugi::xml_node item) const;
   /// The HDF5 file of that name beside the XML; opened once. Throws InputError.
   [[nodiscard]] ArrayFile& arrays(const std::string& file) const;
-  /// What was opened, by the names that the XML has for them.
+  /// Opened files, by their names in the XML.
   [[nodiscard]] const std::map<std::string, std::shared_ptr<SourceFile>>& files() const noexcept { return files_; }
   /// All DataItems of the document whose numbers are in HDF5 files.
   [[nodiscard]] std::vector<Elsewhere> all_elsewhere() const;
@@ -58,7 +59,7 @@ class XdmfDocument {
   [[noreturn]] void fail_at(std::size_t offset, const std::string& what) const;
   [[nodiscard]] std::size_t line_at(std::size_t offset) const;
 
-  /// How many numbers an item's Dimensions say; `most`: what is believed.
+  /// Number of values by an item's Dimensions; `most`: greatest number accepted.
   [[nodiscard]] std::size_t expected(pugi::xml_node item, std::size_t most) const;
 
   const SourceFile& source_;
@@ -67,10 +68,10 @@ class XdmfDocument {
   std::string xml_;  // parsed in place
   pugi::xml_document document_;
   mutable std::map<std::string, std::shared_ptr<SourceFile>> files_;  // HDF5
-  mutable std::map<std::string, std::unique_ptr<ArrayFile>> arrays_;  // what is open of them
+  mutable std::map<std::string, std::unique_ptr<ArrayFile>> arrays_;  // opened files
 };
 
-/// What separates the numbers of a DataItem: the next tag ends them.
+/// Separators of the numbers of a DataItem: the next tag ends them.
 [[nodiscard]] TextSyntax xdmf_text_syntax();
 
 }  // namespace dmoscope

@@ -1,4 +1,4 @@
-// XDMF files whose numbers are in an HDF5 file beside them: their points, and writing both again.
+// XDMF files whose numbers are in an HDF5 file beside them: reading of their points, and writing of both again.
 
 #include <filesystem>
 #include <string>
@@ -61,7 +61,7 @@ Notes patch_xdmf(AtomicFile& file, const Mesh& mesh, const MovedMesh& moved, con
   }
   std::string xml(mesh.source->bytes());
   for (auto place = all.rbegin(); place != all.rend(); ++place) xml.replace(place->begin, place->end - place->begin, xml_escaped(name));
-  // The numbers first: the XML that was there before fits them, too.
+  // Writes the numbers first: the former XML fits them, too.
   write_file_atomically(target, bytes);
   file.write(xml);
   notes.push_back(fmt::format("Its numbers are in {}, which was written, too.", target.filename().string()));

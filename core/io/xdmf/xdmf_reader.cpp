@@ -86,7 +86,7 @@ class XdmfReader {
     coordinates.describe(source_);
   }
 
-  /// A file is written again with the one beside it that has all its numbers.
+  /// Keeps the HDF5 file for patching: a file is written again with the one beside it that has all its numbers.
   void keep_files(pugi::xml_node points) {
     if (document_.files().empty()) return;
     const auto all = document_.all_elsewhere();
@@ -140,7 +140,7 @@ class XdmfReader {
     for (std::size_t at = 0; at < numbers_.size(); at += corners) add(item, shape, at);
   }
 
-  /// A type before the corners of each cell; points, lines and polygons also have their number.
+  /// Reads a mixed topology: a type before the corners of each cell; points, lines and polygons also have their count.
   void mixed(pugi::xml_node item) {
     for (std::size_t at = 0; at < numbers_.size();) {
       const std::int64_t type = numbers_[at++];
@@ -154,7 +154,7 @@ class XdmfReader {
           document_.fail(item, fmt::format("a cell with {} points", count));
         corners = static_cast<std::size_t>(count);
         if (type == 3 && (count == 3 || count == 4)) shape = count == 3 ? CellShape::Triangle : CellShape::Quadrilateral;
-        if (type != 3 && corners != corners_of(*shape)) {  // a path, or a cloud of points
+        if (type != 3 && corners != corners_of(*shape)) {  // a polyline, or a set of points
           source_.add_only_in_file("lines and points of several nodes");
           at += corners;
           passed_over_ = true;
@@ -191,7 +191,7 @@ class XdmfReader {
     const std::string name = node.attribute("Name").value();
     const pugi::xml_node item = node.child("DataItem");
     const std::string_view type = XdmfDocument::attribute(item, "NumberType", "DataType");
-    // Several items: a field of finite elements, as FEniCS writes them.
+    // Skips several items: a field of finite elements, as FEniCS writes them.
     if (item.next_sibling("DataItem")) return source_.add_only_in_file("further attributes");
     const bool text = equal_ignoring_case(type, "String") || equal_ignoring_case(type, "Char");
     if ((!of_points && !equal_ignoring_case(centre, "Cell")) || text || (passed_over_ && !of_points)) {
@@ -223,7 +223,7 @@ class XdmfReader {
     mesh_.fields.push_back(std::move(field));
   }
 
-  /// Numbers of points or cells.
+  /// Reads a set: numbers of points or cells.
   void set(pugi::xml_node node) {
     const std::string_view type = XdmfDocument::attribute(node, "SetType", "Center");
     const bool of_points = equal_ignoring_case(type, "Node");
@@ -246,10 +246,10 @@ class XdmfReader {
   XdmfDocument document_;
   Mesh mesh_;
   CellTable cells_;
-  std::vector<std::int64_t> numbers_;  // of the topology
+  std::vector<std::int64_t> numbers_;  // numbers of the topology
   std::int64_t base_ = 0;
-  std::vector<Index> rows_;   // the cell of each element, empty if every cell is one
-  bool passed_over_ = false;  // cells: data and sets of cells mean others than ours
+  std::vector<Index> rows_;   // cell of each element, empty if every cell is one
+  bool passed_over_ = false;  // whether cells were skipped: data and sets of cells then do not apply to the elements
 };
 
 bool recognises_xdmf(std::string_view bytes) {

@@ -15,7 +15,7 @@
 
 namespace dmoscope {
 
-/// The same point in every slot if R is a pack; else the point itself.
+/// A point, copied into every slot if R is a pack.
 template <class R, class Real>
 [[nodiscard]] DMOSCOPE_ANYWHERE Vec2<R> point_of(Vec2<Real> p) {
   return {R(p.x), R(p.y)};

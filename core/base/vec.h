@@ -43,7 +43,7 @@ template <class Real>
 [[nodiscard]] DMOSCOPE_ANYWHERE Real dot(Vec2<Real> a, Vec2<Real> b) {
   return a.x * b.x + a.y * b.y;
 }
-/// z component of the cross product: twice the signed area of the triangle (0, a, b).
+/// The z component of the cross product: twice the signed area of the triangle (0, a, b).
 template <class Real>
 [[nodiscard]] DMOSCOPE_ANYWHERE Real cross(Vec2<Real> a, Vec2<Real> b) {
   return a.x * b.y - a.y * b.x;

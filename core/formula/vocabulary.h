@@ -23,7 +23,7 @@ struct FormulaName {
 struct FormulaFunction {
   std::string_view name;
   int least, most;             // numbers of arguments
-  std::string_view arguments;  // "x, y"
+  std::string_view arguments;  // names such as "x, y"
   std::string_view doc;
 };
 [[nodiscard]] std::span<const FormulaFunction> formula_functions();

@@ -343,7 +343,7 @@ class Look {
   }
   [[nodiscard]] SmoothingTask task_of(const Conditions& then, std::shared_ptr<const Domain> domain) const {
     SmoothingTask task = q_.task;
-    task.search.precision = Precision::Float;  // double finds more only of gains that nobody would call so, at ten times the cost
+    task.search.precision = Precision::Float;  // in double it finds only negligible gains more, at ten times the cost
     task.combination = then.combination;
     task.then_joint = task.then_mean = false;
     task.slides = lets_slide(input_, then.rule);

@@ -61,7 +61,7 @@ struct HeldVertex {
 
 /// A change that the user can make: of a parameter, or of vertices fixed by hand.
 struct HoldSwitch {
-  std::string name, value;  // "boundary", "slide"
+  std::string name, value;  // command and argument: "boundary", "slide"
   Holding frees = Holding::Nothing;
   double number = 0.0;   // the value as a number, if it is one; for "combine" the threshold
   std::string beside{};  // further word of the command: a size function

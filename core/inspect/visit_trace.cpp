@@ -218,7 +218,7 @@ class Look {
     trace_.fast = true;
     trace_.value_phrase = std::move(value_phrase);
     take(std::move(recorder), [&](Offset offset) {
-      // exact, since the offsets are floats times a power of two
+      // Recovers the floats exactly, since the offsets are floats times a power of two.
       const Displacement to = task.frame.displace(&trace_.from.x, static_cast<float>(offset.x * task.frame.inverse),
                                                   static_cast<float>(offset.y * task.frame.inverse));
       return Vec3{to.target[0], to.target[1], to.target[2]};

@@ -91,7 +91,7 @@ class FormerMesh {
 
  private:
   std::filesystem::path path_;
-  std::set<std::filesystem::path> files_;  // with all links followed
+  std::set<std::filesystem::path> files_;  // paths with all links followed
 };
 
 /// All formats, in the order of format_table().

@@ -14,9 +14,9 @@
 namespace dmoscope {
 
 struct FormatInfo {
-  std::string_view name;        // "vtk"
-  std::string_view title;       // "VTK legacy"
-  std::string_view extensions;  // ".vtk", several separated by spaces
+  std::string_view name;        // name such as "vtk"
+  std::string_view title;       // title such as "VTK legacy"
+  std::string_view extensions;  // extension such as ".vtk", several separated by spaces
   std::string_view doc;         // contents that it can hold, one line
 };
 /// All formats that the program reads or writes.

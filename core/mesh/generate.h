@@ -11,8 +11,8 @@
 namespace dmoscope {
 
 struct GeneratorInfo {
-  std::string_view name;     // "coast"
-  std::string_view doc;      // one line
+  std::string_view name;     // such as "coast"
+  std::string_view doc;      // description in one line
   std::size_t default_size;  // approximate number of vertices without --size
 };
 /// Generators in the order of lists: coast, block, annulus, random, quads, mixed, tangled, grid, wrapped, globe; tetrahedra, hexahedra,

@@ -29,7 +29,7 @@ struct WavyRows {
     return way < 0.0 ? -low : low;
   }
 
-  /// m11, m12, m22 of the metric in which cells of these parameters are squares.
+  /// Components m11, m12, m22 of the metric in which cells of these parameters are squares.
   static std::array<double, 3> metric(double x, double s, double dx, double ds) {
     const double leans = slope(x) * (1.0 - share(s)), length = std::sqrt(1.0 + leans * leans);
     const double room = s < 0.0 ? wave(x) : 1.0 - wave(x);

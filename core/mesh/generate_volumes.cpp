@@ -13,7 +13,7 @@ namespace dmoscope::generators {
 
 namespace {
 
-/// (n + 1)^3 vertices of a unit lattice; cells have VTK's order of a hexahedron's corners.
+/// A unit lattice of (n + 1)^3 vertices; cells have VTK's order of a hexahedron's corners.
 class Block {
  public:
   explicit Block(std::size_t vertices)

@@ -23,7 +23,7 @@ class HalfEdges {
   /// Edge neighbours of a vertex in counter-clockwise order; those of a boundary vertex from one boundary edge to the other.
   [[nodiscard]] std::vector<Index> ring(Index vertex) const;
   struct Loop {
-    std::vector<Index> vertices;  // in order, the mesh to the left
+    std::vector<Index> vertices;  // vertices in order, with the mesh to the left
     Index element;                // one of the elements along the loop
   };
   /// Closed boundary loops.

@@ -340,7 +340,7 @@ std::vector<std::string> Interfaces::offers(std::string_view way_in) const {
 }
 
 namespace {
-constexpr std::array<std::string_view, 3> kRules{"fixed", "free", "slide"};  // in the order of InterfaceRule
+constexpr std::array<std::string_view, 3> kRules{"fixed", "free", "slide"};  // words in the order of InterfaceRule
 }
 
 std::string_view name(InterfaceRule rule) noexcept { return kRules[static_cast<std::size_t>(rule)]; }

@@ -67,7 +67,7 @@ class Interfaces {
   std::vector<std::uint8_t> meets_;  // by vertex, whether an interface ends there at the boundary; empty if none does
   std::array<Index, kHeldByCount> counts_{};
   Index between_groups_ = 0, between_values_ = 0;  // numbers of pairs of materials that meet
-  std::string value_names_;                        // "mat_id", "mat_id and region"
+  std::string value_names_;                        // names of the fields: "mat_id", "mat_id and region"
   struct Offer {
     std::string field;
     std::size_t values;  // number of different values; 1: of a field that the user named

@@ -23,10 +23,10 @@ enum class ElementKind : std::uint8_t { Triangle, Quadrilateral, Tetrahedron, He
 inline constexpr std::size_t kElementKindCount = 6;
 
 struct ElementKindInfo {
-  std::string_view name;    // "triangle"
-  std::string_view plural;  // "triangles"
+  std::string_view name;    // such as "triangle"
+  std::string_view plural;  // such as "triangles"
   Index corners;
-  int dimension;  // 2 or 3
+  int dimension;  // dimension, 2 or 3
 };
 inline constexpr std::array<ElementKindInfo, kElementKindCount> kElementKinds{{{"triangle", "triangles", 3, 2},
                                                                                {"quadrilateral", "quadrilaterals", 4, 2},
@@ -66,7 +66,7 @@ class ElementTable {
   [[nodiscard]] std::span<const ElementKind> kinds() const noexcept { return kinds_; }
   /// All corners of all elements, element after element.
   [[nodiscard]] std::span<const Index> all_corners() const noexcept { return corners_; }
-  /// size() + 1 offsets into all_corners().
+  /// The size() + 1 offsets into all_corners().
   [[nodiscard]] std::span<const Index> offsets() const noexcept { return offsets_; }
   void reserve(std::size_t elements, std::size_t corners) {
     reserve_large(kinds_, elements);
@@ -127,7 +127,7 @@ struct Field {
 /// A named set that the file carried: boundary strings of fort.14, markers of SU2.
 struct Group {
   std::string name;
-  std::string role;   // "open boundary", "land boundary", "marker", ...
+  std::string role;   // role such as "open boundary", "land boundary", "marker", ...
   int code = 0;       // the file's number for it (IBTYPE of fort.14), 0 if it has none
   int dimension = 0;  // 0: members are vertices; 1: members are edges, two vertices each; 2: members are elements, or else `faces` is used
   std::vector<Index> members{};  // 0-based

@@ -14,8 +14,8 @@ namespace dmoscope {
 
 /// A closed curve of the boundary.
 struct BoundaryLoop {
-  std::vector<Index> vertices;  // in order, with the mesh to the left
-  double length = 0.0;          // mesh units
+  std::vector<Index> vertices;  // vertices in order, with the mesh to the left
+  double length = 0.0;          // length in mesh units
   double area = 0.0;            // area that it encloses; of a loop that is not planar, that of its largest projection
   Index part = 0;               // number of the part that it bounds, from 0
   bool outer = false;           // whether it encloses its part, in a planar mesh
@@ -23,7 +23,7 @@ struct BoundaryLoop {
 
 /// A part of the mesh: elements that are connected across edges.
 struct MeshPart {
-  std::vector<Index> elements;  // ascending
+  std::vector<Index> elements;  // elements in ascending order
   Index vertices = 0;
   Index loops = 0;    // number of loops that bound it
   double area = 0.0;  // sum of the areas of its elements

@@ -17,7 +17,7 @@ class WindingSets {
 
   struct Place {
     Index root;
-    std::uint8_t against;  // 1: wound against the root
+    std::uint8_t against;  // whether it is wound against the root (1)
   };
   Place find(Index e) {
     std::uint8_t against = 0;

@@ -66,9 +66,9 @@ struct DualOf {
   }
 };
 
-using Dual = DualOf<Vec2<double>>;  // in a plane
-using SolidDual = DualOf<Vec3>;     // in space
-using LineDual = DualOf<double>;    // on a line
+using Dual = DualOf<Vec2<double>>;  // derivatives in a plane
+using SolidDual = DualOf<Vec3>;     // derivatives in space
+using LineDual = DualOf<double>;    // derivative on a line
 
 /// The point as a variable that derivatives are taken by.
 [[nodiscard]] constexpr Vec2<Dual> variable(Vec2<double> p) { return {{p.x, {1, 0}}, {p.y, {0, 1}}}; }

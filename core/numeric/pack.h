@@ -16,7 +16,8 @@
 
 #if defined(__aarch64__)
 namespace xsimd {
-// xsimd 8 approximates division and roots of floats on ARM, though the processor has instructions that round as IEEE 754 demands.
+// Corrects xsimd 8, which approximates division and roots of floats on ARM, though the processor has instructions that round as IEEE 754
+// demands.
 template <>
 inline batch<float, neon64>& batch<float, neon64>::operator/=(const batch<float, neon64>& other) noexcept {
   return *this = batch<float, neon64>(vdivq_f32(*this, other));

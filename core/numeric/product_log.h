@@ -28,7 +28,7 @@ class ProductLog {
   }
 
  private:
-  double mantissa_ = 0.5;  // in [1/2, 1)
+  double mantissa_ = 0.5;  // mantissa in [1/2, 1)
   long power_ = 1;
 };
 

@@ -18,11 +18,11 @@ namespace dmoscope {
 /// Curves and facets that vertices slide on. The mesh must outlive it.
 class Domain {
  public:
-  /// Determines who slides and who stays. If the mesh slides on the surface of another one, feature edges and corners are those of that; a
-  /// vertex of the mesh belongs to one if it is near it, and an edge if it runs along it. Otherwise: in a plane, a vertex of the boundary,
-  /// or of an interface between materials, slides along it if the rule allows that. In a volume mesh it slides on the surface of the
-  /// boundary or interface; in a surface mesh all vertices off its boundary slide, and those on it slide along it if the rule allows that.
-  /// On feature edges vertices slide along these. An edge is a feature edge
+  /// Determines the vertices that slide and those that stay. If the mesh slides on the surface of another one, feature edges and corners
+  /// are those of that; a vertex of the mesh belongs to one if it is near it, and an edge if it runs along it. Otherwise: in a plane, a
+  /// vertex of the boundary, or of an interface between materials, slides along it if the rule allows that. In a volume mesh it slides on
+  /// the surface of the boundary or interface; in a surface mesh all vertices off its boundary slide, and those on it slide along it if the
+  /// rule allows that. On feature edges vertices slide along these. An edge is a feature edge
   /// - if the surface folds there by more than the feature angle, ends there, or if not exactly two faces meet there;
   /// - if the file gives the faces beside it different names, or names the edge itself.
   /// A vertex stays

@@ -57,8 +57,8 @@ class Overlay {
   /// curve. Ends at the first face that is not `within`, and then the result is not within it, either.
   [[nodiscard]] Fit star(PositionView positions, Index vertex, Vec3 target, const FacetPlace* beneath, const Fit& within);
   /// Whether faces of a star that lie over facets keep doing so, for stars with faces that do not, such as those that are turned away: with
-  /// the vertex at `target`, every face must lie over facets that does with it at `here`, and each such face must be within the bound, or
-  /// as near as the farthest of those is. `here_beneath`, `beneath`: see star().
+  /// the vertex at `target`, every face must lie over facets that does with it at `here`, and each face that does must be within the bound,
+  /// or as near as the farthest of those is. `here_beneath`, `beneath`: see star().
   [[nodiscard]] bool keeps_what_lies(PositionView positions, Index vertex, Vec3 here, const FacetPlace* here_beneath, Vec3 target,
                                      const FacetPlace* beneath, const Fit& bound);
   /// Fit of a triangle whose corners are on a patch. `from`: a facet near it. `allowed`: stretches of curves along its edges, across which

@@ -9,7 +9,7 @@
 namespace dmoscope {
 
 namespace {
-constexpr std::array<std::string_view, 2> kBoundaryRules{"fixed", "slide"}, kLayerRules{"keep", "free"};  // in the enumerations' order
+constexpr std::array<std::string_view, 2> kBoundaryRules{"fixed", "slide"}, kLayerRules{"keep", "free"};  // words in enum order
 }
 
 std::string_view name(BoundaryRule rule) noexcept { return kBoundaryRules[static_cast<std::size_t>(rule)]; }

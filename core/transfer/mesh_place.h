@@ -45,7 +45,7 @@ class PlaceSearch {
   struct Tree {
     SimplexTree<N> simplices;
     std::vector<Part> parts;
-    std::vector<Index> first_of;  // by element, its first part, or kNoIndex
+    std::vector<Index> first_of;  // by element, its first part if it has any
   };
   template <class Visit>
   void for_parts(Index element, const Visit& visit) const;

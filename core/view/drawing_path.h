@@ -9,7 +9,7 @@
 namespace dmoscope {
 
 struct DrawingPath {
-  std::string name;    // "cuda with interop", "cuda with host copy" or "cpu"
+  std::string name;    // name: "cuda with interop", "cuda with host copy" or "cpu"
   std::string reason;  // reason why no faster path is used; empty for the fastest
   /// Name and reason: "cuda with host copy: no interop: OpenGL is drawn by the processor".
   [[nodiscard]] std::string sentence() const { return reason.empty() ? name : name + ": " + reason; }

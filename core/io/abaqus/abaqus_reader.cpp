@@ -32,7 +32,7 @@ constexpr std::array kFamilies{Family{"C3D", 3},   Family{"DC3D", 3},  Family{"A
 
 /// A keyword with its parameters, such as "*Element, type=C3D8, elset=Body".
 struct Keyword {
-  std::string name;  // in capitals, with one blank between its words
+  std::string name;  // name in capitals, with one blank between its words
   std::vector<std::pair<std::string, std::string_view>> parameters;
 
   [[nodiscard]] bool has(std::string_view parameter) const {
@@ -160,7 +160,7 @@ class AbaqusReader {
     }
   }
 
-  /// Skips nodes, elements and sets of the assembly itself (reference points): their numbers may be those of the part's, too.
+  /// Whether to skip nodes, elements or sets of the assembly itself (reference points): their numbers may be those of the part's, too.
   bool of_the_assembly() {
     if (scope_.empty() || in_instance_) return false;
     source_.add_only_in_file("reference points and connectors of the assembly");

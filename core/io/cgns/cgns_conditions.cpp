@@ -35,7 +35,7 @@ bool take_numbers(const CgnsTree& tree, const CgnsNode& node, CgnsCondition& int
 }  // namespace
 
 std::optional<CellShape> cgns_shape(std::int64_t type) noexcept {
-  constexpr std::array<std::int64_t, kCellShapeCount> kShapeTypes{2, 3, 5, 7, 10, 17, 14, 12};  // in the order of CellShape
+  constexpr std::array<std::int64_t, kCellShapeCount> kShapeTypes{2, 3, 5, 7, 10, 17, 14, 12};  // types in the order of CellShape
   const auto* const at = std::ranges::find(kShapeTypes, type);
   return at == kShapeTypes.end() ? std::nullopt : std::optional(static_cast<CellShape>(at - kShapeTypes.begin()));
 }

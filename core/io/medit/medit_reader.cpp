@@ -107,7 +107,7 @@ class MeditReader {
 
   void vertices() {
     if (dimension_ == 0) tokens_.fail("Vertices before Dimension");
-    const std::size_t shortest = dimension_ == 2 ? 6 : 8;  // "0 0 0\n"
+    const std::size_t shortest = dimension_ == 2 ? 6 : 8;  // bytes of "0 0 0\n"
     const std::size_t count = tokens_.read_count("number of Vertices", shortest);
     vertex_count_ = count;
     reserve_large(contents_.mesh.positions, count);

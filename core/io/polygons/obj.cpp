@@ -54,7 +54,7 @@ class ObjReader {
   /// A corner whose vertex is further down in the file: checked after all are read.
   struct ForwardReference {
     std::size_t line;
-    std::int64_t index;  // from 1
+    std::int64_t index;  // index from 1
   };
 
   void statement(std::string_view word, std::size_t line) {

@@ -30,8 +30,8 @@ OffHeader read_off_word(Tokenizer& tokens) {
 }
 
 OffCounts read_off_counts(Tokenizer& tokens) {
-  constexpr std::size_t kShortestVertex = 6;  // "0 0 0\n"
-  constexpr std::size_t kShortestFace = 8;    // "3 0 1 2\n"
+  constexpr std::size_t kShortestVertex = 6;  // bytes of "0 0 0\n"
+  constexpr std::size_t kShortestFace = 8;    // bytes of "3 0 1 2\n"
   if (tokens.at_end()) tokens.fail_at_end("number of vertices");
   const std::size_t vertices = tokens.read_count("number of vertices", kShortestVertex);
   const std::size_t faces = tokens.read_count("number of faces", kShortestFace);

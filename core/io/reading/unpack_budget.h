@@ -23,7 +23,7 @@ class UnpackBudget {
     left_ -= bytes;
     return true;
   }
-  /// Second half of the error message "the file of 103 kB unpacks to more than 256 MiB; ..."; the reader adds the first.
+  /// Second part of the error message "... unpacks to more than a file of this size should; ..."; the reader adds the first.
   [[nodiscard]] static constexpr const char* advice() noexcept {
     return "more than a file of this size should; --max-memory SIZE (in a script: max-memory SIZE) says how much is fine";
   }

@@ -38,7 +38,7 @@ class BoundaryReader {
 
   /// Reads the boundaries; a file may end before them, or after the open ones.
   std::vector<Group> read() {
-    constexpr std::size_t kShortestBoundary = 2;  // "0\n"
+    constexpr std::size_t kShortestBoundary = 2;  // bytes of "0\n"
     if (tokens_.at_end()) return std::move(groups_);
     const std::size_t open = tokens_.read_count("number of open boundaries", kShortestBoundary);
     tokens_.end_line();
@@ -126,8 +126,8 @@ class BoundaryReader {
 }  // namespace
 
 Fort14Head read_fort14_head(Tokenizer& tokens) {
-  constexpr std::size_t kShortestElement = 10;  // "1 3 1 2 3\n"
-  constexpr std::size_t kShortestNode = 8;      // "1 0 0 0\n"
+  constexpr std::size_t kShortestElement = 10;  // bytes of "1 3 1 2 3\n"
+  constexpr std::size_t kShortestNode = 8;      // bytes of "1 0 0 0\n"
   Fort14Head head;
   head.title = trimmed(tokens.rest_of_line());
   if (tokens.at_end()) tokens.fail_at_end("number of elements");

@@ -68,7 +68,7 @@ class MikeReader {
 
  private:
   std::size_t read_head() {
-    constexpr std::size_t kShortestNode = 10;  // "1 0 0 0 0\n"
+    constexpr std::size_t kShortestNode = 10;  // bytes of "1 0 0 0 0\n"
     std::int64_t count = tokens_.read_integer("number of nodes, or kind of the levels");
     const std::size_t at = tokens_.offset(), line = tokens_.line();
     if (is_whole_word(tokens_.token_on_line())) {
@@ -108,7 +108,7 @@ class MikeReader {
   }
 
   void read_elements() {
-    constexpr std::size_t kShortestElement = 8;  // "1 1 2 3\n"
+    constexpr std::size_t kShortestElement = 8;  // bytes of "1 1 2 3\n"
     if (tokens_.at_end()) tokens_.fail_at_end("number of elements");
     const std::size_t count = tokens_.read_count("number of elements", kShortestElement);
     const std::int64_t most = tokens_.read_integer("greatest number of corners");

@@ -166,7 +166,7 @@ class Su2Reader {
   Index vertex() { return tokens_.read_index("vertex index", static_cast<std::size_t>(vertices_), "vertices"); }
 
   void elements() {
-    constexpr std::size_t kShortest = 8;  // "5 0 1 2\n"
+    constexpr std::size_t kShortest = 8;  // bytes of "5 0 1 2\n"
     once(elements_read_, "NELEM");
     const std::size_t count = tokens_.read_count("NELEM", kShortest);
     tokens_.end_line();
@@ -191,7 +191,7 @@ class Su2Reader {
 
   void points() {
     once(points_read_, "NPOIN");
-    const std::size_t shortest = dimension_ == 2 ? 4 : 6;  // "0 0\n"
+    const std::size_t shortest = dimension_ == 2 ? 4 : 6;  // bytes of "0 0\n"
     const std::size_t count = tokens_.read_count("NPOIN", shortest);
     if (static_cast<std::int64_t>(count) != vertices_) tokens_.fail("NPOIN= a second time");
     tokens_.end_line();  // the number of points without those of neighbouring partitions may follow
@@ -223,7 +223,7 @@ class Su2Reader {
   }
 
   void marker() {
-    constexpr std::size_t kShortest = 4;  // "1 0\n"
+    constexpr std::size_t kShortest = 4;  // bytes of "1 0\n"
     if (tag_.empty()) tokens_.fail("MARKER_ELEMS= without a MARKER_TAG= before it");
     const std::size_t count = tokens_.read_count("MARKER_ELEMS", kShortest);
     tokens_.end_line();

@@ -48,7 +48,7 @@ bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
   namespace fs = std::filesystem;
   if (a.empty() || b.empty()) return false;
   std::error_code error;
-  // equivalent() follows links but needs both files; the absolute names also identify one that does not exist yet
+  // Tries equivalent() first, which follows links but needs both files; absolute names also identify one that does not exist yet.
   if (fs::equivalent(a, b, error)) return true;
   const fs::path first = fs::weakly_canonical(fs::absolute(follow_links(a)), error);
   if (error) return false;

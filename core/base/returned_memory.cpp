@@ -6,7 +6,7 @@ namespace dmoscope {
 
 void return_large_memory() noexcept {
 #ifdef M_MMAP_THRESHOLD
-  constexpr int kLarge = 4 << 20;  // bytes
+  constexpr int kLarge = 4 << 20;  // size in bytes
   (void)::mallopt(M_MMAP_THRESHOLD, kLarge);
 #endif
 }

@@ -14,8 +14,8 @@ namespace dmoscope {
 /// Positions of the vertices and qualities of the cells.
 struct CellState {
   std::span<const Vec3> positions;
-  std::span<const float> quality;          // by cell; NaN: not defined
-  std::span<const std::uint8_t> inverted;  // by cell, or empty: none is inverted
+  std::span<const float> quality;          // quality by cell; NaN: not defined
+  std::span<const std::uint8_t> inverted;  // flags by cell, or empty: none is inverted
   std::uint64_t serial = 0;                // changes whenever any of the above does
 };
 

@@ -16,7 +16,7 @@ namespace dmoscope {
 struct CommandInfo {
   std::string name;   // first word, "step"
   std::string usage;  // usage, such as "step vertex|class|iteration [COUNT]"
-  std::string doc;    // one line
+  std::string doc;    // description in one line
 };
 
 /// Message "unknown command 'stpe'; did you mean step?": there are too many to list; the help lists them.

@@ -26,7 +26,7 @@ enum class Operation : std::uint8_t {
   Logarithm,
   Sine,
   Cosine,
-  Power  // by logarithm; 0 unless the base is positive
+  Power  // computed by logarithm; 0 unless the base is positive
 };
 /// Number of operands that it reads, of a, b, c.
 [[nodiscard]] DMOSCOPE_ANYWHERE int operand_count(Operation operation) {

@@ -17,7 +17,7 @@ namespace dmoscope {
 struct MeshRegion {
   std::shared_ptr<const InputMesh> input;  // mesh with the data that quality and joint moves need: no fields, groups, neighbours
   std::vector<std::uint64_t> vertices;     // numbers of the vertices in the whole mesh
-  std::vector<std::uint8_t> fixed, rim;    // by vertex; rim: fixed in the region only, since elements around it are missing
+  std::vector<std::uint8_t> fixed, rim;    // flags by vertex; rim: fixed in the region only, since elements around it are missing
   /// Whether the element has a corner on the rim.
   [[nodiscard]] bool touches_rim(Index element) const;
 };

@@ -16,7 +16,7 @@
 namespace dmoscope {
 namespace {
 
-constexpr std::size_t kHeadBytes = 65536;  // bytes
+constexpr std::size_t kHeadBytes = 65536;  // size in bytes
 
 /// Begin of a file, for the tests below.
 struct Head {

@@ -269,7 +269,7 @@ bool try_coast(const CoastMap& map, const Request& request, Mesh& mesh) {
     if (renamed[v] == kNoIndex) continue;
     renamed[v] = mesh.vertex_count();
     const Point p = from_grid(points[v]);
-    mesh.positions.push_back({points[v].x / 100.0, points[v].y / 100.0, 0.0});  // metres
+    mesh.positions.push_back({points[v].x / 100.0, points[v].y / 100.0, 0.0});  // converts to metres
     depth.values.push_back(depth_at(p, map, request.seed));
     open.push_back(map.on_arc(p) ? 1 : 0);
   }

@@ -130,7 +130,7 @@ struct Group {
   std::string role;   // role such as "open boundary", "land boundary", "marker", ...
   int code = 0;       // the file's number for it (IBTYPE of fort.14), 0 if it has none
   int dimension = 0;  // 0: members are vertices; 1: members are edges, two vertices each; 2: members are elements, or else `faces` is used
-  std::vector<Index> members{};  // 0-based
+  std::vector<Index> members{};  // members, counted from 0
   ElementTable faces{};          // dimension 2, members empty: faces of a volume mesh by their corners, in the file's own winding
 
   [[nodiscard]] bool of_elements() const noexcept { return dimension == 2 && faces.size() == 0; }

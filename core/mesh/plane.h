@@ -118,7 +118,7 @@ struct Geometry {
 
 /// Length of the diagonal of a box. Squares neither underflow nor overflow unless the length itself does.
 [[nodiscard]] double diagonal(Vec3 low, Vec3 high);
-/// The coordinate plane that a box lies in; none where it extends along x, y and z.
+/// The coordinate plane that a box lies in; none if it extends along x, y and z.
 [[nodiscard]] std::optional<Plane> coordinate_plane_of(Vec3 low, Vec3 high);
 
 /// Classifies a mesh. It is planar if no used vertex lies farther than 1e-6 * size from the best plane, whose normal's largest component is

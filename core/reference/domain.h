@@ -86,7 +86,7 @@ class Domain {
   std::vector<Segment> segments_;  // segments of all curves, ascending
   std::vector<EdgeEnds> feature_edges_;
   std::vector<Partners> pairs_;
-  std::vector<Index> pair_at_, followers_;  // by vertex; empty: no pairs
+  std::vector<Index> pair_at_, followers_;  // indices and followers by vertex; empty: no pairs
   std::vector<HeldOn> held_;                // by vertex, why it is held
   std::string surface_;                     // name of the mesh on whose surface it slides; empty: its own
   bool said_in_plane_ = false;              // whether the user named feature edges of a planar mesh

@@ -86,7 +86,7 @@ class Facets {
   std::vector<Index> facets_at_;              // by vertex, number of its facets
   std::vector<std::array<Vec3, 3>> normals_;  // normals at the corners of each facet
   std::vector<std::array<bool, 3>> covers_once_;
-  std::vector<FacetSide> sides_;  // ascending
+  std::vector<FacetSide> sides_;  // sides in ascending order
   FacetTree tree_;
 };
 

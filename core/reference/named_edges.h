@@ -32,7 +32,7 @@ class NamedEdges {
   [[nodiscard]] std::span<const Name> of(Index a, Index b) const;
 
   const Mesh& mesh_;
-  std::vector<Name> names_;  // ascending
+  std::vector<Name> names_;  // names in ascending order
   std::vector<const Group*> lines_;
   std::optional<NamedList> list_;
 };

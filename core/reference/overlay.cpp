@@ -47,7 +47,7 @@ struct Part {
 struct Overlay::Ground {
   Plane plane;
   Vec3 origin;
-  std::array<Vec2<double>, 3> corners;  // counter-clockwise
+  std::array<Vec2<double>, 3> corners;  // corners in counter-clockwise order
   std::array<Vec2<double>, 3> inwards;  // unit vectors across each edge
   double size, area;                    // longest edge, and twice the area
   [[nodiscard]] Corner corner(Vec3 p) const {

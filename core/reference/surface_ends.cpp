@@ -257,7 +257,7 @@ class SurfaceFinder {
   ElementTable faces_;
   Index boundary_faces_ = 0;  // number of boundary faces, which come first; the others are those of interfaces
   std::vector<Index> name_of_;
-  std::vector<Edge> named_edges_;  // ascending
+  std::vector<Edge> named_edges_;  // edges in ascending order
 };
 
 }  // namespace

@@ -323,7 +323,7 @@ class DefinedStar {
     gather_star_with(judge_.mesh, positions_, vertex_, follower_, star_);
     const auto list_of_element = [this](const Around& one) {
       const std::size_t corners = judge_.mesh.corners_of(one.at.element).size();
-      if constexpr (!std::is_same_v<Frame, Space>) return corners;  // triangles, quadrilaterals
+      if constexpr (!std::is_same_v<Frame, Space>) return corners;  // for triangles and quadrilaterals
       return corners == 4 ? 0 : corners == 8 ? 1 : corners == 6 ? 2 : one.at.corner < 4 ? 3 : std::size_t{4};
     };
     for (const Index v : {vertex_, follower_}) {

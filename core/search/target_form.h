@@ -13,9 +13,9 @@ namespace dmoscope {
 /// Target of one corner.
 template <class R>
 struct CornerTarget {
-  R l11, l21, l22;  // W^-1
+  R l11, l21, l22;  // lower triangle of W^-1
   R steepness;      // see ElementTarget
-  R k11, k12, k22;  // K
+  R k11, k12, k22;  // upper triangle of K
 };
 
 /// Number of scalars that a CornerTarget occupies in memory: K is left out if no form is crossed.

@@ -44,7 +44,7 @@ struct RunRow {
 struct RunColumn {
   std::string_view name;   // name in a CSV: "min_quality"
   std::string_view title;  // title for people: "minimum"
-  std::string_view doc;    // one line
+  std::string_view doc;    // description in one line
   std::variant<std::string RunRow::*, std::uint64_t RunRow::*, double RunRow::*> value;
   bool is_count = false;
   [[nodiscard]] bool is_word() const noexcept { return value.index() == 0; }

@@ -189,7 +189,7 @@ class GroupMaker {
   Mesh& mesh_;
   SourceFile& source_;
   std::size_t room_;
-  std::vector<std::uint8_t> in_set_;  // by cell
+  std::vector<std::uint8_t> in_set_;  // flags by cell
   std::vector<std::size_t> offsets_;  // offsets of the cells' corners
 };
 

@@ -318,7 +318,7 @@ class CgnsCellReader {
   std::vector<std::vector<std::uint32_t>> marks_;  // sets of conditions
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> known_marks_;
   std::map<std::tuple<std::string, std::uint32_t, int>, std::uint32_t> origins_;
-  std::map<std::string, Group> vertex_groups_;  // by name
+  std::map<std::string, Group> vertex_groups_;  // groups by name
 };
 
 }  // namespace

@@ -198,7 +198,7 @@ class ZoneReader {
   CgnsPoints points_;
   CgnsNode base_;
   int physical_ = 3;
-  std::vector<Vec3> all_;  // by point
+  std::vector<Vec3> all_;  // positions by point
 };
 
 }  // namespace

@@ -11,8 +11,8 @@
 namespace dmoscope {
 namespace {
 
-constexpr std::size_t kInt = 4;   // bytes
-constexpr std::size_t kSize = 8;  // bytes
+constexpr std::size_t kInt = 4;   // size in bytes
+constexpr std::size_t kSize = 8;  // size in bytes
 constexpr int kAnyDimension = -1;
 
 struct HigherOrder {

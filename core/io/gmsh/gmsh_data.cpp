@@ -13,7 +13,7 @@
 namespace dmoscope {
 namespace {
 
-constexpr std::size_t kReal = 8;  // bytes
+constexpr std::size_t kReal = 8;  // size in bytes
 constexpr std::int64_t kMostComponents = 1024;
 
 }  // namespace

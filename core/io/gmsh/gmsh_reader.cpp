@@ -16,7 +16,7 @@ namespace dmoscope {
 namespace {
 
 constexpr std::string_view kFormatSection = "$MeshFormat";
-constexpr std::size_t kRealBytes = 8;  // bytes
+constexpr std::size_t kRealBytes = 8;  // size in bytes
 constexpr std::size_t kPointBytes = 3 * kRealBytes;
 
 class GmshReader {

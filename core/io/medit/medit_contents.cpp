@@ -86,7 +86,7 @@ void MeditContents::add_field(Field::On on, std::vector<double> values) {
 /// Makes elements and groups. References of elements become groups if they are few, else a field.
 void MeditContents::split() {
   constexpr std::size_t kMostGroups = 256;
-  std::vector<std::uint8_t> of_element(labels_.size(), 0);  // by origin
+  std::vector<std::uint8_t> of_element(labels_.size(), 0);  // flags by origin
   for (std::size_t c = 0; c < cells_.size(); ++c) {
     if (dimension_of(cells_.shape(c)) == cells_.dimension()) of_element[cells_.origin(c)] = 1;
   }

@@ -9,7 +9,7 @@
 namespace dmoscope {
 namespace {
 
-constexpr std::size_t kField = 8;  // columns
+constexpr std::size_t kField = 8;  // width in columns
 
 char capital(char c) noexcept { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 

@@ -197,7 +197,7 @@ class NastranReader {
   NumberedMesh numbered_;
   Mesh mesh_;
   std::vector<OriginLabels> labels_;
-  std::map<std::pair<int, std::string_view>, std::uint32_t> origins_;  // by property, or else by the card's name
+  std::map<std::pair<int, std::string_view>, std::uint32_t> origins_;  // origins by property, or else by the card's name
   std::map<int, std::string> names_;                                   // names of the properties
   std::vector<std::string> other_;
 };

@@ -35,7 +35,7 @@ struct CoordinateLayout {
   std::uint8_t width = 0;  // text: greatest number of characters of a number in the format; 0: any
   std::array<CoordinateScalar, 3> scalar{CoordinateScalar::Float64,  // types of x, y, z; text: as declared, more digits are possible
                                          CoordinateScalar::Float64, CoordinateScalar::Float64};
-  bool big_endian = false;  // binary
+  bool big_endian = false;  // byte order of a binary file
 };
 
 /// The bytes of a file, in memory of their own.

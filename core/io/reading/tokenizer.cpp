@@ -12,7 +12,7 @@
 namespace dmoscope {
 namespace {
 
-constexpr std::size_t kReportEvery = std::size_t{1} << 20;  // bytes
+constexpr std::size_t kReportEvery = std::size_t{1} << 20;  // interval in bytes
 
 /// Whether a decimal number beyond the range of double is too small (rather than too large), by the place of its first digit.
 bool is_tiny(std::string_view number) {

@@ -67,8 +67,8 @@ class XdmfDocument {
   Progress& progress_;
   std::string xml_;  // parsed in place
   pugi::xml_document document_;
-  mutable std::map<std::string, std::shared_ptr<SourceFile>> files_;  // HDF5
-  mutable std::map<std::string, std::unique_ptr<ArrayFile>> arrays_;  // opened files
+  mutable std::map<std::string, std::shared_ptr<SourceFile>> files_;  // HDF5 files by name
+  mutable std::map<std::string, std::unique_ptr<ArrayFile>> arrays_;  // opened files by name
 };
 
 /// Separators of the numbers of a DataItem: the next tag ends them.

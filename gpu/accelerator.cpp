@@ -9,7 +9,7 @@ namespace dmoscope::gpu {
 
 namespace {
 
-/// Every run has a queue of its own, since runs may be made and destroyed by different threads.
+/// DMO on a CUDA device; every run has a queue of its own, since different threads may make and destroy runs.
 class CudaAccelerator final : public Accelerator {
  public:
   explicit CudaAccelerator(int device) : device_(device), first_(make_cuda_queue(device)) {}

@@ -1,5 +1,5 @@
 #pragma once
-// The kernels' bodies: what one lane does, the same source on a device and on the host that stands in for it.
+// The kernels' bodies: the work of one lane, by the same source on a device and on the host that stands in for it.
 
 #include "core/quality/element_shape.h"
 #include "core/quality/tally.h"
@@ -21,7 +21,7 @@ inline DMOSCOPE_LANE void move(const Task& task, Index rank, const double* targe
   (void)increment(task.moved);
 }
 
-/// A visit in double by the plain search; a deferred one. By all lanes of a team.
+/// Makes a visit that the fast search deferred: searches in double by the plain search, by all lanes of a team.
 template <Metric M>
 struct ExactVisit {
   template <class Team>
@@ -31,7 +31,7 @@ struct ExactVisit {
   }
 
  private:
-  /// Fills the target.
+  /// Searches the star and sets the target of `d`, if there is a better place.
   template <class Team>
   static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE void search(const Task& task, Deferred& d, const Team& team) {
     const PositionView positions = positions_of(task);
@@ -53,7 +53,8 @@ struct ExactVisit {
   }
 };
 
-/// Every body has run(task, i, count, team): lane (or team) i of `count`. AtOnce: what the fast search leaves is settled in the same lane.
+/// Visits the vertex of lane (or team) i of `count` by the fast search; every body has such a run(task, i, count, team). AtOnce: visits
+/// that the fast search defers are settled in the same lane.
 template <Metric M, Stars S, bool AtOnce = false>
 struct Visit {
   template <class Team>
@@ -61,7 +62,7 @@ struct Visit {
     const Index rank = task.listed != nullptr ? task.listed[i] : static_cast<Index>(task.first + i);
     const StarShape shape = task.shapes[rank];
     if constexpr (S != Stars::All)
-      if (kind_of_star<M>(shape, task.parameters) != S) return;  // its flag may be written at this moment
+      if (kind_of_star<M>(shape, task.parameters) != S) return;  // other stars' flags may be written at this moment
     if (!is_set(task.awake + rank)) return;
     using Search = FastVisit<M, Team, S, Task>;
     typename Search::Outcome outcome;
@@ -70,7 +71,7 @@ struct Visit {
     const double* to = outcome.to.target;
     const Deferred deferred{rank, outcome.ready, {to[0], to[1], to[2]}};
     if constexpr (AtOnce)
-      if (!outcome.ready) return ExactVisit<M>::run(task, deferred, team);  // all lanes know that much
+      if (!outcome.ready) return ExactVisit<M>::run(task, deferred, team);  // the outcome is the same in all lanes
     if (team.lane() != 0) return;
     using visit_rules::Verdict;
     if (outcome.ready && outcome.verdict == Verdict::Stay)
@@ -84,7 +85,7 @@ struct Visit {
   }
 };
 
-/// The visits that the fast search left.
+/// Settles the visits that the fast search deferred.
 template <Metric M>
 struct Settle {
   template <class Team>
@@ -109,8 +110,8 @@ struct Judge {
   }
 };
 
-/// Statistics of elements or of parts, added one after the other. Every comparison with NaN is false: it is left out of minimum, sum and
-/// count.
+/// Statistics of elements or of parts, added one after the other. Every comparison with NaN is false, so that NaN is left out of minimum,
+/// sum and count.
 class PartSum {
  public:
   DMOSCOPE_ANYWHERE void add(Index element, double quality, bool inverted, bool immovable) {
@@ -119,7 +120,7 @@ class PartSum {
     part_.defined += is_defined ? 1U : 0U;
     part_.inverted += inverted ? 1U : 0U;
     if (quality < part_.minimum) part_.minimum = quality, part_.worst = element;
-    // Not a reference to either, which would put both into memory on a device.
+    // Plain values, not a reference to either, which would put both into memory on a device.
     part_.ceiling = immovable && quality < part_.ceiling ? quality : part_.ceiling;
     part_.movable = !immovable && quality < part_.movable ? quality : part_.movable;
   }
@@ -127,7 +128,7 @@ class PartSum {
     part_.sum += other.sum;
     add_all_but_sum(other);
   }
-  /// What may be added in any order.
+  /// Adds all that may be added in any order.
   DMOSCOPE_ANYWHERE void add_all_but_sum(const Part& other) {
     part_.defined += other.defined;
     part_.inverted += other.inverted;
@@ -143,7 +144,7 @@ class PartSum {
   Part part_{0.0, kInfinity, kInfinity, kInfinity, kNoIndex, 0, 0, 0};
 };
 
-/// Part i % kParts of stretch i / kParts.
+/// Adds up one part of the statistics: part i % kParts of stretch i / kParts.
 struct Sum {
   template <class Team>
   static DMOSCOPE_LANE void run(const Task& task, std::size_t i, std::size_t /*count*/, const Team& /*team*/) {
@@ -171,14 +172,14 @@ struct Sum {
   static constexpr std::size_t kBatch = 16;  // loads that are waited for together
 };
 
-/// The sum of all parts i, i + kParts, ..., group by group; it stands behind them all. The lanes of a team load side by side, for the parts
-/// are many and the teams few; the first adds the sums, one after the other.
+/// Adds up all parts i, i + kParts, ..., group by group, and stores the sum behind them. The lanes of a team load side by side, for the
+/// parts are many and the teams few; the first lane adds the sums, one after the other.
 struct Total {
   template <class Team>
   static DMOSCOPE_LANE void run(const Task& task, std::size_t i, std::size_t /*count*/, const Team& team) {
     static_assert(kGroup % (kBatch * Team::kSize) == 0);
     PartSum all;
-    double sum = 0.0, group = 0.0;  // of whole groups of stretches, and of the one under way: see TallyTotal
+    double sum = 0.0, group = 0.0;  // sums over whole groups of stretches, and over the group under way: see TallyTotal
     const std::size_t parts = stretches(task) * kParts;
     for (std::size_t first = i; first < parts; first += kBatch * Team::kSize * kParts) {
       if (first / kParts % kGroup == 0) {
@@ -212,7 +213,7 @@ struct Total {
  private:
   static constexpr std::size_t kBatch = 4;  // loads of a lane that are waited for together
 
-  /// Makes a part add nothing. Field by field, for a constant Part would be read from memory.
+  /// Makes a part add nothing. Sets field by field, for a constant Part would be read from memory.
   static DMOSCOPE_LANE void leave_out(Part& part) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     part.sum = 0.0;
@@ -220,7 +221,7 @@ struct Total {
     part.worst = kNoIndex, part.inverted = 0, part.defined = 0;
   }
 
-  /// In lane 0: `sum` and the lanes' values, in the order of lanes. What other lanes get means nothing.
+  /// Returns in lane 0 `sum` plus the lanes' values, in the order of lanes. The result in other lanes means nothing.
   template <class Team>
   static DMOSCOPE_LANE double add_in_order(double sum, double value, const Team& team) {
     sum += value;
@@ -232,7 +233,7 @@ struct Total {
   }
 };
 
-/// The statistics out of the totals.
+/// Computes the statistics from the totals.
 struct Conclude {
   template <class Team>
   static DMOSCOPE_LANE void run(const Task& task, std::size_t /*i*/, std::size_t /*count*/, const Team& /*team*/) {
@@ -272,7 +273,7 @@ struct Shade {
   }
 };
 
-/// A device counts a block's elements in the block's own memory first: see count_kernel.
+/// Counts the histogram. A device counts a block's elements in the block's own memory first: see count_kernel.
 struct Count {
   static constexpr std::size_t kCount = kSlotNowhere + 1;
   static constexpr std::size_t kEach = 16;  // elements that a device's lane counts

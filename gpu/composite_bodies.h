@@ -1,5 +1,5 @@
 #pragma once
-// The bodies of the kernels for two aims: combined metrics, and the phase that raises the mean. On the processor Visit does it.
+// The kernels' bodies for two aims: combined metrics, and the phase that raises the mean. Visit does the same on the processor.
 
 #include "core/smooth/composite_visit.h"
 #include "gpu/lane.h"
@@ -42,12 +42,12 @@ class CompositeLaneScore {
   [[nodiscard]] DMOSCOPE_LANE_INLINE DMOSCOPE_ANYWHERE double second(Offset p) const {
     if (aims_.second == PlainComposite::Second::Density) return target_.density(p);
     if (aims_.second == PlainComposite::Second::Mean) return mean_of<M>(star_, p, aims_.mean);
-    double least = std::numeric_limits<float>::max();  // as Worth begins
+    double least = std::numeric_limits<float>::max();  // the start value of Worth, too
     star_.template for_each<true>([&](const auto& element) { least = scalar::min(least, worth_of(element, p)); });
     return least;
   }
-  /// Of an element alone. The metric is chosen element by element, so that the code that reads an element is there once; the least of these
-  /// is what an Objective of the metric finds, for a sound element is worth more than any that is not.
+  /// Value of the second metric for one element. The metric is chosen element by element, so that the code that reads an element is there
+  /// once; the least of these values is the value of an Objective of the metric, for a sound element is worth more than any that is not.
   template <class Element>
   [[nodiscard]] DMOSCOPE_LANE_INLINE DMOSCOPE_ANYWHERE double worth_of(const Element& element, Offset p) const {
     return with_metric_in<Frame>(aims_.metric, [&]<Metric S>() DMOSCOPE_INLINE_LAMBDA {
@@ -63,7 +63,7 @@ class CompositeLaneScore {
   UntanglingObjective<M, const StarT&, Offset> untangling_;
 };
 
-/// A visit of rank first + i by the plain search in double, by all lanes of a team.
+/// Visits the vertex of rank first + i by the plain search in double, by all lanes of a team.
 template <Metric M, class Frame>
 struct VisitComposite {
   template <class Team>
@@ -78,7 +78,7 @@ struct VisitComposite {
  private:
   using Offset = OffsetIn<Frame, double>;
 
-  /// The offset of the best candidate in units of the star's scale; 0 where none is better than the vertex's own place.
+  /// Returns the offset of the best candidate in units of the star's scale; 0 if none is better than the vertex's own place.
   template <class Team>
   static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE Offset search(const Task& task, Index rank, const ListedStar<Frame>& star, const Team& team) {
     const CompositeLaneScore<M, Frame> score(task.aims, star, task.untangling,
@@ -90,7 +90,7 @@ struct VisitComposite {
   static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE DensityTarget<Frame> density_of(const Task& task, Index vertex, double scale) {
     if constexpr (std::is_same_v<Frame, Plane>)
       if (task.aims.second == PlainComposite::Second::Density) return wanted(task, vertex).in_units(scale);
-    return {};  // sizes are of planar meshes
+    return {};  // a size function exists for planar meshes alone
   }
   static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE DensityTarget<Plane> wanted(const Task& task, Index vertex) {
     return density_target_by(task.mesh, positions_of(task), vertex, [&task](Index /*vertex*/, Vec3 place) DMOSCOPE_INLINE_LAMBDA {
@@ -113,7 +113,7 @@ struct VisitComposite {
     else
       set_flag(task.awake + rank, false);
   }
-  /// Here and there in a loop, so that there is one copy of what judges a star.
+  /// Judges the star at both places in a loop, so that there is one copy of the code that judges a star.
   static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE Confirmation confirm(const Task& task, const MeshView<Frame>& mesh, Index vertex, Vec3 target) {
     const PositionView positions = positions_of(task);
     StarState before, after;
@@ -136,7 +136,7 @@ struct VisitComposite {
     }
     return there > here;
   }
-  /// The second aim with the vertex at `place`, by the statistics' formulas.
+  /// Value of the second aim with the vertex at `place`, by the statistics' formulas.
   static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE double second(const Task& task, const MeshView<Frame>& mesh, Index vertex, Vec3 place) {
     const PositionView positions = positions_of(task);
     if constexpr (std::is_same_v<Frame, Plane>)

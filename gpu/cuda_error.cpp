@@ -9,7 +9,7 @@
 namespace dmoscope::gpu {
 namespace {
 
-/// "/home/me/dmoscope/gpu/queue.cu" -> "gpu/queue.cu"
+/// Cuts the folders above the root: "/home/me/dmoscope/gpu/queue.cu" -> "gpu/queue.cu".
 std::string_view below_root(std::string_view file) {
   const std::size_t below = file.rfind("gpu/");
   return below == std::string_view::npos ? file : file.substr(below);
@@ -28,7 +28,7 @@ std::string sentence(int code) {
 
 void throw_cuda_error(int code, const char* expression, const char* file, int line) {
 #ifdef DMOSCOPE_HAVE_CUDA
-  (void)cudaGetLastError();  // or the next launch, whoever checks it, would seem to have failed
+  (void)cudaGetLastError();  // clears the error: else the check of the next launch would find it
 #endif
   throw CudaError(code, std::string(below_root(file)) + ":" + std::to_string(line) + ": " + expression + ": " + sentence(code));
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Streams and events of the CUDA runtime, given back when their owner goes. Only where CUDA is.
+// Streams and events of the CUDA runtime, destroyed with their owner. Needs a CUDA toolkit.
 
 #include <cuda_runtime_api.h>
 
@@ -8,7 +8,7 @@
 
 namespace dmoscope::gpu {
 
-/// Makes the calling thread's CUDA calls go to a device; each thread has its own.
+/// Directs the calling thread's CUDA calls to a device; each thread has its own.
 inline void use(int device) { DMOSCOPE_CUDA_CHECK(cudaSetDevice(device)); }
 
 class CudaStream {
@@ -28,7 +28,7 @@ class CudaStream {
   cudaStream_t stream_ = nullptr;
 };
 
-/// Of the current device.
+/// Event of the current device.
 class CudaEvent {
  public:
   CudaEvent() { DMOSCOPE_CUDA_CHECK(cudaEventCreateWithFlags(&event_, cudaEventDisableTiming)); }
@@ -36,7 +36,7 @@ class CudaEvent {
   CudaEvent(const CudaEvent&) = delete;
   CudaEvent& operator=(const CudaEvent&) = delete;
   void record(cudaStream_t stream) const { DMOSCOPE_CUDA_CHECK(cudaEventRecord(event_, stream)); }
-  /// Until what it was recorded after is done; at once where it never was.
+  /// Waits until all work before the last record() is done; returns at once if nothing was recorded.
   void wait() const { DMOSCOPE_CUDA_CHECK(cudaEventSynchronize(event_)); }
   [[nodiscard]] cudaEvent_t get() const noexcept { return event_; }
 

@@ -9,11 +9,11 @@
 
 namespace dmoscope::gpu {
 
-/// The functions that are needed of it.
+/// Functions of the driver's library that a module needs.
 class CudaModule::Driver {
  public:
   Driver() {
-    // Stays loaded: the runtime has it, too.
+    // Never unloaded: the runtime keeps the library loaded, too.
     void* library = ::dlopen("libcuda.so.1", RTLD_NOW | RTLD_LOCAL);
     if (library == nullptr) throw DeviceError(fmt::format("the CUDA driver's library: {}", ::dlerror()));
     get(library, error_name, "cuGetErrorName");

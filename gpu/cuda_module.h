@@ -1,6 +1,6 @@
 #pragma once
-// A kernel that was compiled while dmoscope runs, on a device. By the driver's own library, which the runtime has loaded. Only where CUDA
-// is.
+// A kernel that was compiled at run time, loaded on a device by the driver's own library, which the CUDA runtime has loaded. Needs a CUDA
+// toolkit.
 
 #include <cstddef>
 #include <string>
@@ -11,12 +11,12 @@ namespace dmoscope::gpu {
 
 class CudaModule {
  public:
-  /// On the current device. Throws DeviceError.
+  /// Loads the kernel on the current device. Throws DeviceError.
   CudaModule(const std::string& ptx, const char* kernel);
   ~CudaModule();
   CudaModule(const CudaModule&) = delete;
   CudaModule& operator=(const CudaModule&) = delete;
-  /// Throws DeviceError.
+  /// Launches the kernel. Throws DeviceError.
   void launch(std::size_t blocks, unsigned threads, void** arguments, CUstream stream) const;
 
  private:

@@ -29,7 +29,7 @@ namespace {
 
 /// Threads that a multiprocessor runs at once in the search's kernel, which takes nearly all registers a thread may have.
 constexpr std::size_t kThreadsAtOnce = 256;
-/// How large each piece of a device's memory is; any thread may give some back.
+/// Size of each piece of a device's memory. Any thread may release a piece.
 class Memory {
  public:
   void add(void* memory, std::size_t bytes) {
@@ -58,10 +58,11 @@ class CudaCompiledSearch final : public Queue::CompiledSearch {
   CudaModule module_;
 };
 
-/// The last that were compiled, or could not be: whoever changes a parameter starts a run by the same formula again. Any thread may ask.
+/// Cache of the last compiled searches and failed compilations, for a changed parameter starts a run by the same formula again. Any thread
+/// may ask.
 class CompiledSearches {
  public:
-  /// On the current device.
+  /// Returns the search for the current device, compiled now unless it is cached.
   Queue::Compiled get(const Nvrtc& compiler, const std::string& source, int capability) {
     const std::scoped_lock lock(mutex_);
     if (const auto found = searches_.find(source); found != searches_.end()) return found->second;
@@ -85,9 +86,9 @@ class CompiledSearches {
   std::unordered_map<std::string, Queue::Compiled> searches_;
 };
 
-/// What all queues of a device share.
+/// Properties and memory that all queues of a device share.
 struct CudaDevice {
-  int number = 0, capability = 0;  // 75: 7.5
+  int number = 0, capability = 0;  // 75 means 7.5
   std::size_t lanes_at_once = 0;
   std::string description;
   std::shared_ptr<Memory> memory = std::make_shared<Memory>();
@@ -109,7 +110,7 @@ class CudaRecording final : public Queue::Recording {
     const cudaError_t status = cudaGraphInstantiate(&executable_, graph, 0);
     (void)cudaGraphDestroy(graph);
     DMOSCOPE_CUDA_CHECK(status);
-    const cudaError_t uploaded = cudaGraphUpload(executable_, stream);  // else its first launch does
+    const cudaError_t uploaded = cudaGraphUpload(executable_, stream);  // otherwise the first launch would upload it
     if (uploaded != cudaSuccess) (void)cudaGraphExecDestroy(executable_);
     DMOSCOPE_CUDA_CHECK(uploaded);
   }
@@ -129,7 +130,7 @@ class CudaMark final : public Queue::Mark {
   CudaEvent event_;
 };
 
-/// The second stream of a queue, for what need not wait for the first's work nor the first for its.
+/// Second stream of a queue, for work that is independent of the first stream's.
 struct Side {
   explicit Side(int device, Urgency urgency) : stream(device, urgency) {}
   CudaStream stream;
@@ -151,7 +152,7 @@ class CudaQueue final : public Queue {
     void* memory = nullptr;
     const cudaError_t status = cudaMalloc(&memory, bytes);
     if (status == cudaErrorMemoryAllocation) {
-      (void)cudaGetLastError();  // this one can be told and forgotten
+      (void)cudaGetLastError();  // this error is handled here
       std::size_t free = 0, total = 0;
       (void)cudaMemGetInfo(&free, &total);
       throw DeviceError(
@@ -177,13 +178,13 @@ class CudaQueue final : public Queue {
     use(device_);
     if (bytes >= CudaStaging::kWorthIt) return staging().upload(stream_.get(), to, from, bytes, pool);
     DMOSCOPE_CUDA_CHECK(cudaMemcpyAsync(to, from, bytes, cudaMemcpyHostToDevice, stream_.get()));
-    DMOSCOPE_CUDA_CHECK(cudaStreamSynchronize(stream_.get()));  // where the device reads ordinary memory, nothing else says when it has
+    DMOSCOPE_CUDA_CHECK(cudaStreamSynchronize(stream_.get()));  // the only sign that the device has read ordinary memory
   }
   void download(void* to, const void* from, std::size_t bytes, ThreadPool* pool) override {
     use(device_);
     if (bytes >= CudaStaging::kWorthIt) return staging().download(stream_.get(), to, from, bytes, pool);
     fetch(to, from, bytes);
-    // At once: nothing that could fail stands between, or the device would write memory that its owner gave up meanwhile.
+    // Waits before anything can fail, or the device could write memory that its owner has released meanwhile.
     DMOSCOPE_CUDA_CHECK(cudaStreamSynchronize(stream_.get()));
   }
   void* allocate_on_host(std::size_t bytes) override {
@@ -194,7 +195,7 @@ class CudaQueue final : public Queue {
   }
   void release_on_host(void* memory) noexcept override {
     (void)cudaSetDevice(device_);
-    (void)cudaStreamSynchronize(stream_.get());  // the device may have yet to write it, where something failed in between
+    (void)cudaStreamSynchronize(stream_.get());  // after a failure the device may have yet to write it
     (void)cudaFreeHost(memory);
   }
   void fetch(void* to, const void* from, std::size_t bytes) override {
@@ -315,7 +316,7 @@ class CudaQueue final : public Queue {
   Urgency urgency_;
   CudaStream stream_;
   std::optional<Side> side_;
-  bool on_side_ = false;  // is work asked of that?
+  bool on_side_ = false;  // whether work is put on the second stream now
   std::optional<CudaStaging> staging_;
 };
 

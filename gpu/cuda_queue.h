@@ -7,7 +7,8 @@
 
 namespace dmoscope::gpu {
 
-/// On device number `device`, which probe() found usable. Throws CudaError, and DeviceError where the program was built without a toolkit.
+/// Makes a queue on device number `device`, which probe() found usable. Throws CudaError, and DeviceError if the program was built without
+/// a toolkit.
 [[nodiscard]] std::shared_ptr<Queue> make_cuda_queue(int device);
 
 }  // namespace dmoscope::gpu

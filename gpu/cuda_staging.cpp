@@ -9,14 +9,15 @@ namespace dmoscope::gpu {
 
 namespace {
 
-/// What a thread ask at a time.
+/// Bytes that one thread copies at a time.
 constexpr std::size_t kGrain = std::size_t{256} << 10U;
 
 void copy(std::byte* to, const std::byte* from, std::size_t bytes, ThreadPool* pool) {
   for_chunks(pool, bytes, kGrain, [&](std::size_t first, std::size_t last) { std::memcpy(to + first, from + first, last - first); });
 }
 
-/// Asks for a copy and its mark; where one fails, waits for what is under way, for nobody could tell when the piece is free.
+/// Runs `ask`, which asks for a copy and its mark; if it throws, waits for the work under way, since nothing would tell when the piece is
+/// free.
 template <class Ask>
 void or_wait(cudaStream_t stream, const Ask& ask) {
   try {

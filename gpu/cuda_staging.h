@@ -1,5 +1,5 @@
 #pragma once
-// Long copies between a device and ordinary memory, through memory that the device reaches itself. Only where CUDA is.
+// Long copies between a device and ordinary memory, through memory that the device reaches itself. Needs a CUDA toolkit.
 
 #include <array>
 #include <cstddef>
@@ -11,17 +11,17 @@
 
 namespace dmoscope::gpu {
 
-/// Two pieces of such memory, in turn: while the device copies one, the host's threads copy the other. The runtime does the same for
-/// ordinary memory, but with one thread of the host, which is slower than the bus. Copies are asked of the current device.
+/// Copies through two pieces of such memory, in turn: while the device copies one, the host's threads copy the other. The runtime does the
+/// same for ordinary memory, but with one thread of the host, which is slower than the bus. Copies are asked of the current device.
 class CudaStaging {
  public:
   static constexpr std::size_t kPieceBytes = std::size_t{4} << 20U;
-  /// Shorter copies are left to the runtime.
+  /// Bytes from which on a copy is staged; shorter ones are left to the runtime.
   static constexpr std::size_t kWorthIt = std::size_t{1} << 20U;
 
-  /// Host to device; `from` may be changed on return. `pool` null: the calling thread copies alone. Throws CudaError.
+  /// Copies from host to device; `from` may be changed on return. `pool` null: the calling thread copies alone. Throws CudaError.
   void upload(cudaStream_t stream, void* to, const void* from, std::size_t bytes, ThreadPool* pool);
-  /// Device to host, after all work of the stream so far; done on return.
+  /// Copies from device to host, after all work of the stream so far; done on return. Throws CudaError.
   void download(cudaStream_t stream, void* to, const void* from, std::size_t bytes, ThreadPool* pool);
 
  private:

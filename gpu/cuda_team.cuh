@@ -28,17 +28,17 @@ class CudaTeam {
   unsigned lane_, members_;
 };
 
-/// The same with memory in common. In blocks of `Threads`; each team is for one search.
+/// Team with memory in common, in blocks of `Threads`. Each team is for one search.
 template <unsigned Threads, std::size_t Bytes>
 class StagingCudaTeam : public CudaTeam {
  public:
   static constexpr std::size_t kScratchBytes = Bytes;
   [[nodiscard]] __device__ void* scratch() const {
-    // An odd number of words of four: the teams of a warp, which read at the same place each of its own, come to other banks.
+    // An odd number of 16-byte words, so that the teams of a warp, each reading the same place of its own memory, use different banks.
     __shared__ uint4 memory[Threads / kSize][(Bytes + sizeof(uint4) - 1) / sizeof(uint4) | 1U];
     return memory[threadIdx.x / kSize];
   }
-  /// What any lane of the team wrote there before, all can read after.
+  /// Waits for all lanes of the team: each then reads what any of them wrote to the memory in common.
   __device__ void meet() const { __syncwarp(members_); }
 };
 

@@ -14,7 +14,7 @@ namespace dmoscope::gpu {
 #ifdef DMOSCOPE_HAVE_CUDA
 namespace {
 
-/// The runtime calls a driver that is not there one that is too old.
+/// Describes an error of the runtime, which calls a driver that is missing one that is too old.
 std::string why(cudaError_t error) {
   int driver = 0;
   if (error == cudaErrorInsufficientDriver && cudaDriverGetVersion(&driver) == cudaSuccess && driver == 0)
@@ -22,7 +22,7 @@ std::string why(cudaError_t error) {
   return cudaGetErrorString(error);
 }
 
-/// All but whether its kernels run.
+/// Properties of a device, but not whether it runs this program's kernels.
 Device describe(int number) {
   cudaDeviceProp properties{};
   if (const cudaError_t error = cudaGetDeviceProperties(&properties, number); error != cudaSuccess) {
@@ -55,7 +55,7 @@ Availability availability() {
     if (device(number).problem.empty()) {
       result.best = number;
       result.reason.clear();
-      break;  // to try one takes time and some of its memory
+      break;  // the others are not tried: that takes time and some of their memory
     }
     if (number == by_memory.front()) result.reason = device(number).name + ": " + device(number).problem;
   }

@@ -1,5 +1,5 @@
 #pragma once
-// Which CUDA devices there are, and if none is usable, why.
+// CUDA devices of this machine, and the reason if none is usable.
 
 #include <cstddef>
 #include <string>
@@ -11,14 +11,14 @@ struct Device {
   std::string name{};
   int major = 0, minor = 0;  // compute capability
   std::size_t memory = 0;    // bytes
-  std::string problem{};     // why it cannot run this program's kernels; empty when it can, or was not tried
+  std::string problem{};     // reason why it cannot run this program's kernels; empty if it can, or was not tried
 };
 
 struct Availability {
-  bool built = false;           // was the program built with a CUDA toolkit?
+  bool built = false;           // whether the program was built with a CUDA toolkit
   std::vector<Device> devices;  // in the order of their numbers
   int best = -1;                // the usable device with the most memory
-  std::string reason;           // why the cuda backend cannot be used; empty when it can
+  std::string reason;           // reason why the cuda backend cannot be used; empty if it can
 };
 
 /// Asks the driver, and tries the devices from the one with the most memory on until one is usable (some 0.2 s each). Never throws; a

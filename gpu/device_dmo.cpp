@@ -14,9 +14,9 @@ namespace dmoscope::gpu {
 
 namespace {
 
-/// Teams among which a class's deferred visits are shared: enough for any device, and few where, as nearly always, there are none.
+/// Teams among which a class's deferred visits are shared: enough for any device, and few, since there nearly always are none.
 constexpr std::size_t kSettlers = 2048;
-/// The kernels of a class's visits by lanes; without those for fans the last does all.
+/// The kernels of a class's visits by lanes; without kernels for fans the last does all visits.
 constexpr std::array kByStars{Work::VisitSmallFans, Work::VisitLargeFans, Work::VisitOthers};
 
 class DeviceDmo final : public Smoother {
@@ -41,17 +41,17 @@ class DeviceDmo final : public Smoother {
     warm_up(task.then_mean);
     load(task.input->mesh.positions, task.pool);
     queue_->wait();
-    if (!colouring_->order.empty()) record_iteration();  // now, so that no iteration pays for it
+    if (!colouring_->order.empty()) record_iteration();  // recorded here, so that no iteration pays for it
   }
 
   void begin(const Sweep& sweep) override {
     const std::optional<PlainComposite> aims = aims_of(sweep);
-    const Untangling untangling = sweep.floor ? Untangling{} : sweep.untangling;  // to raise the mean is to worsen nothing anyway
+    const Untangling untangling = sweep.floor ? Untangling{} : sweep.untangling;  // raising the mean worsens nothing
     if (untangling == task_.untangling && aims == aims_) return;
     task_.untangling = untangling;
     set_aims(aims);
-    iteration_.reset();  // it has the old ones
-    if (stale_) return;  // who is loaded is awake
+    iteration_.reset();  // recorded with the old rules
+    if (stale_) return;  // loading will wake all vertices
     queue_->launch(Work::Store, kNoMetric, task_, task_.vertex_count);
     queue_->launch(Work::Load, kNoMetric, task_, task_.vertex_count);
   }
@@ -95,8 +95,8 @@ class DeviceDmo final : public Smoother {
   }
 
   std::shared_ptr<const DevicePicture> picture(Metric shown) override {
-    if (stale_ || !visited_ || mesh_.is_volume()) return nullptr;  // which of a volume's faces are seen, the host knows
-    if (!is_built_in(shown)) return nullptr;                       // formulas are the host's
+    if (stale_ || !visited_ || mesh_.is_volume()) return nullptr;  // the visible faces of a volume are found by the host
+    if (!is_built_in(shown)) return nullptr;                       // formulas are shown by the host
     judged_ = false;
     auto picture = pictures_->make(mesh_, shown);
     judged_ = shown == metric_;
@@ -109,7 +109,7 @@ class DeviceDmo final : public Smoother {
     defined_->judge(task_);
     mesh_.add_up();
   }
-  /// What a sweep's visits aim at besides the metric.
+  /// The aims of a sweep's visits besides the metric.
   [[nodiscard]] std::optional<PlainComposite> aims_of(const Sweep& sweep) const {
     const auto composite = composite_objective_of_visit(metric_, combination_, size_, sweep);
     return composite ? plain_composite(*composite) : std::nullopt;
@@ -130,8 +130,8 @@ class DeviceDmo final : public Smoother {
     iteration_ = queue_->record([this] { visit_classes(0, colouring_->order.size()); });
   }
 
-  /// The part of [first, first + count) that lies in each class, after the one before: its members see the others' old and new positions
-  /// alike, those of one class at once.
+  /// Visits the part of [first, first + count) that lies in each class, class after class: a class sees the new positions of the classes
+  /// before it, and no two of its vertices share an element.
   void visit_classes(std::uint64_t first, std::uint64_t count) {
     counts_.clear();
     const std::uint64_t last = first + count;
@@ -149,8 +149,8 @@ class DeviceDmo final : public Smoother {
     moved_.fetch(counts_.data());
   }
 
-  /// Launches the visits of `count` ranks from task_.first on, which no list orders: a part of a class, or a class without kernels for
-  /// fans.
+  /// Launches the visits of `count` ranks from task_.first on, which no list orders: those of a part of a class, or of a class without
+  /// kernels for fans.
   void launch_visits(std::size_t count) {
     if (defined_) return defined_->visit(task_, task_.first, task_.first + count);
     if (aims_ || mesh_.is_volume()) {
@@ -183,13 +183,14 @@ class DeviceDmo final : public Smoother {
     queue_->launch(Work::Settle, metric_, task_, std::min(count, kSettlers));
   }
 
-  /// Are there kernels for fans?
+  /// Whether there are kernels for fans.
   [[nodiscard]] bool in_fans() const {
     return !aims_ && !defined_ && !mesh_.is_volume() && task_.parameters.grid_points == 8 &&
            formulas::with_planar_metric(metric_, []<Metric M>() { return kIsRatio<M>; });
   }
 
-  /// Runs every kernel once, for one vertex that needs no visit: to load it and reserve the memory of its lanes takes long, the first time.
+  /// Runs every kernel once, for one vertex that needs no visit, since loading it and reserving the memory of its lanes takes long the
+  /// first time.
   void warm_up(bool then_mean) {
     set_aims(aims_);
     mesh_.put_to_sleep();
@@ -206,7 +207,7 @@ class DeviceDmo final : public Smoother {
     for (const Work work : {Work::VisitInTeam, Work::VisitOthers, Work::Settle}) queue_->launch(work, metric_, task_, 1);
     if (in_fans())
       for (const Work work : {Work::VisitSmallFans, Work::VisitLargeFans}) queue_->launch(work, metric_, task_, 1);
-    queue_->both([] {}, [] {});  // what it is done with cannot be made in a recording
+    queue_->both([] {}, [] {});  // the side stream cannot be made in a recording
   }
 
   void load(std::span<const Vec3> positions, ThreadPool* pool) {
@@ -220,9 +221,9 @@ class DeviceDmo final : public Smoother {
   Metric metric_;
   std::optional<CompositeTerms> combination_;
   std::shared_ptr<const SizeField> size_;
-  std::optional<PlainComposite> aims_;  // of the visits now; none: the metric alone
+  std::optional<PlainComposite> aims_;  // the present visits' second aim; none: the metric alone
   DeviceMesh mesh_;
-  std::optional<DeviceMetric> defined_;  // of a metric that is not built in
+  std::optional<DeviceMetric> defined_;  // a metric that is not built in
   Buffer<std::uint32_t> counts_;         // moved, then the deferred visits of each class
   Fetched<std::uint32_t> moved_;
   Buffer<Deferred> deferred_;
@@ -230,9 +231,9 @@ class DeviceDmo final : public Smoother {
   Task task_;
   std::unique_ptr<Queue::Recording> iteration_;
   bool stale_ = true;     // the device's positions are older than the run's
-  bool visited_ = false;  // since they last came from there
-  bool stored_ = false;   // the run's are as new as the device's
-  bool judged_ = false;   // and so are the statistics
+  bool visited_ = false;  // whether vertices were visited since the last load
+  bool stored_ = false;   // the run's positions are as new as the device's
+  bool judged_ = false;   // the statistics are as new as the device's positions
 };
 
 }  // namespace

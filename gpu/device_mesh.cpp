@@ -17,7 +17,7 @@ std::vector<std::uint8_t> flags(std::size_t size, std::span<const Index> set) {
   return result;
 }
 
-/// Volumes' stars have no place in the table; ranks are the same.
+/// Makes the table of ranks and stars; the stars of volumes are left out.
 StarTable star_table_of(const InputMesh& input, const Colouring& colouring, ThreadPool* pool) {
   if (!input.is_volume()) return build_star_table(input.mesh, input.topology, colouring, pool);
   StarTable table;
@@ -34,7 +34,7 @@ StarTable star_table_of(const InputMesh& input, const Colouring& colouring, Thre
   return table;
 }
 
-/// With the totals.
+/// Number of parts of the statistics, including the totals.
 std::size_t part_count(std::size_t elements) { return ((elements + bodies::kStretch - 1) / bodies::kStretch + 1) * bodies::kParts; }
 
 }  // namespace
@@ -87,7 +87,7 @@ DeviceMesh::DeviceMesh(std::shared_ptr<Queue> queue, const InputMesh& input, con
 
 void DeviceMesh::list_stars(const Colouring& colouring, const StarTable& table, ThreadPool* pool) {
   constexpr std::array<std::size_t, 9> kPlaceOfFan{5, 5, 5, 5, 2,
-                                                   1, 0, 4, 3};  // by its triangles: the dearest first, that none is left to the end
+                                                   1, 0, 4, 3};  // by its triangles: the dearest first, so that none is left to the end
   constexpr std::size_t kSizes = 5;
   const auto place_of = [&](Index rank) {
     const StarShape& shape = table.shapes[rank];

@@ -16,28 +16,30 @@ namespace dmoscope::gpu {
 
 class DeviceMesh {
  public:
-  /// `immovable`: see compute_statistics. Throws DeviceError, and UsageError as build_star_table() does.
+  /// Copies the mesh to the device. `immovable`: see compute_statistics. Throws DeviceError, and UsageError in the cases of
+  /// build_star_table().
   DeviceMesh(std::shared_ptr<Queue> queue, const InputMesh& input, const Colouring& colouring, std::span<const Index> immovable,
              ThreadPool* pool);
 
-  /// All that a kernel needs of the mesh.
+  /// The mesh as the kernels read it.
   [[nodiscard]] const Task& task() const noexcept { return task_; }
   [[nodiscard]] bool is_volume() const noexcept { return is_volume_; }
   /// The ranks of a class of a planar mesh by the kernel that visits them, for a metric of ratio form: Stars::SmallFans first, then
-  /// Stars::LargeFans and Stars::Others. Equal sizes stand together: a multiprocessor's lanes then do the same, and its cache has the code.
+  /// Stars::LargeFans and Stars::Others. Fans of equal size stand together: a multiprocessor's lanes then do the same, and its cache has
+  /// the code.
   struct ClassStars {
     const Index* ranks = nullptr;
     std::size_t small_fans = 0, large_fans = 0, others = 0;
   };
   [[nodiscard]] const ClassStars& stars_of_class(Index colour) const { return classes_[colour]; }
-  /// By vertices: where positions come from and go to.
+  /// Positions by vertices, to be copied from and to the host.
   [[nodiscard]] const Buffer<Vec3>& positions() const noexcept { return positions_; }
 
   /// Puts all vertices to sleep: none needs a visit.
   void put_to_sleep() const { awake_.clear(); }
-  /// Finds every element's quality at the positions as they are now, by a built-in metric, and the statistics.
+  /// Finds every element's quality at the present positions, by a built-in metric, and the statistics.
   void judge(Metric metric);
-  /// The statistics of the qualities that were found.
+  /// Finds the statistics of the qualities that were found last.
   void add_up();
   /// Statistics of the last add_up(), with the same bits as compute_statistics().
   [[nodiscard]] Statistics statistics() const;
@@ -64,7 +66,7 @@ class DeviceMesh {
   Task task_;
   bool is_volume_;
   std::vector<ClassStars> classes_;
-  Buffer<Index> listed_;  // their ranks
+  Buffer<Index> listed_;  // ranks of stars_of_class()
 };
 
 }  // namespace dmoscope::gpu

@@ -81,7 +81,7 @@ std::shared_ptr<const DevicePicture> Pictures::make(DeviceMesh& mesh, Metric sho
 
   ElementSummary summary;
   std::array<std::uint32_t, kSlots> counts{};
-  memory->counts.download(counts);  // all of the picture is made then
+  memory->counts.download(counts);  // this ends when all of the picture is made
   summary.statistics = mesh.statistics();
   for (std::size_t bin = 0; bin < Histogram::kBins; ++bin) summary.histogram.counts[bin] = counts[bin];
   summary.histogram.below = counts[kSlotBelow];
@@ -113,7 +113,7 @@ void Pictures::give_back(std::unique_ptr<Memory> memory) noexcept {
     const std::scoped_lock free_lock(mutex_);
     free_.push_back(std::move(memory));
   } catch (...) {
-    return;  // then its memory is not used again: nothing on a lost device is
+    return;  // a lost device's memory is not used again
   }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Snapshots of a run on a device, for whoever draws.
+// Snapshots of a run on a device, to be drawn by another thread.
 
 #include <memory>
 #include <mutex>
@@ -10,27 +10,27 @@
 
 namespace dmoscope::gpu {
 
-/// Makes pictures of one mesh and uses their memory again.
+/// Makes pictures of one mesh and reuses their memory.
 class Pictures : public std::enable_shared_from_this<Pictures> {
  public:
   explicit Pictures(std::shared_ptr<Queue> maker) : maker_(std::move(maker)), reader_(maker_->sibling(Urgency::First)) {}
 
-  /// A picture of the mesh as it is now, judged by `shown`. To be called on the thread that steps. Throws DeviceError.
+  /// Makes a picture of the mesh as it is now, judged by `shown`. To be called on the thread that steps. Throws DeviceError.
   [[nodiscard]] std::shared_ptr<const DevicePicture> make(DeviceMesh& mesh, Metric shown);
 
  private:
   friend class Picture;
-  /// What a picture holds on the device.
+  /// Memory of a picture on the device.
   struct Memory {
     Buffer<Vec3> positions;
     Buffer<float> shades;
     Buffer<std::uint32_t> counts;
-    std::unique_ptr<Queue::Mark> last_read;  // by the reader; null: never
+    std::unique_ptr<Queue::Mark> last_read;  // the reader's last access; null: none
   };
   [[nodiscard]] std::unique_ptr<Memory> take(const Task& task);
   void give_back(std::unique_ptr<Memory> memory) noexcept;
 
-  /// Memory that is used again and again, and grows.
+  /// Memory that is reused, and grows.
   template <class T>
   class Scratch {
    public:
@@ -46,11 +46,11 @@ class Pictures : public std::enable_shared_from_this<Pictures> {
   };
 
   std::shared_ptr<Queue> maker_, reader_;
-  std::mutex reading_;  // the reader's, and of the following: one thread at a time
+  std::mutex reading_;  // guards the reader and the members below
   Scratch<Vec2<float>> projected_{reader_};
   Scratch<Index> wanted_{reader_};
   Scratch<Vec3> picked_{reader_};
-  std::mutex mutex_;  // of free_
+  std::mutex mutex_;  // guards free_
   std::vector<std::unique_ptr<Memory>> free_;
 };
 

@@ -11,8 +11,8 @@
 
 #include "gpu/cuda_error.h"
 
-// The toolkit's header asks for OpenGL's, of which it needs no more than that names of buffers are unsigned integers. Where OpenGL's
-// headers are not installed its declarations are repeated.
+// The toolkit's header includes OpenGL's, of which it uses only the type of buffers' names. If OpenGL's headers are not installed its
+// declarations are repeated.
 #if __has_include(<GL/gl.h>)
 #include <cuda_gl_interop.h>
 #else
@@ -24,7 +24,7 @@ extern "C" cudaError_t cudaGraphicsGLRegisterBuffer(struct cudaGraphicsResource*
 namespace dmoscope::gpu {
 namespace {
 
-/// Both buffers as memory of the device, until the end of its life.
+/// Both buffers as memory of the device, mapped during the object's life.
 class Mapping {
  public:
   Mapping(cudaGraphicsResource** resources, cudaStream_t stream) : resources_(resources), stream_(stream) {
@@ -58,7 +58,7 @@ class Mapping {
 }  // namespace
 
 namespace {
-/// Of laptops with two: the other one draws unless it is told not to.
+/// Advice for laptops with two GPUs, on which the other one draws by default.
 constexpr std::string_view kTwoGpus =
     "; on a computer with two GPUs, start the program with __NV_PRIME_RENDER_OFFLOAD=1 __GLX_VENDOR_LIBRARY_NAME=nvidia";
 }  // namespace
@@ -89,7 +89,7 @@ GlTarget::GlTarget(int device, std::uint32_t point_buffer, std::uint32_t shade_b
 }
 
 GlTarget::~GlTarget() {
-  // Errors have no one to go to here; the buffers die anyway.
+  // Errors are ignored in a destructor; the buffers are destroyed anyway.
   (void)cudaSetDevice(device_);
   for (cudaGraphicsResource* resource : resources_) (void)cudaGraphicsUnregisterResource(resource);
   (void)cudaGetLastError();

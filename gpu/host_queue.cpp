@@ -128,7 +128,7 @@ class Host final : public HostQueue, public std::enable_shared_from_this<Host> {
     const std::size_t used = counters().bytes_allocated, free = device_.memory - used;
     if (bytes > free) throw DeviceError(fmt::format("the device is out of memory: {} bytes were asked for, {} are free", bytes, free));
     void* memory = ::operator new(bytes);
-    std::memset(memory, 0xcd, bytes);  // so that what nobody wrote is noticed
+    std::memset(memory, 0xcd, bytes);  // makes reads of memory that nothing wrote conspicuous
     sizes_[memory] = bytes;
     counters().bytes_allocated += bytes;
     return memory;

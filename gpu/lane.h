@@ -1,16 +1,16 @@
 #pragma once
-// What a device does in another way than the host that stands in for it.
+// Differences between a device and the host that stands in for it.
 
 #include <cstdint>
 
-/// Marks functions that are not constexpr and that a device runs, or the host in its place.
+/// Marks functions that are not constexpr and that run on a device, or on the host in its place.
 #if defined(__CUDACC__)
 #define DMOSCOPE_LANE __host__ __device__
 #else
 #define DMOSCOPE_LANE
 #endif
 
-/// Put into a device's code where it is called, however long it is: a call would put into memory what registers hold otherwise.
+/// Inlines a function on a device, however long it is: a call would move values from registers to memory.
 #if defined(__CUDACC__)
 #define DMOSCOPE_LANE_INLINE __forceinline__
 #else
@@ -19,7 +19,7 @@
 
 namespace dmoscope::gpu {
 
-/// Adds one and returns what was there before. Lanes of a warp that come together share one addition.
+/// Adds one and returns the value before. Lanes of a warp that come together share one addition.
 [[nodiscard]] inline DMOSCOPE_LANE std::uint32_t increment(std::uint32_t* counter) {
 #if defined(__CUDA_ARCH__)
   const unsigned lanes = __activemask();
@@ -43,7 +43,7 @@ inline DMOSCOPE_LANE void count_one(std::uint32_t* counter) {
 #endif
 }
 
-/// A flag that several lanes may set to the same value at once.
+/// Sets a flag that several lanes may set to the same value at once.
 inline DMOSCOPE_LANE void set_flag(std::uint8_t* flag, bool value) {
 #if defined(__CUDA_ARCH__)
   *flag = value ? 1 : 0;

@@ -1,5 +1,5 @@
 #pragma once
-// The star of a vertex as a lane sees it, where the order of its elements matters.
+// The star of a vertex as a lane sees it, list after list.
 
 #include <type_traits>
 
@@ -8,7 +8,7 @@
 
 namespace dmoscope::gpu {
 
-/// Which of the lists of a Star or VolumeStar an element is in.
+/// Number of the list of a Star or VolumeStar that holds an element.
 template <class Element>
 inline constexpr unsigned kListOf = 0;
 template <class Real>
@@ -22,8 +22,8 @@ inline constexpr unsigned kListOf<StarPyramid<Real>> = 3;
 template <class Real>
 inline constexpr unsigned kListOf<StarTip<Real>> = 4;
 
-/// Straight from the mesh, as a lane has no memory for lists, and still list after list as StarView and VolumeStarView have them: a mean
-/// over the elements is summed in that order. Frame: Plane or Space.
+/// Star that is read straight from the mesh, since a lane has no memory for lists, and still list after list, in the order of StarView and
+/// VolumeStarView: a mean over the elements is summed in that order. Frame: Plane or Space.
 template <class Frame>
 class ListedStar {
  public:
@@ -37,10 +37,10 @@ class ListedStar {
   }
 
   [[nodiscard]] DMOSCOPE_ANYWHERE const MeshStar<Frame>& star() const { return star_; }
-  /// Has no list more elements than the fast search of volumes takes?
+  /// Whether no list has more elements than the fast search of volumes takes.
   [[nodiscard]] DMOSCOPE_ANYWHERE bool fits() const { return fits_; }
 
-  /// See StarView and VolumeStarView.
+  /// Calls f(element) for each element: see StarView and VolumeStarView.
   template <bool Others, class F>
   DMOSCOPE_ANYWHERE void for_each(F f) const {
     for (unsigned list = 0; list < (Others ? kLists : 1U); ++list) {
@@ -59,7 +59,7 @@ class ListedStar {
   }
 
   MeshStar<Frame> star_;
-  unsigned lists_ = 0;  // one bit a list: has it elements?
+  unsigned lists_ = 0;  // one bit for each list that has elements
   bool fits_ = true;
 };
 

@@ -13,8 +13,8 @@ namespace dmoscope::gpu {
 
 namespace {
 
-/// The toolkits' libraries have the numbers of their major versions; from the newest on. The last is that of the toolkit that dmoscope was
-/// built with.
+/// Names of the toolkits' libraries, which contain their major versions, from the newest on. The last is that of the toolkit that dmoscope
+/// was built with.
 std::vector<std::string> library_names() {
   std::vector<std::string> names{"libnvrtc.so.13", "libnvrtc.so.12", "libnvrtc.so"};
 #ifdef DMOSCOPE_NVRTC_FOLDER
@@ -25,7 +25,7 @@ std::vector<std::string> library_names() {
 
 }  // namespace
 
-/// Its functions, as nvrtc.h of any toolkit declares them.
+/// Functions of the library, as nvrtc.h of any toolkit declares them.
 class Nvrtc::Library {
  public:
   using Program = struct NvrtcProgram*;
@@ -139,9 +139,9 @@ std::string Nvrtc::compile(const std::string& source, std::span<const SourceHead
   std::erase_if(known, [capability](int each) { return each > capability; });
   if (!known.empty()) capability = *std::ranges::max_element(known);
   const std::string architecture = fmt::format("--gpu-architecture=compute_{}", capability);
-  // The flags are those of gpu/CMakeLists.txt that change what is computed.
+  // All flags of gpu/CMakeLists.txt that change results.
   const std::array<const char*, 5> options{architecture.c_str(), "--std=c++20", "--fmad=false", "--device-as-default-execution-space",
-                                           "--diag-suppress=1097"};  // attributes that are another compiler's
+                                           "--diag-suppress=1097"};  // warning about attributes of other compilers
   return Compilation(*library_, source, headers).compile(options);
 }
 

@@ -12,11 +12,11 @@
 namespace dmoscope::gpu {
 namespace {
 
-/// What the two sides are compared on. Each value depends on something that a compiler or a device may do otherwise.
+/// Results that are compared between host and device. Each depends on something that a compiler or a device may do otherwise.
 struct Values {
-  float sum_of_product;  // 2^-11; contracted into one operation 2^-11 + 2^-24
-  float subnormal;       // flushed it is 0
-  float quotient, root;  // approximated they have another last bit
+  float sum_of_product;  // 2^-11; 2^-11 + 2^-24 if contracted into one operation
+  float subnormal;       // 0 if flushed
+  float quotient, root;  // another last bit if approximated
   double quotient_of_doubles;
 };
 
@@ -40,7 +40,8 @@ bool same_bits(const Values& one, const Values& other) {
   return bits(one) == bits(other);
 }
 
-/// The device's memory for one Values. The device stays the thread's: to make another one current again might take that one's memory.
+/// The device's memory for one Values. The device stays current on the thread, for making another one current again might take memory on
+/// that one.
 class Scope {
  public:
   explicit Scope(int device) {
@@ -49,7 +50,7 @@ class Scope {
   }
   ~Scope() {
     (void)cudaFree(values_);
-    (void)cudaGetLastError();  // what went wrong with this device is not the next one's
+    (void)cudaGetLastError();  // the next device must not see this one's errors
   }
   Scope(const Scope&) = delete;
   Scope& operator=(const Scope&) = delete;
@@ -67,8 +68,8 @@ std::string probe(int device) {
     Inputs in;
     Values* values = scope.values();
     void* arguments[] = {&in, &values};
-    // Not <<<>>>: its status would be that of whatever failed last on this thread, and where the first device has no such kernel it would
-    // not ask the others for it.
+    // Not <<<>>>: its status would be that of the thread's last failure, and if the first device has no such kernel it would not ask the
+    // others for it.
     DMOSCOPE_CUDA_CHECK(cudaLaunchKernel(probe_kernel, dim3(1), dim3(1), arguments, 0, nullptr));
     Values out{};
     DMOSCOPE_CUDA_CHECK(cudaMemcpy(&out, scope.values(), sizeof out, cudaMemcpyDeviceToHost));

@@ -20,45 +20,46 @@ namespace dmoscope::gpu {
 struct StarSearchTask;
 struct Task;
 
-/// What was done on a device; shared by its queues.
+/// Counts of transfers and launches on a device; its queues share them.
 struct Counters {
-  std::atomic<std::uint64_t> bytes_to_host{0};  // of positions and element values, counted by the code that downloads them
+  std::atomic<std::uint64_t> bytes_to_host{0};  // positions and element values, counted by the code that downloads them
   std::atomic<std::uint64_t> bytes_allocated{0};
 };
 
-/// As many visits as would leave seven eighths of a device's lanes idle are done by teams of eight. Measured (tests/gpu/RESULTS.md).
+/// Visits that would leave seven eighths of a device's lanes idle are made by teams of eight. Measured (tests/gpu/RESULTS.md).
 inline constexpr std::size_t kTeamShare = 8;
 
-/// For work that depends on no built-in metric.
+/// Metric to pass for work that depends on no built-in metric.
 inline constexpr Metric kNoMetric = Metric::MeanRatio;
 
-/// Whose work a device takes up first, once it has room.
+/// Priority of a queue: the device takes up the work of the first ones first, once it has room.
 enum class Urgency { Last, First };
 
-/// Work is done in the order in which it was asked for. For one thread at a time. Everything throws DeviceError, which may tell of earlier
-/// work; a device that was lost stays so.
+/// Queue of work, done in the order in which it was asked for. For one thread at a time. All functions throw DeviceError, possibly because
+/// of earlier work; a device that was lost stays so.
 class Queue {
  public:
   Queue(const Queue&) = delete;
   Queue& operator=(const Queue&) = delete;
   virtual ~Queue() = default;
 
-  /// Memory of the device, aligned for any type; its content is undefined. The error says how much was asked for and how much is free.
+  /// Allocates memory of the device, aligned for any type; its content is undefined. The error tells how much was asked for and how much is
+  /// free.
   [[nodiscard]] virtual void* allocate(std::size_t bytes) = 0;
   virtual void release(void* memory) noexcept = 0;
 
-  /// Host to device; `from` may be changed on return. `pool`, if any, copies within the host's memory where that is needed.
+  /// Copies from host to device; `from` may be changed on return. `pool`, if any, copies within the host's memory if that is needed.
   virtual void upload(void* to, const void* from, std::size_t bytes, ThreadPool* pool) = 0;
-  /// Device to host, after all work so far; done on return.
+  /// Copies from device to host, after all work so far; done on return.
   virtual void download(void* to, const void* from, std::size_t bytes, ThreadPool* pool) = 0;
-  /// Memory of the host that the device writes directly.
+  /// Allocates memory of the host that the device writes directly.
   [[nodiscard]] virtual void* allocate_on_host(std::size_t bytes) = 0;
   virtual void release_on_host(void* memory) noexcept = 0;
-  /// Device to such memory; done after wait(). `bytes`: a few.
+  /// Copies `bytes`, a few, from the device to memory of allocate_on_host(); done after wait().
   virtual void fetch(void* to, const void* from, std::size_t bytes) = 0;
   /// Sets every byte to zero.
   virtual void clear(void* memory, std::size_t bytes) = 0;
-  /// Runs the body of `work` for lanes (or teams) 0 to count - 1. Metric: for the kinds of work that depend on one that is built in.
+  /// Runs the body of `work` in lanes (or teams) 0 to count - 1. `metric`: the built-in one, for kinds of work that depend on it.
   virtual void launch(Work work, Metric metric, const Task& task, std::size_t count) = 0;
 
   /// A search of stars that was compiled for the device.
@@ -70,16 +71,16 @@ class Queue {
     virtual ~CompiledSearch() = default;
   };
   struct Compiled {
-    std::shared_ptr<const CompiledSearch> search;  // null: it cannot be
-    std::string how;                               // by what it was compiled, or why not
+    std::shared_ptr<const CompiledSearch> search;  // null: not compiled
+    std::string how;                               // the compiler, or the reason why there is no search
   };
-  /// Compiles such a source as formula_source() makes.
+  /// Compiles a source of formula_source().
   [[nodiscard]] virtual Compiled compile(const std::string& /*source*/) { return {nullptr, "there is no compiler for it"}; }
-  /// Runs it for `count` teams. It must be there until that is done.
+  /// Runs a compiled search for `count` teams. The search must exist until that is done.
   virtual void launch_search(const CompiledSearch& /*search*/, const StarSearchTask& /*task*/, std::size_t /*count*/) {}
 
-  /// What `one` and `other` ask for, only launches, does not depend on each other: it may be done at once, by lanes that either leaves
-  /// idle. What is asked for afterwards begins after both.
+  /// Launches the work of `one` and of `other`, which are independent and only launch: either may use the lanes that the other leaves idle.
+  /// Work that is asked for afterwards begins after both.
   template <class One, class Other>
   void both(const One& one, const Other& other) {
     begin_side();
@@ -93,10 +94,10 @@ class Queue {
     one();
     join_side();
   }
-  /// Until all work is done.
+  /// Waits until all work is done.
   virtual void wait() = 0;
 
-  /// Launches, clears and fetches that are kept, to be asked for again in one go.
+  /// Launches, clears and fetches that are kept, to be repeated in one call.
   class Recording {
    public:
     Recording() = default;
@@ -104,7 +105,7 @@ class Queue {
     Recording& operator=(const Recording&) = delete;
     virtual ~Recording() = default;
   };
-  /// What `ask` asks for, only launches, clears and fetches, is kept and not done.
+  /// Records the work of `ask`, only launches, clears and fetches, without doing it.
   template <class Ask>
   [[nodiscard]] std::unique_ptr<Recording> record(const Ask& ask) {
     start_recording();
@@ -118,7 +119,7 @@ class Queue {
   }
   virtual void replay(Recording& recording) = 0;
 
-  /// Another queue of the same device, for another thread; work of the two is done in any order.
+  /// Makes another queue of the same device, for another thread; the order between the two is undefined.
   [[nodiscard]] virtual std::shared_ptr<Queue> sibling(Urgency urgency) const = 0;
   /// A point in a queue's work that another queue of the device can wait for.
   class Mark {
@@ -128,20 +129,20 @@ class Queue {
     Mark& operator=(const Mark&) = delete;
     virtual ~Mark() = default;
   };
-  /// After all work so far.
+  /// Makes a mark after all work so far.
   [[nodiscard]] virtual std::unique_ptr<Mark> mark() = 0;
-  /// Work that is asked for from now on begins after what stands before the mark.
+  /// Makes later work of this queue begin after the work before the mark.
   virtual void wait_for(const Mark& mark) = 0;
 
-  /// See DevicePicture::make_target().
+  /// Makes a target that OpenGL draws: see DevicePicture::make_target().
   [[nodiscard]] virtual std::unique_ptr<DeviceTarget> make_target(std::uint32_t point_buffer, std::uint32_t shade_buffer) = 0;
-  /// Fills the target with a picture's points and shades: Work::Project and Work::CopyShades, with task.points and task.drawn_shades in
-  /// OpenGL's buffers.
+  /// Fills the target with a picture's points and shades: runs Work::Project and Work::CopyShades, with task.points and task.drawn_shades
+  /// in OpenGL's buffers.
   virtual void draw(DeviceTarget& target, const Task& task) = 0;
 
-  /// How many lanes work at once: fewer vertices are better visited by teams.
+  /// Number of lanes that work at once: fewer vertices are better visited by teams.
   [[nodiscard]] virtual std::size_t lanes_at_once() const noexcept = 0;
-  /// "NVIDIA H200, compute capability 9.0, 139.8 GiB".
+  /// Describes the device: "NVIDIA H200, compute capability 9.0, 139.8 GiB".
   [[nodiscard]] virtual std::string description() const = 0;
   [[nodiscard]] Counters& counters() const noexcept { return *counters_; }
 
@@ -149,7 +150,7 @@ class Queue {
   virtual void start_recording() = 0;
   [[nodiscard]] virtual std::unique_ptr<Recording> stop_recording() = 0;
   virtual void drop_recording() noexcept = 0;
-  /// See both(). Where they do nothing, all is done in the order in which it was asked for.
+  /// Begins the second of two independent parts, see both(). By default all work is done in the order in which it was asked for.
   virtual void begin_side() {}
   virtual void end_side() noexcept {}
   virtual void join_side() {}
@@ -183,7 +184,7 @@ class Buffer {
 
   [[nodiscard]] T* data() const noexcept { return data_; }
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
-  /// At most size() objects, to the beginning.
+  /// Copies at most size() objects to the beginning.
   void upload(std::span<const T> content, ThreadPool* pool = nullptr) const {
     if (!content.empty()) queue_->upload(data_, content.data(), content.size_bytes(), pool);
   }
@@ -205,7 +206,7 @@ class Buffer {
   std::size_t size_ = 0;
 };
 
-/// One object that a device brings to the host without a copy in between.
+/// One object that is copied from a device to the host without a copy in between.
 template <class T>
 class Fetched {
  public:
@@ -214,7 +215,7 @@ class Fetched {
   Fetched(const Fetched&) = delete;
   Fetched& operator=(const Fetched&) = delete;
   void fetch(const T* from) const { queue_->fetch(value_, from, sizeof(T)); }
-  /// After Queue::wait().
+  /// The object; valid after Queue::wait().
   [[nodiscard]] const T& value() const noexcept { return *value_; }
 
  private:

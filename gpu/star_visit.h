@@ -1,5 +1,5 @@
 #pragma once
-// What visits have in common that read their star straight from the mesh, in the plane and in space.
+// Common parts of visits in the plane and in space that read their star straight from the mesh.
 
 #include <limits>
 
@@ -10,7 +10,7 @@
 namespace dmoscope::gpu::bodies {
 
 inline DMOSCOPE_LANE bool is_number(double a) { return scalar::abs(a) <= std::numeric_limits<double>::max(); }
-/// An offset that leads elsewhere, and somewhere.
+/// Whether an offset is not zero and its coordinates are numbers.
 inline DMOSCOPE_LANE bool leads_away(Vec2<double> a) { return !(a == Vec2<double>{}) && is_number(a.x) && is_number(a.y); }
 inline DMOSCOPE_LANE bool leads_away(Vec3 a) { return !(a == Vec3{}) && is_number(a.x) && is_number(a.y) && is_number(a.z); }
 

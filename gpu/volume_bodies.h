@@ -1,5 +1,5 @@
 #pragma once
-// The bodies of the kernels for volumes.
+// The kernels' bodies for volumes.
 
 #include "core/quality/element_shape.h"
 #include "core/quality/validity.h"
@@ -13,7 +13,8 @@
 
 namespace dmoscope::gpu::bodies {
 
-/// A visit of rank first + i: the fast search and, where that cannot handle the star or the search is to be in double, the plain one.
+/// Visits the vertex of rank first + i by the fast search, or by the plain one if that cannot handle the star or the search is to be in
+/// double.
 template <Metric M>
 struct VisitVolume {
   template <class Team>
@@ -27,7 +28,7 @@ struct VisitVolume {
   }
 
  private:
-  /// The offset of the best candidate in units of the star's scale; 0 where none is better than the vertex's own place.
+  /// Returns the offset of the best candidate in units of the star's scale; 0 if none is better than the vertex's own place.
   template <class Team>
   static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE Vec3 search(const Task& task, Index vertex, const ListedStar<Space>& star, const Team& team) {
     const bool plain =

@@ -1,5 +1,5 @@
 #pragma once
-// The fast search of a volume's star by lanes: the bits of core/smooth/kernels/volume_kernel_impl.h, which has packs of candidates.
+// The fast search of a volume's star by lanes, with the bits of core/smooth/kernels/volume_kernel_impl.h, which has packs of candidates.
 
 #include <type_traits>
 
@@ -32,26 +32,26 @@ template <class Narrow, class Wide>
 [[nodiscard]] DMOSCOPE_ANYWHERE StarWedge<float> narrow(const StarWedge<double>& w) { return narrow_others<StarWedge<float>>(w); }
 [[nodiscard]] DMOSCOPE_ANYWHERE StarPyramid<float> narrow(const StarPyramid<double>& p) { return narrow_others<StarPyramid<float>>(p); }
 
-/// What a team with memory in common keeps of a star's elements there: so much that nearly all stars of tetrahedra, of hexahedra eight,
-/// have room, and so little that it does not limit how many teams work at once.
+/// Capacity of a team's memory in common, in elements and bytes: large enough for nearly all stars of tetrahedra, and of eight hexahedra,
+/// and too small to limit the number of teams that work at once.
 inline constexpr std::size_t kStaged = 32, kStageBytes = kStaged * sizeof(StarTetrahedron<float>);
 
-/// Has a team memory in common? It brings kScratchBytes, scratch(), which is the same for its lanes, and meet(), after which each lane sees
-/// what the others wrote there.
+/// Team with memory in common: it has kScratchBytes, scratch(), the same for all its lanes, and meet(), after which each lane reads what
+/// the others wrote there.
 template <class Team>
 concept HasScratch = requires(const Team& team) {
   team.scratch();
 };
 
-/// Some candidates of a column, which are ranked at a time, so that an element is read once for them all; and the least rank of the star
-/// with its vertex there.
+/// Some candidates of a column, which are ranked at a time, so that an element is read once for all of them; and the least rank of the star
+/// with its vertex at each.
 struct SomeCandidates {
   static constexpr int kCount = 4;
   Vec3Of<float> at[kCount];
   float worth[kCount];
 };
 
-/// The search by the lanes of a team, which share the columns of the grid. Ranks: rank(SomeCandidates&) finds what they are worth.
+/// The search by the lanes of a team, which share the columns of the grid. Ranks: rank(SomeCandidates&) finds the candidates' ranks.
 template <class Ranks, class Team>
 class VolumeLevels {
  public:
@@ -82,7 +82,7 @@ class VolumeLevels {
     ranks_.rank(some);
     return {p, some.worth[0]};
   }
-  /// One level, around the best so far: among equals the candidate of lowest index.
+  /// Searches one level, around the best candidate so far: among equals the candidate of lowest index wins.
   DMOSCOPE_ANYWHERE Found search(Found best, float omega) const {
     const CandidateGrid<float, Point> grid{best.offset, times(box_, omega), parameters_.grid_points};
     const int n = grid.points;
@@ -91,7 +91,7 @@ class VolumeLevels {
       for (int k = 0; k < n; k += kAtOnce) {
         SomeCandidates some;
         DMOSCOPE_UNROLL
-        for (int i = 0; i < kAtOnce; ++i) some.at[i] = grid.at(column / n, column % n, k + i < n ? k + i : n - 1);  // the last once more
+        for (int i = 0; i < kAtOnce; ++i) some.at[i] = grid.at(column / n, column % n, k + i < n ? k + i : n - 1);  // repeats the last
         ranks_.rank(some);
         DMOSCOPE_UNROLL
         for (int i = 0; i < kAtOnce; ++i) {
@@ -111,8 +111,8 @@ class VolumeLevels {
   const Team& team_;
 };
 
-/// Ranks by a built-in metric. Where the team has memory in common, the lanes share the elements: each is read in double and narrowed once
-/// a search.
+/// Ranks by a built-in metric. In a team with memory in common the lanes share the elements: each is read in double and narrowed once a
+/// search.
 template <Metric M, class Team>
 class VolumeRankSearch {
  public:
@@ -140,11 +140,12 @@ class VolumeRankSearch {
   using Form = volumes::MeanRatioForm<float>;
   static constexpr bool kCorners = formulas::kDefinedForCorners<M>;
   static constexpr int kAtOnce = SomeCandidates::kCount;
-  /// What all candidates need of an element: of corners a form each; by other metrics the element, if it is a tetrahedron.
+  /// The data of an element that all candidates share: a form for each corner by the mean ratio; by other metrics the element, if it is a
+  /// tetrahedron.
   using Staged = std::conditional_t<M == Metric::MeanRatio, Form, StarTetrahedron<float>>;
   static_assert(sizeof(Staged) * kStaged <= kStageBytes);
 
-  /// Puts the star's elements into the team's memory, in their order, each by one lane; none where they have no room.
+  /// Puts the star's elements into the team's memory, in their order, each by one lane; none if there is no room for all.
   DMOSCOPE_LANE_INLINE DMOSCOPE_ANYWHERE void stage() {
     static_assert(Team::kScratchBytes >= kStageBytes);
     stage_ = static_cast<Staged*>(team_.scratch());
@@ -180,7 +181,7 @@ class VolumeRankSearch {
           ++staged_;
         });
       else
-        for_forms([this](const Form& /*form*/) { ++staged_; });  // nothing is computed
+        for_forms([this](const Form& /*form*/) { ++staged_; });  // counts without computing
     }
     return staged_ <= kStaged;
   }

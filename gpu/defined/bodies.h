@@ -1,7 +1,7 @@
 #pragma once
-// The bodies of the kernels for metrics that are defined by a formula or a target. A visit has four parts, for a stretch of vertices each:
-// what its star is like, the search of a sound star, that of a tangled one, and whether the vertex gains. They find what
-// core/smooth/methods/defined_dmo.cpp finds, bit for bit.
+// The kernels' bodies for metrics that are defined by a formula or a target. A visit of a stretch of vertices has four parts: preparing the
+// stars, searching the sound ones, searching the tangled ones, and moving the vertices that gain. The results are those of
+// core/smooth/methods/defined_dmo.cpp, bit for bit.
 
 #include "core/search/grid_search.h"
 #include "gpu/defined/lane_judge.h"
@@ -9,7 +9,7 @@
 
 namespace dmoscope::gpu::bodies {
 
-/// The first part: the star's state, and all that the search's programs are given.
+/// Prepares visits: finds the star's state and all numbers that the search's programs are given.
 template <class Frame>
 struct PrepareDefined {
   template <class Team>
@@ -26,7 +26,7 @@ struct PrepareDefined {
     const Index vertex = task.vertex_of_rank[rank];
     const StarState before = judge.state(vertex, judge.positions()[vertex]);
     task.defined.before[rank - task.defined.search.first_of_stretch] = before;
-    if (star.stage == Stage::Found) return;  // by another search
+    if (star.stage == Stage::Found) return;  // found by another search
     const bool tangled = !(before.jacobian > 0.0);
     star.offset[0] = star.offset[1] = star.offset[2] = 0.0;
     star.stage = Stage::Found;
@@ -40,7 +40,7 @@ struct PrepareDefined {
     if (!movable) star.stage = Stage::Found;
   }
 
-  /// Writes the uniform numbers of the star's programs. Can any place be better than the vertex's own?
+  /// Writes the uniform numbers of the star's programs. Returns whether any place can be better than the vertex's own.
   template <class Real>
   static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE bool gather(const Task& task, const LaneJudge<Frame>& judge, Index vertex, SoughtStar& star) {
     const DefinedTask& defined = task.defined;
@@ -97,7 +97,7 @@ class SteppedPrograms {
   const DefinedTask& task_;
 };
 
-/// The second: sound stars, each by a team.
+/// Searches sound stars, each by a team.
 template <class Frame, class Real>
 struct SearchDefined {
   template <class Team>
@@ -108,7 +108,7 @@ struct SearchDefined {
   }
 };
 
-/// The third: tangled stars, each by a team.
+/// Searches tangled stars, each by a team.
 template <class Frame>
 struct UntangleDefined {
   template <class Team>
@@ -130,7 +130,7 @@ struct UntangleDefined {
 
  private:
   using Offset = OffsetIn<Frame, double>;
-  /// See search_star().
+  /// Returns the offset in units of the star's scale: see search_star().
   template <class Team>
   static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE Offset untangle(const Task& task, const DefinedLaneStar<Frame>& star, Offset box,
                                                             const Team& team) {
@@ -144,7 +144,7 @@ struct UntangleDefined {
   }
 };
 
-/// The last: moves the vertices that gain, and puts the others to sleep.
+/// Ends visits: moves the vertices that gain, and puts the others to sleep.
 template <class Frame>
 struct SettleDefined {
   template <class Team>
@@ -184,7 +184,7 @@ struct SettleDefined {
   }
 };
 
-/// Elements i, i + count, ...: their quality and whether they are inverted.
+/// Judges elements i, i + count, ...: their quality and whether they are inverted.
 template <class Frame>
 struct JudgeDefined {
   template <class Team>

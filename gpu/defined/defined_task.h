@@ -1,5 +1,5 @@
 #pragma once
-// What lanes know of a metric that is defined by a formula or a target, as plain data.
+// A metric that is defined by a formula or a target, as plain data for lanes.
 
 #include "core/quality/given_numbers.h"
 #include "core/smooth/reference_visit.h"
@@ -8,32 +8,32 @@
 
 namespace dmoscope::gpu {
 
-/// Every pointer is one of the device's.
+/// Programs, targets and stars of a defined metric. All pointers are to memory of the device.
 struct DefinedTask {
-  /// By group of elements, kProgramsOfGroup each: those for places, by the moving corner; from kElements on those for elements, by the
-  /// corner that counts; the last for whole elements.
+  /// Programs by group of elements, kProgramsOfGroup each: first those for places, by the moving corner; from kElements on those for
+  /// elements, by the corner that is judged; the last for whole elements.
   const ProgramCode* programs = nullptr;
   static constexpr std::size_t kElements = 8, kWhole = 16;
-  // The targets. A group's elements are alike but for their matrices.
+  // Targets of the elements. The elements of a group differ in their matrices alone.
   const double* matrices = nullptr;
-  const std::uint32_t* first_matrix = nullptr;  // by element, in matrices
+  const std::uint32_t* first_matrix = nullptr;  // by element, counted in matrices
   const double* steepness_of_group = nullptr;
   GivenNumbers given;
   bool is_volume = false, in_double = false;
 
-  // For the searches by the mean ratio against targets. Planar: see StarTargets; of volumes: see TetrahedronTargets.
-  const double* star_targets = nullptr;  // null: they are not for this metric
+  // Data for the searches by the mean ratio against targets. Planar meshes: see StarTargets; volume meshes: see TetrahedronTargets.
+  const double* star_targets = nullptr;  // null: the metric has no such search
   const std::uint32_t* first_target = nullptr;
   const std::uint8_t* fits = nullptr;
   bool crossed = false;
 
   StarSearchTask search;
-  StarState* before = nullptr;  // of the stretch's stars, by rank
+  StarState* before = nullptr;  // states of the stretch's stars, by rank
 
   double* registers = nullptr;  // for the programs that lanes run step by step
-  std::size_t lanes = 0;        // at most so many at once
+  std::size_t lanes = 0;        // greatest number of lanes at once
 
-  /// In a lane's own memory, whether it computes with floats or doubles: another lane may be where it does the other.
+  /// Registers in a lane's own memory, apart from other lanes', which may compute in the other precision.
   template <class Real>
   [[nodiscard]] DMOSCOPE_LANE Registers<Real> registers_of(std::size_t lane) const {
     return {reinterpret_cast<Real*>(registers + lane), lanes * (sizeof(double) / sizeof(Real))};

@@ -16,9 +16,9 @@ namespace dmoscope::gpu {
 
 namespace {
 
-/// What a stretch's stars may take of the device's memory, and how many they may be.
+/// Greatest size of a stretch: device memory for its stars, in bytes, and visits.
 constexpr std::size_t kStretchBytes = std::size_t{64} << 20U, kStretchVisits = std::size_t{1} << 16U;
-/// Lanes that run programs at once: enough for any device; and the memory for their registers.
+/// Greatest number of lanes that run programs at once, enough for any device; and the greatest size of their registers, in bytes.
 constexpr std::size_t kMostLanes = std::size_t{1} << 16U, kRegisterBytes = std::size_t{256} << 20U;
 constexpr std::size_t kSearchers = kFormulaWarp, kTeam = 8;  // lanes of a team
 
@@ -42,7 +42,7 @@ class Code {
         *program, [this](const FormulaInput& input) { return judge_.given(input, 0, judge_.targets().of(0), 1.0); },
         prepared.data() + place.prepared);
   }
-  /// As lanes see it. The pointers: to what was added, where the device has it.
+  /// The programs with pointers into the device's copies of what was added.
   [[nodiscard]] std::vector<ProgramCode> seen(const FormulaProgram::Constant* constants_at, const FormulaProgram::Given* given_at,
                                               const FormulaStep* steps_at, const double* prepared_at) const {
     std::vector<ProgramCode> codes;
@@ -68,7 +68,7 @@ class Code {
     }
     return codes;
   }
-  /// The most registers of any.
+  /// The greatest number of registers that a program needs.
   [[nodiscard]] std::size_t registers() const {
     std::size_t most = 1;
     for (const Place& place : places_)
@@ -94,7 +94,7 @@ class Code {
   std::vector<Place> places_;
 };
 
-/// By element, of how many matrices its first one comes behind.
+/// Number of matrices before an element's first one, by element.
 std::vector<std::uint32_t> first_matrices(const TargetTable& targets, std::size_t elements, std::size_t numbers) {
   std::vector<std::uint32_t> first(elements, 0);
   for (Index e = 0; e < elements; ++e)
@@ -258,7 +258,7 @@ void DeviceMetric::warm_up(const Task& task) const {
   if (stretches_.size() < 2) return;
   visit(task, 0, 1);
   if (task_.star_targets == nullptr || task_.is_volume) return;
-  Task other = task;  // so few are visited by teams
+  Task other = task;  // few enough to be visited by teams
   other.defined = task_;
   other.defined.search.visits = 1;
   queue_->launch(Work::VisitTargets, kNoMetric, other, 1);

@@ -17,17 +17,17 @@ class ProgramTable;
 
 class DeviceMetric {
  public:
-  /// `mesh`: what a kernel knows of the mesh. `task`: whose metric it is. Throws DeviceError.
+  /// Copies the metric of `task` to the device. `mesh`: the kernels' view of the mesh. Throws DeviceError.
   DeviceMetric(std::shared_ptr<Queue> queue, const SmoothingTask& task, const Task& mesh);
 
-  /// Visits ranks [first, last), all of one class, as `task` says, whose metric this is.
+  /// Visits ranks [first, last), all of one class, by this metric and the rules of `task`.
   void visit(Task task, std::size_t first, std::size_t last) const;
   /// Finds every element's quality.
   void judge(Task task) const;
   /// Runs every kernel once, for the vertex of rank 0, which needs no visit.
   void warm_up(const Task& task) const;
 
-  /// How its programs are run: "the metric compiled by NVRTC 13.0".
+  /// Tells how the programs are run: "the metric compiled by NVRTC 13.0".
   [[nodiscard]] std::string description() const;
 
  private:
@@ -52,8 +52,8 @@ class DeviceMetric {
   Buffer<std::uint8_t> fits_;
   Buffer<SoughtStar> stars_;
   Buffer<StarState> before_;
-  Queue::Compiled compiled_;            // without a search: the programs are run step by step
-  std::vector<std::size_t> stretches_;  // first ranks, and behind them the number of visits
+  Queue::Compiled compiled_;            // without a search the programs are run step by step
+  std::vector<std::size_t> stretches_;  // their first ranks, then the number of visits
   std::size_t registers_of_lane_ = 1;
   DefinedTask task_;
 };

@@ -15,16 +15,16 @@ namespace dmoscope::gpu {
 
 namespace {
 
-/// Of all programs together.
+/// Limit for the length_of() all programs together.
 constexpr std::size_t kMostSteps = 40000;
 
-/// In the order of Operation.
+/// Names of the operations, in the order of Operation.
 constexpr std::array<std::string_view, 19> kOperations{
     "Add",         "Subtract", "Multiply", "Divide",     "Minimum",     "Maximum",   "Absolute", "SquareRoot", "CubeRoot", "Less",
     "LessOrEqual", "Equal",    "Select",   "ArcTangent", "Exponential", "Logarithm", "Sine",     "Cosine",     "Power"};
 static_assert(kOperations.size() == static_cast<std::size_t>(Operation::Power) + 1);
 
-/// In steps as long as an addition to compile.
+/// Time to compile a program, in steps as long as an addition.
 std::size_t length_of(const FormulaProgram& program) {
   std::size_t length = 0;
   for (const FormulaStep& step : program.steps)

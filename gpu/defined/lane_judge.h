@@ -1,5 +1,5 @@
 #pragma once
-// Judges the elements around a vertex by a formula or a target, one lane: the bits of core/quality/defined_judge.h.
+// Judges the elements around a vertex by a formula or a target in one lane, with the bits of core/quality/defined_judge.h.
 
 #include "core/search/defined_star.h"
 #include "core/search/mesh_star.h"
@@ -10,11 +10,11 @@
 
 namespace dmoscope::gpu {
 
-/// Of a vector in the plane or in space.
+/// Coordinate number `axis` of a vector in the plane or in space.
 [[nodiscard]] DMOSCOPE_ANYWHERE double coordinate(Vec2<double> p, std::size_t axis) { return axis == 0 ? p.x : p.y; }
 [[nodiscard]] DMOSCOPE_ANYWHERE double coordinate(Vec3 p, std::size_t axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
 
-/// Frame: Plane or Space. `lane`: of the launch.
+/// Judge of one lane. Frame: Plane or Space. `lane`: its number in the launch.
 template <class Frame>
 class LaneJudge {
  public:
@@ -28,7 +28,7 @@ class LaneJudge {
     return task_.defined.registers_of<Real>(lane_);
   }
 
-  /// See DefinedJudge::quality(). `at`: where a vertex stands.
+  /// Returns an element's quality: see DefinedJudge::quality(). `at`: gives the place of a vertex.
   template <class At>
   [[nodiscard]] DMOSCOPE_LANE_INLINE DMOSCOPE_LANE double quality(Index element, Index moving, const At& at) const {
     const DefinedTask& defined = task_.defined;
@@ -42,7 +42,7 @@ class LaneJudge {
     });
     return settled_metric(value, defined.steepness_of_group[defined.search.group_of_element[element]]);
   }
-  /// Of an element of a star with its vertex at `place`.
+  /// Returns the quality of an element of a star with its vertex at `place`.
   [[nodiscard]] DMOSCOPE_LANE double quality(const Incidence& incidence, Index vertex, Vec3 place) const {
     return quality(incidence.element, incidence.corner, [&](Index v) { return v == vertex ? place : positions_[v]; });
   }
@@ -71,8 +71,8 @@ class LaneJudge {
   std::size_t lane_;
 };
 
-/// The star of a vertex for UntanglingObjective<kDefinedMetric>, straight from the mesh: as DefinedStar, whose elements know their quality.
-/// An element's type does not say of what kind it is, so that the code that judges one is there once.
+/// The star of a vertex for UntanglingObjective<kDefinedMetric>, read straight from the mesh. Its elements know their quality, as
+/// DefinedStar's. An element's C++ type does not tell its kind, so that the code that judges one is there once.
 template <class Frame>
 class DefinedLaneStar {
  public:
@@ -81,13 +81,13 @@ class DefinedLaneStar {
   DMOSCOPE_LANE DefinedLaneStar(const LaneJudge<Frame>& judge, const MeshStar<Frame>& star, Index vertex)
       : judge_(&judge), star_(&star), vertex_(vertex) {}
 
-  /// With the star's vertex somewhere.
+  /// Element of the star with the vertex at offset `p`.
   struct Placed {
     const DefinedLaneStar* star;
     Incidence incidence;
     Offset p;
     [[nodiscard]] DMOSCOPE_LANE double own_quality() const { return star->quality(incidence, p); }
-    /// take(J) for each corner that changes.
+    /// Calls take(J) for the Jacobian of each corner that changes.
     template <class Take>
     [[nodiscard]] friend DMOSCOPE_LANE formulas::WholeAndAround<double> corner_jacobians(const Placed& placed, Index /*moving*/,
                                                                                          Take take) {
@@ -98,14 +98,14 @@ class DefinedLaneStar {
     const DefinedLaneStar* star;
     Incidence incidence;
     double reference;
-    static constexpr Index kMoving = 0;  // of no meaning: the incidence says which corner moves
+    static constexpr Index kMoving = 0;  // unused: the incidence tells the moving corner
     [[nodiscard]] DMOSCOPE_LANE Placed with(Offset p) const { return {star, incidence, p}; }
   };
   struct Triangle : Element {
     static constexpr bool kIsTriangle = true;  // see kPartOfSum
   };
 
-  /// List after list, as DefinedStar's view.
+  /// Calls f(element) for each element, list after list, in the order of DefinedStar's view.
   template <bool Others, class F>
   DMOSCOPE_LANE void for_each(F f) const {
     for (unsigned list = 0; list < kLists; ++list)
@@ -132,7 +132,7 @@ class DefinedLaneStar {
   [[nodiscard]] DMOSCOPE_LANE Offset middle() const {
     return middle_of<Offset>(ListedStar<Frame>(judge_->mesh(), judge_->positions(), vertex_));
   }
-  /// The least metric where no element is inverted: what a search of a star maximises that is not tangled.
+  /// Returns the least metric; of a planar star with an inverted element, its least Jacobian. Objective for stars that are not tangled.
   [[nodiscard]] DMOSCOPE_LANE double operator()(Offset p) const {
     double quality = std::numeric_limits<float>::max(), jacobian = quality;
     for_each<true>([&](const auto& each) {

@@ -1,5 +1,5 @@
 #pragma once
-// Programs of formulas as lanes run them, step by step.
+// Programs of formulas in the form in which lanes run them, step by step.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,33 +10,33 @@
 
 namespace dmoscope::gpu {
 
-/// A FormulaProgram as plain data; every pointer is one of the device's.
+/// A FormulaProgram as plain data. All pointers are to memory of the device.
 struct ProgramCode {
   const FormulaProgram::Constant* constants = nullptr;
   const FormulaProgram::Given *given = nullptr, *varying = nullptr;
   const FormulaStep *beforehand = nullptr, *steps = nullptr;
-  const double* prepared = nullptr;  // of FormulaUse::Elements: its uniform numbers, which no element changes
+  const double* prepared = nullptr;  // uniform numbers of a program of FormulaUse::Elements, the same for all elements
   std::uint32_t constant_count = 0, given_count = 0, varying_count = 0, beforehand_count = 0, step_count = 0;
   std::uint16_t uniforms = 0, result = 0, ceiling = kNoCeiling;
   static constexpr std::uint16_t kNoCeiling = 0xffff;
 };
 
-/// A lane's registers; those of all lanes lie side by side.
+/// A lane's registers. Equal registers of all lanes lie side by side.
 template <class Real>
 struct Registers {
   Real* first;
-  std::size_t stride;  // from one to the next
+  std::size_t stride;  // distance from one register to the next
   [[nodiscard]] DMOSCOPE_LANE Real& operator[](std::size_t i) const { return first[i * stride]; }
 };
 
-/// A program as one lane runs it.
+/// Runs a program in one lane.
 template <class Real>
 class ProgramRun {
  public:
   DMOSCOPE_LANE ProgramRun(const ProgramCode& code, const Real* uniforms, Registers<Real> registers)
       : code_(code), uniforms_(uniforms), registers_(registers) {}
 
-  /// varying(input): the number.
+  /// Returns the program's number. varying(input): an input that varies.
   template <class Varying>
   DMOSCOPE_LANE_INLINE DMOSCOPE_LANE Real run(const Varying& varying) const {
     for (std::uint32_t i = 0; i < code_.varying_count; ++i) registers_[code_.varying[i].at] = varying(code_.varying[i].input);
@@ -61,7 +61,8 @@ class ProgramRun {
   Registers<Real> registers_;
 };
 
-/// The uniform numbers of a program for one element: see prepare() of core/formula/evaluator.h. given(input): its number.
+/// Computes the uniform numbers of a program for one element: see prepare() of core/formula/evaluator.h. given(input): an input that is
+/// given.
 template <class Real, class Given>
 DMOSCOPE_LANE void prepare_numbers(const ProgramCode& code, const Given& given, Real* uniforms) {
   for (std::uint32_t i = 0; i < code.constant_count; ++i) uniforms[code.constants[i].at] = static_cast<Real>(code.constants[i].value);

@@ -1,5 +1,5 @@
 #pragma once
-// The programs of a metric that a mesh's elements need, by groups of elements that are judged alike.
+// The programs of a metric that a mesh's elements need, by groups of elements with the same programs.
 
 #include <cstdint>
 #include <span>
@@ -10,7 +10,7 @@
 
 namespace dmoscope::gpu {
 
-/// What elements of a group have in common.
+/// Properties that the elements of a group have in common.
 struct ElementGroup {
   ElementKind kind;
   FormulaSpace space;
@@ -20,14 +20,14 @@ struct ElementGroup {
 
 class ProgramTable {
  public:
-  /// `judge` must outlive it.
+  /// Makes the programs of all elements. `judge` must outlive the table.
   ProgramTable(const InputMesh& input, const DefinedJudge& judge);
 
   [[nodiscard]] std::span<const ElementGroup> groups() const noexcept { return groups_; }
   [[nodiscard]] std::span<const std::uint16_t> group_of_element() const noexcept { return group_of_element_; }
-  /// By group, kProgramsOfGroup each: see DefinedTask::programs. Null where there is none.
+  /// The programs by group, kProgramsOfGroup each: see DefinedTask::programs. Null if there is none.
   [[nodiscard]] std::span<const FormulaProgram* const> programs() const noexcept { return programs_; }
-  /// For the places of a corner of an element.
+  /// Returns the program for places of the corner of an element.
   [[nodiscard]] const FormulaProgram& for_places(const Incidence& at) const;
 
  private:

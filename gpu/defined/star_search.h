@@ -1,6 +1,6 @@
 #pragma once
-// The grid search of one star by the programs of its elements. Plain data and code that need no header of a host's library: a program that
-// is compiled while dmoscope runs has it, too (see formula_source.h).
+// The grid search of one star by the programs of its elements. Plain data and code that need no header of a host's library, since a program
+// that is compiled at run time includes it, too (see formula_source.h).
 
 #include <cstddef>
 #include <cstdint>
@@ -15,37 +15,37 @@
 
 namespace dmoscope::gpu {
 
-/// How far a visit has come.
+/// Progress of a visit.
 enum class Stage : std::uint32_t {
   Waiting,  // nothing is known
-  Sought,   // its star is sound and is to be searched
-  Tangled,  // its star has inverted elements and is to be searched for a way out of that
-  Found,    // searched: `offset`
+  Sought,   // the star is sound and to be searched
+  Tangled,  // the star has inverted elements and is to be searched for an offset that untangles it
+  Found,    // the star was searched: see `offset`
   Over      // nothing is left to do
 };
 
 /// The star of a vertex under visit.
 struct SoughtStar {
   double scale = 1.0;                  // in mesh units
-  double box[3] = {}, offset[3] = {};  // in units of scale: of its other vertices; where its vertex is to go
-  double best = 0.0;                   // what it is worth as it stands
-  Index worst = 0;                     // which of its elements is the worst
+  double box[3] = {}, offset[3] = {};  // in units of scale: bounding box of its other vertices; offset of its vertex
+  double best = 0.0;                   // number of the star as it stands
+  Index worst = 0;                     // the worst of its elements
   Stage stage = Stage::Waiting;
 };
 
 /// The programs for places of a moving corner are numbered by group of elements and by corner: group * kProgramsOfGroup + corner.
 inline constexpr std::size_t kProgramsOfGroup = 17;
 
-/// A stretch of visits, and what their stars' programs are given. Ranks: see StarTable.
+/// A stretch of visits, and the uniform numbers of their stars' programs. Ranks: see StarTable.
 struct StarSearchTask {
   const Index* vertex_of_rank = nullptr;
   const std::uint32_t* star_offsets = nullptr;  // see Topology
   const Incidence* incidences = nullptr;
   const std::uint16_t* group_of_element = nullptr;
-  const std::uint32_t* numbers_at = nullptr;  // by incidence: where its program's uniform numbers begin
-  void* numbers = nullptr;                    // of the stretch's stars: float or double
-  SoughtStar* stars = nullptr;                // of the stretch, by rank
-  std::size_t first_of_stretch = 0;           // its first rank
+  const std::uint32_t* numbers_at = nullptr;  // by incidence: start of its program's uniform numbers
+  void* numbers = nullptr;                    // uniform numbers of the stretch's stars: float or double
+  SoughtStar* stars = nullptr;                // stars of the stretch, by rank
+  std::size_t first_of_stretch = 0;           // first rank of the stretch
   std::size_t first = 0, visits = 0;          // the ranks that are visited now
   double omega = 0.0;
   int grid_points = 0, levels = 0;
@@ -54,11 +54,12 @@ struct StarSearchTask {
   [[nodiscard]] DMOSCOPE_ANYWHERE SoughtStar& star(std::size_t visit) const { return stars[first + visit - first_of_stretch]; }
 };
 
-/// Programs: run(program, uniforms, at, lane), the number of a program with its corner at a place; for any lane of the launch.
+/// Searches stars. Programs: run(program, uniforms, at, lane) returns the number of a program with its corner at a place, in any lane of
+/// the launch.
 template <class Real, class Point, class Programs, class Team>
 class StarSearch {
  public:
-  /// Of the visits i, i + count, ..., each by a team: the offset where the star is best.
+  /// Makes the visits i, i + count, ..., each by a team: sets the offset where the star is best.
   static DMOSCOPE_INLINE DMOSCOPE_ANYWHERE void run(const StarSearchTask& task, const Programs& programs, std::size_t i, std::size_t count,
                                                     const Team& team) {
     for (std::size_t visit = i; visit < task.visits; visit += count) {
@@ -116,7 +117,7 @@ class StarSearch {
       return grid.at(c / (n * n), c / n % n, c % n);
   }
 
-  /// The least number of the star's elements; the worst one first, and no further than down to `best`.
+  /// Returns the least number of the star's elements, judging the worst one first, and stops once it is not above `best`.
   [[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE Real least(const Point& p, Real best) const {
     const Point at = times(p, unit_);
     Real least = std::numeric_limits<Real>::max();

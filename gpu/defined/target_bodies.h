@@ -1,6 +1,6 @@
 #pragma once
-// The bodies of the kernels for the mean ratio against targets: the searches of core/smooth/kernels/targets/target_lane_kernel_impl.h and
-// target_volume_kernel_impl.h, which come before the parts of a visit that gpu/defined/bodies.h has and leave these the rest.
+// The kernels' bodies for the mean ratio against targets: the searches of core/smooth/kernels/targets/target_lane_kernel_impl.h and
+// target_volume_kernel_impl.h. They run before the parts of a visit in gpu/defined/bodies.h and leave the other stars to these.
 
 #include "core/smooth/kernels/solid_target.h"
 #include "core/smooth/kernels/targets/target_visit.h"
@@ -11,7 +11,7 @@
 
 namespace dmoscope::gpu::bodies {
 
-/// Planar stars, each by a team: moves the vertices that gain.
+/// Visits planar stars, each by a team: moves the vertices that gain.
 template <bool Crossed>
 struct VisitTargets {
   template <class Team>
@@ -40,7 +40,7 @@ struct VisitTargets {
     else
       set_flag(task.awake + rank, false);
   }
-  /// By the statistics' programs.
+  /// Whether the vertex gains at `to`, by the statistics' programs.
   [[nodiscard]] static DMOSCOPE_LANE bool gains(const Task& task, Index rank, Vec3 to, std::size_t lane) {
     const LaneJudge<Plane> judge(task, lane);
     const Index vertex = task.vertex_of_rank[rank];
@@ -53,7 +53,7 @@ struct VisitTargets {
   }
 };
 
-/// Ranks of a star of tetrahedra that have targets.
+/// Ranks of a star of tetrahedra with targets.
 template <bool Crossed, class Team>
 class TargetRanks {
  public:
@@ -80,7 +80,7 @@ class TargetRanks {
     stage_ = static_cast<Form*>(team.scratch());
     if (elements_.size() > kStaged) return;
     staged_ = static_cast<unsigned>(elements_.size());
-    team.meet();  // what the star before it had there has been read
+    team.meet();  // all lanes have read the star before it
     for (unsigned i = team.lane(); i < staged_; i += Team::kSize) stage_[i] = form_of(elements_[i]);
     team.meet();
   }
@@ -103,7 +103,7 @@ class TargetRanks {
                    static_cast<float>(g[9]), static_cast<float>(g[10]), static_cast<float>(g[11])};
     return volumes::target_form<Crossed>(t);
   }
-  /// What corner `corner` of an element has of W^-1.
+  /// The row of W^-1 that belongs to corner `corner` of an element.
   [[nodiscard]] static DMOSCOPE_LANE Vec3 row_of(const double* g, Index corner) {
     if (corner == 0) return {-(g[0] + g[1] + g[3]), -(g[2] + g[4]), -g[5]};
     if (corner == 1) return {g[0], 0.0, 0.0};
@@ -118,10 +118,10 @@ class TargetRanks {
   unsigned staged_ = 0;
 };
 
-/// What a team's memory must hold.
+/// Size of a team's memory, in bytes.
 inline constexpr std::size_t kTargetStageBytes = kStaged * sizeof(volumes::StretchedForm<float>);
 
-/// Stars of tetrahedra, each by a team: the offset where the star is best.
+/// Searches stars of tetrahedra, each by a team: finds the offset where the star is best.
 template <bool Crossed>
 struct SearchTargets {
   template <class Team>
@@ -150,7 +150,7 @@ struct SearchTargets {
   }
 
  private:
-  /// Is it a star of tetrahedra whose targets floats hold, and not too many?
+  /// Whether it is a star of tetrahedra whose targets floats hold, of at most kMaxSolids elements.
   [[nodiscard]] static DMOSCOPE_LANE bool fits(const Task& task, Index vertex) {
     const auto star = volume_of(task).star(vertex);
     bool all = star.size() <= kMaxSolids;

@@ -1,4 +1,4 @@
-// ADCIRC's fort.14 by many ranks.
+// Reads and writes ADCIRC's fort.14 by many ranks.
 
 #include <algorithm>
 
@@ -47,11 +47,11 @@ class Fort14File final : public TextMeshFile {
   struct Parsed {
     std::vector<Vec3> positions;
     std::vector<double> depths;
-    std::vector<std::int64_t> numbers;  // of the nodes
+    std::vector<std::int64_t> numbers;  // numbers of the nodes
     std::vector<ElementKind> kinds;
-    std::vector<std::int64_t> corners;  // by number
+    std::vector<std::int64_t> corners;  // node numbers
   };
-  /// The boundary strings: their members count into `numbers`, the nodes as the file calls them.
+  /// The boundary strings: their members are indices into `numbers`, the nodes' numbers in the file.
   struct Strings {
     std::vector<Group> groups;
     std::vector<std::int64_t> numbers;
@@ -70,7 +70,7 @@ class Fort14File final : public TextMeshFile {
     });
   }
 
-  /// Visits the rank's lines by their numbers among all behind the head; false: it has seen enough.
+  /// Visits the rank's lines by their numbers among all lines after the head, until visit returns false.
   template <class Visit>
   void each_line(const LineBlock& lines, const Visit& visit) const {
     with_tokens(lines.text, lines.first_line, [&](Tokenizer& tokens) {
@@ -108,7 +108,7 @@ class Fort14File final : public TextMeshFile {
     });
   }
 
-  /// What follows the elements is little beside them: all ranks read all of it.
+  /// Reads the boundary strings, on all ranks: all after the elements is short.
   [[nodiscard]] Strings read_strings(const RangeFile& file, const LineBlock& lines) const {
     struct Place {
       std::uint64_t offset, line;
@@ -133,7 +133,7 @@ class Fort14File final : public TextMeshFile {
     return strings;
   }
 
-  /// From the numbers by which the file calls its nodes to vertices.
+  /// Translates the file's numbers of nodes to vertices.
   void resolve(const LineBlock& lines, const Parsed& parsed, const Strings& strings, MeshBlock& block) const {
     const std::uint64_t first = block.vertices.begin(world().rank());
     std::vector<std::int64_t> asked = parsed.corners;
@@ -185,8 +185,8 @@ class Fort14File final : public TextMeshFile {
   }
 
   std::uint64_t nodes_ = 0, elements_ = 0;
-  std::uint64_t body_ = 0;   // where the lines of nodes begin
-  std::uint64_t first_ = 0;  // number of the rank's first line among those behind the head
+  std::uint64_t body_ = 0;   // start of the lines of nodes
+  std::uint64_t first_ = 0;  // number of the rank's first line among those after the head
 };
 
 }  // namespace

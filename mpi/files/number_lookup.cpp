@@ -12,7 +12,7 @@ struct Numbered {
   friend auto operator<=>(const Numbered&, const Numbered&) = default;
 };
 
-/// Who keeps what is known of a number.
+/// The rank that keeps the answers about a number.
 int keeper(std::int64_t number, int ranks) {
   const std::uint64_t mixed = static_cast<std::uint64_t>(number) * 0x9e3779b97f4a7c15U;
   return static_cast<int>((mixed >> 32U) % static_cast<std::uint64_t>(ranks));

@@ -1,4 +1,4 @@
-// Wavefront OBJ by many ranks.
+// Reads and writes Wavefront OBJ by many ranks.
 
 #include <array>
 
@@ -33,9 +33,8 @@ class ObjFile final : public TextMeshFile {
   struct Parsed {
     std::vector<Vec3> positions;
     std::vector<ElementKind> kinds;
-    std::vector<std::int64_t> corners;   // as the file counts them; those that count back: from the first vertex of these lines, -1 is the
-                                         // one before it
-    std::vector<std::uint8_t> relative;  // of each corner
+    std::vector<std::int64_t> corners;   // numbers of the file; backward ones from the first vertex here: -1 is the one before it
+    std::vector<std::uint8_t> relative;  // one per corner: 1 if it counts backward
   };
 
   [[nodiscard]] LineBlock lines(const RangeFile& file) const override { return read_lines(world(), file, 0, true); }

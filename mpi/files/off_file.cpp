@@ -1,4 +1,4 @@
-// OFF in ASCII by many ranks.
+// Reads and writes OFF in ASCII by many ranks.
 
 #include <array>
 
@@ -53,7 +53,7 @@ class OffFile final : public TextMeshFile {
     });
   }
 
-  /// Visits the rank's lines with tokens by their numbers among all that hold any: vertices, then faces.
+  /// Visits the rank's lines with tokens by their numbers among all such lines: vertices, then faces.
   template <class Vertex, class Face>
   void each_line(const LineBlock& lines, const Vertex& vertex, const Face& face) const {
     with_tokens(lines.text, lines.first_line, [&](Tokenizer& tokens) {
@@ -92,8 +92,8 @@ class OffFile final : public TextMeshFile {
   }
 
   std::uint64_t vertices_ = 0, faces_ = 0;
-  std::uint64_t body_ = 0;   // where the lines of vertices begin
-  std::uint64_t first_ = 0;  // number of the rank's first line among those behind the head
+  std::uint64_t body_ = 0;   // start of the lines of vertices
+  std::uint64_t first_ = 0;  // number of the rank's first line among those after the head
 };
 
 }  // namespace

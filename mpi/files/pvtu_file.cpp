@@ -1,4 +1,4 @@
-// PVTU by many ranks: whole pieces are dealt to them.
+// Reads and writes PVTU by many ranks, each of which has whole pieces.
 
 #include <algorithm>
 #include <array>
@@ -27,7 +27,7 @@ struct Pieces {
   std::vector<std::uint64_t> vertex_ids, element_ids;
   bool all_vertex_ids = true, all_element_ids = true;
   std::vector<ElementKind> kinds;
-  std::vector<std::uint64_t> corners;  // into positions
+  std::vector<std::uint64_t> corners;  // indices into positions
   std::vector<BlockField> fields;
   bool floats = false;
 };
@@ -113,7 +113,7 @@ class PvtuFile final : public SharedMeshFile {
   std::vector<std::string> nodal_fields() const override { return nodal_fields_; }
 
  private:
-  /// The program's own words for a piece; ghosts are left out.
+  /// Adds a piece, read by the reader of one process, without its ghosts.
   void add_piece(std::uint64_t p, const FieldFilter& filter, Pieces& mine) {
     Progress unwatched;
     const std::int64_t stamp = RangeFile(names_[p]).stamp();
@@ -138,10 +138,10 @@ class PvtuFile final : public SharedMeshFile {
     add_fields(piece, ids, filter, mine);
   }
 
-  /// Fields that not all of a rank's pieces have are left out, as those are that not all ranks have.
+  /// Adds the fields of a piece. Fields that not all of a rank's pieces have are left out, as are those that not all ranks have.
   void add_fields(const Mesh& piece, const PieceIds& ids, const FieldFilter& filter, Pieces& mine) {
     const bool is_first = mine.positions.size() == piece.positions.size();
-    std::set<std::pair<std::string, Field::On>> met;  // of a name that comes twice the first
+    std::set<std::pair<std::string, Field::On>> met;  // of a name that occurs twice the first counts
     for (const Field& field : piece.fields) {
       if (!met.emplace(field.name, field.on).second) continue;
       if (field.on == Field::On::Vertices && !holds_whole_numbers(field) &&
@@ -181,7 +181,7 @@ class PvtuFile final : public SharedMeshFile {
     mine.fields = std::move(kept);
   }
 
-  /// Sends what stands for all of its number to the number's holder. `of(i)`: of thing i.
+  /// Sends the value of each number's first thing to the number's holder. `of(i)`: value of thing i.
   template <Plain T, class Of>
   [[nodiscard]] std::vector<T> to_holders(const SharedNumbers& numbers, const Of& of) const {
     struct HeldValue {
@@ -239,7 +239,7 @@ class PvtuFile final : public SharedMeshFile {
         block.fields.push_back({field.name, field.on, to_holders<double>(elements, [&](std::size_t i) { return field.values[i]; })});
   }
 
-  /// Returns how many vertices it has.
+  /// Writes a piece and returns its number of vertices.
   std::size_t write_piece(std::uint64_t p, AtomicFile& file, std::span<const Vec3> positions, std::vector<std::string>& notes) const {
     Progress unwatched;
     const Mesh piece = read_mesh(names_[p], unwatched);
@@ -262,7 +262,7 @@ class PvtuFile final : public SharedMeshFile {
     return count;
   }
 
-  /// A piece as it was read.
+  /// Properties of a piece, as it was read.
   struct Facts {
     std::size_t vertices;
     std::int64_t stamp;
@@ -273,8 +273,8 @@ class PvtuFile final : public SharedMeshFile {
   std::string text_;
   std::vector<std::filesystem::path> names_;
   Ranges pieces_, block_vertices_;
-  std::vector<Facts> facts_;         // of the rank's pieces
-  std::vector<WholeIndex> numbers_;  // of the vertices of the rank's pieces, one after the other
+  std::vector<Facts> facts_;         // one per piece of the rank
+  std::vector<WholeIndex> numbers_;  // vertices of the rank's pieces, one piece after the other
   std::vector<std::string> nodal_fields_;
 };
 

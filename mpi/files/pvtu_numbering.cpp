@@ -8,7 +8,7 @@
 namespace dmoscope {
 namespace {
 
-/// Sends each rank's keys to their keepers, and what these answer back.
+/// Sends each rank's keys to their keepers, and the keepers' answers back.
 template <Plain Key>
 class Keepers {
  public:
@@ -22,9 +22,9 @@ class Keepers {
     offsets_ = dealer.parts().offsets;
     kept_ = world.exchange(dealer.take());
   }
-  /// What came, in the order of the ranks and of their things.
+  /// Keys that arrived, in the order of the ranks and of their things.
   [[nodiscard]] const std::vector<Key>& kept() const noexcept { return kept_.values; }
-  /// `answers`: one for each of kept(); to each rank, by thing.
+  /// Sends answers back to each rank and returns those for this rank's things, by thing. `answers`: one for each of kept().
   template <Plain Answer>
   [[nodiscard]] std::vector<Answer> give_back(const std::vector<Answer>& answers) const {
     std::vector<Answer> back(place_.size()), in_order;
@@ -33,7 +33,7 @@ class Keepers {
     for (const std::uint64_t at : place_) in_order.push_back(back[at]);
     return in_order;
   }
-  /// The way of the keys again with something else: `values`: one a thing; in the order of kept().
+  /// Sends other values of the things to the keys' keepers. `values`: one a thing. Returns those that arrived, in the order of kept().
   template <Plain Value>
   [[nodiscard]] std::vector<Value> take_along(const std::vector<Value>& values) const {
     std::vector<Value> to(place_.size()), there(kept_.values.size());
@@ -48,7 +48,7 @@ class Keepers {
   Parts<Key> kept_;
 };
 
-/// For each of `keys` the least place of an equal one.
+/// Finds for each of `keys` the least place of an equal one.
 template <class Key>
 std::vector<std::uint64_t> first_of_equals(const std::vector<Key>& keys) {
   std::vector<std::uint64_t> order(keys.size()), first(keys.size());
@@ -68,7 +68,7 @@ SharedNumbers number_by_id(const World& world, std::span<const std::uint64_t> id
   const Keepers<std::uint64_t> keepers(world, ids, [&](std::uint64_t id) { return space.holder(id); });
   const std::vector<std::uint64_t>& kept = keepers.kept();
   const std::vector<std::uint64_t> first = first_of_equals(kept);
-  std::vector<std::uint64_t> order;  // of those that stand for all of their id
+  std::vector<std::uint64_t> order;  // first things of an id
   for (std::uint64_t i = 0; i < kept.size(); ++i)
     if (first[i] == i) order.push_back(i);
   std::ranges::sort(order, {}, [&](std::uint64_t i) { return kept[i]; });
@@ -107,7 +107,7 @@ SharedNumbers number_by_place(const World& world, std::span<const Vec3> places) 
   numbers.first = keepers.give_back(is_first);
   const auto count = static_cast<std::uint64_t>(std::ranges::count(numbers.first, std::uint8_t{1}));
   numbers.ranges = world.ranges(count);
-  // Those that are first know their numbers, and tell the keepers, who tell the others.
+  // The first things know their numbers, and tell the keepers, who tell the others.
   std::vector<WholeIndex> told(places.size(), 0);
   WholeIndex next = numbers.ranges.begin(world.rank());
   for (std::size_t i = 0; i < told.size(); ++i)

@@ -1,5 +1,5 @@
 #pragma once
-// What the vertices and elements of pieces are in the whole mesh, where many ranks have pieces: as join_pieces() numbers them.
+// Numbers of the vertices and elements of pieces in the whole mesh, when many ranks have pieces; those of join_pieces().
 
 #include <span>
 #include <vector>
@@ -8,17 +8,17 @@
 
 namespace dmoscope {
 
-/// Which of all things a rank's things are.
+/// Numbers of a rank's things among all things.
 struct SharedNumbers {
   std::vector<WholeIndex> of_thing;  // by thing
-  std::vector<std::uint8_t> first;   // by thing: 1 where it stands for all of its number
-  Ranges ranges;                     // of the numbers
+  std::vector<std::uint8_t> first;   // by thing: 1 if it is the first of its number
+  Ranges ranges;                     // ranges of the numbers
 };
 
-/// Things of one id are one; they count in the order of the ids. The first of them, in the ranks' order, stands for all. All ranks
-/// together.
+/// Numbers things by their ids, in ascending order; things of one id are one. The first of them, in the ranks' order, represents all. To be
+/// called by all ranks together.
 [[nodiscard]] SharedNumbers number_by_id(const World& world, std::span<const std::uint64_t> ids);
-/// Those at one place, to the bit, are one; they count in the order of the ranks and of their things. All ranks together.
+/// Numbers places in the order of the ranks and of their things; places with the same bits are one. To be called by all ranks together.
 [[nodiscard]] SharedNumbers number_by_place(const World& world, std::span<const Vec3> places);
 
 }  // namespace dmoscope

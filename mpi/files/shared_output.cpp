@@ -16,7 +16,7 @@ SharedOutput::SharedOutput(const World& world, const std::filesystem::path& targ
     temporary = file_->temporary().string();
     if (temporary.empty()) throw OutputError(target.string(), "this is no file whose parts can be written");
     file_->reserve(size);
-    file_->finish();  // what room is made of must not come to a shared disk after the others' parts
+    file_->finish();  // the bytes that reserve room must not reach a shared disk after the others' parts
   });
   world.broadcast(temporary, 0);
   world.together([&] {

@@ -1,5 +1,5 @@
 #pragma once
-// One file that many ranks write parts of.
+// One file of which many ranks write parts.
 
 #include <cstdint>
 #include <filesystem>
@@ -13,18 +13,20 @@
 
 namespace dmoscope {
 
-/// A temporary file beside the target, which takes its name once all ranks have written their parts and these are on the disk. Written by
-/// plain system calls: Open MPI's own functions for files have reported success on a full disk. All ranks call all but write() together.
+/// A temporary file beside the target, renamed to it once all ranks have written their parts and these are on the disk. Written by plain
+/// system calls: Open MPI's own functions for files have reported success on a full disk. All members but write() are called by all ranks
+/// together.
 class SharedOutput {
  public:
-  /// Makes the temporary file, and room for it. Throws OutputError (as SharedError on all).
+  /// Makes the temporary file, and reserves room for it. Throws OutputError (as SharedError on all).
   SharedOutput(const World& world, const std::filesystem::path& target, std::uint64_t size);
   ~SharedOutput();
   SharedOutput(const SharedOutput&) = delete;
   SharedOutput& operator=(const SharedOutput&) = delete;
-  /// Writes a part; this rank alone. Throws OutputError.
+  /// Writes a part, from this rank alone. Throws OutputError.
   void write(std::uint64_t offset, std::string_view bytes);
-  /// Throws OutputError (as SharedError on all), with the target as it was. Returns, on rank 0, what replacing the target leaves undone.
+  /// Replaces the target by the temporary file. Throws OutputError (as SharedError on all), and leaves the target unchanged then. Returns,
+  /// on rank 0, sentences about content that replacing the target leaves behind.
   [[nodiscard]] std::vector<std::string> commit();
 
  private:

@@ -18,7 +18,7 @@ std::vector<std::string> TextMeshFile::write(const std::filesystem::path& target
   const RangeFile& file = open();
   world_.together([&] { file.require_unchanged(read); });
   LineBlock mine = lines(file);
-  TextBuffer out(mine.text.size() + 8 * positions.size());  // digits are added where short numbers move
+  TextBuffer out(mine.text.size() + 8 * positions.size());  // longer numbers may replace short ones
   const std::uint64_t offset = mine.offset;
   world_.together([&] {
     VertexLines before;
@@ -32,7 +32,7 @@ std::vector<std::string> TextMeshFile::write(const std::filesystem::path& target
     source.add_places(before.places);
     patch_part(out, target.string(), source, before.positions, positions);
   });
-  // What stands before the first line that was dealt out comes first.
+  // Starts with the head: the text before the first line that was dealt out.
   std::uint64_t head = offset;
   world_.broadcast(head, 0);
   const Ranges sizes = world_.ranges(out.text().size());

@@ -1,5 +1,5 @@
 #pragma once
-// Mesh files of lines: each rank reads the lines that begin in its part of the file, and writes them again.
+// Mesh files of lines: each rank reads the lines that begin in its part of the file, and writes them.
 
 #include <optional>
 #include <string_view>
@@ -14,13 +14,13 @@
 
 namespace dmoscope {
 
-/// The vertices of a rank's lines, and where their coordinates stand in its text.
+/// The vertices of a rank's lines, and the places of their coordinates in its text.
 struct VertexLines {
   std::vector<Vec3> positions;
   std::vector<std::uint64_t> places;
 };
 
-/// Bytes before the first vertex, title and comments included, that a rank looks at.
+/// Greatest number of bytes before the first vertex, title and comments included, that a rank reads.
 inline constexpr std::uint64_t kLongestHead = std::uint64_t{1} << 16U;
 
 class TextMeshFile : public SharedMeshFile {
@@ -30,15 +30,16 @@ class TextMeshFile : public SharedMeshFile {
   [[nodiscard]] std::vector<std::string> write(const std::filesystem::path& target, std::span<const Vec3> positions) final;
 
  protected:
-  /// The rank's lines; all ranks together.
+  /// Returns the rank's lines; all ranks together.
   [[nodiscard]] virtual LineBlock lines(const RangeFile& file) const = 0;
-  /// Adds the vertices of these, this rank alone; in the order of the block that read() gives.
+  /// Adds the vertices of lines, by this rank alone; in the order of the block of read().
   virtual void vertices(const LineBlock& lines, VertexLines& found) const = 0;
 
   /// Opens the file; read() calls it first.
   [[nodiscard]] const RangeFile& open();
   void close() { file_.reset(); }
-  /// Ranks take a line to end with a line feed. Throws InputError (as SharedError on all) where others count otherwise.
+  /// Checks the counts of lines: ranks take a line to end with a line feed. Throws InputError (as SharedError on all) if others count
+  /// otherwise.
   void require_counts(const MeshBlock& block, std::uint64_t vertices, std::uint64_t elements) const;
   [[nodiscard]] const World& world() const noexcept { return world_; }
   [[nodiscard]] std::string name() const { return path_.string(); }
@@ -50,7 +51,7 @@ class TextMeshFile : public SharedMeshFile {
     tokens.seek(0, first_line);
     visit(tokens);
   }
-  /// A number of things in the head. Throws InputError where an Index does not count them.
+  /// Reads a count from the head. Throws InputError if it exceeds an Index.
   [[nodiscard]] static std::uint64_t read_count(Tokenizer& tokens, std::string_view what) {
     const std::int64_t found = tokens.read_integer(what);
     if (found < 0 || found >= std::int64_t{kNoIndex}) tokens.fail(fmt::format("{} out of range: {}", what, found));
@@ -65,7 +66,7 @@ class TextMeshFile : public SharedMeshFile {
   std::int64_t stamp_ = 0;
 };
 
-/// Lines that hold more than blanks and a comment.
+/// Counts lines that hold more than blanks and a comment.
 [[nodiscard]] std::uint64_t count_data_lines(std::string_view text, char comment);
 
 }  // namespace dmoscope

@@ -1,4 +1,4 @@
-// VTU with raw appended data by many ranks: each reads and writes its parts of the arrays.
+// Reads and writes VTU with raw appended data by many ranks, each its parts of the arrays.
 
 #include <array>
 #include <cmath>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::string_view kHowToSave = "save it as raw appended data without compression, or as PVTU (dmoscope convert IN OUT.pvtu)";
 
-/// Numbers of an array: where they lie in the file, and how.
+/// Numbers of an array: their place in the file, and their type.
 struct RawArray {
   std::uint64_t begin = 0, count = 0;
   ScalarType type = ScalarType::Float64;
@@ -28,7 +28,7 @@ struct RawArray {
   [[nodiscard]] std::uint64_t at(std::uint64_t i) const { return begin + i * size_of(type); }
   template <class Number>
   [[nodiscard]] std::vector<Number> read(const RangeFile& file, std::uint64_t first, std::uint64_t last) const {
-    constexpr std::uint64_t kAtOnce = std::uint64_t{1} << 20U;  // numbers
+    constexpr std::uint64_t kAtOnce = std::uint64_t{1} << 20U;  // numbers read at a time
     std::vector<Number> values;
     values.reserve(last - first);
     for (std::uint64_t i = first; i < last; i += kAtOnce) {
@@ -135,7 +135,7 @@ class VtuFile final : public SharedMeshFile {
     require_own_points(document);
   }
 
-  /// Writers may let arrays share their data; moved points would then move in the others, too.
+  /// Throws if another array shares the points' data, as the format allows: it would change with the points.
   void require_own_points(const VtuDocument& document) const {
     const std::uint64_t end = points_.at(3 * points_count_);
     for (const VtuDocument::Appended& other : document.appended())
@@ -214,7 +214,7 @@ class VtuFile final : public SharedMeshFile {
     }
   }
 
-  /// All but the points, which others write: on a shared disk no byte may be written twice.
+  /// Copies all but the points, which others write: on a shared disk no byte may be written twice.
   void copy(SharedOutput& output) const {
     const std::uint64_t begin = points_.begin, end = points_.at(3 * points_count_);
     const Ranges bytes(file_->size() - (end - begin), world_.size());

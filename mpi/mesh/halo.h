@@ -1,5 +1,5 @@
 #pragma once
-// Whom a rank tells where its vertices stand, and who tells it.
+// Exchange of the positions of shared vertices between ranks.
 
 #include <span>
 #include <vector>
@@ -13,16 +13,16 @@ class Halo {
  public:
   struct Neighbour {
     int rank;
-    std::vector<Index> send;     // owned vertices that the other rank has in its share, ascending
+    std::vector<Index> send;     // owned vertices in the other rank's share, ascending
     std::vector<Index> receive;  // the other's vertices in this share, ascending: its `send`, in the same order
   };
-  /// All ranks together.
+  /// Finds the neighbours; all ranks together.
   Halo(const World& world, const Share& share);
   [[nodiscard]] std::span<const Neighbour> neighbours() const noexcept { return neighbours_; }
-  /// Vertices of others in this share.
+  /// Number of others' vertices in this share.
   [[nodiscard]] std::uint64_t size() const noexcept { return size_; }
 
-  /// Values by vertex: those of others' vertices become what their owners have.
+  /// Updates values by vertex: those of others' vertices become their owners' values.
   template <Plain T>
   void agree(std::span<T> values) const {
     constexpr int kTag = 21;

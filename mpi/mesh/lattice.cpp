@@ -7,9 +7,9 @@
 namespace dmoscope {
 namespace {
 
-constexpr double kJitter = 0.35;  // of the distance of neighbours
+constexpr double kJitter = 0.35;  // share of the distance of neighbours
 
-/// A number in [-1, 1) that depends on these two alone.
+/// Returns a number in [-1, 1) that depends on the arguments alone.
 double noise(WholeIndex vertex, std::uint64_t axis) {
   std::uint64_t x = vertex * 3 + axis + 0x9e3779b97f4a7c15U;
   x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
@@ -55,7 +55,7 @@ class Lattice {
         step[kOrders[t][s]] = 1;
         corners[s + 1] = at(step[0], step[1], step[2]);
       }
-      if (t >= 3) std::swap(corners[1], corners[2]);  // odd orders are inside out
+      if (t >= 3) std::swap(corners[1], corners[2]);  // odd permutations are inside out
       add_element(block, ElementKind::Tetrahedron, corners);
     }
   }

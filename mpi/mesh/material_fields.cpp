@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kLargestWhole = 9e15;
 
-/// How many different values the field has on all ranks; 0 where one of them is no whole number.
+/// Counts the different values of the field on all ranks; 0 if one of them is not a whole number.
 std::uint64_t count_different(const World& world, const BlockField& field) {
   std::vector<double> values = field.values;
   std::ranges::sort(values);
@@ -21,7 +21,7 @@ std::uint64_t count_different(const World& world, const BlockField& field) {
   // Equal values meet on one rank.
   std::vector<std::vector<double>> to(static_cast<std::size_t>(world.size()));
   for (const double value : values) {
-    const std::uint64_t mixed = std::bit_cast<std::uint64_t>(value + 0.0) * 0x9e3779b97f4a7c15U;  // + 0.0: of one zero
+    const std::uint64_t mixed = std::bit_cast<std::uint64_t>(value + 0.0) * 0x9e3779b97f4a7c15U;  // + 0.0 turns -0 into 0
     to[(mixed >> 32U) % to.size()].push_back(value + 0.0);
   }
   std::vector<double> here = world.exchange(to).values;

@@ -1,5 +1,5 @@
 #pragma once
-// Which of a block's fields tell materials apart.
+// Choice of a block's fields that tell materials apart.
 
 #include <vector>
 
@@ -7,8 +7,8 @@
 
 namespace dmoscope {
 
-/// Numbers of block.fields, by the rules of materials.h and interfaces.h over the whole mesh: those that name materials or, where none
-/// does, parts of the geometry; of these only such as have different values.
+/// Returns numbers of block.fields, by the rules of materials.h and interfaces.h over the whole mesh: those that name materials or, if
+/// there are none, parts of the geometry; of these only fields with different values.
 [[nodiscard]] std::vector<std::size_t> material_fields(const World& world, const MeshBlock& block);
 
 }  // namespace dmoscope

@@ -1,5 +1,5 @@
 #pragma once
-// What each rank has read of a mesh: consecutive vertices and consecutive elements, of which neither need touch the other.
+// A rank's part of a mesh file: consecutive vertices and consecutive elements, of which neither need touch the other.
 
 #include <cstdint>
 #include <string>
@@ -13,7 +13,7 @@ namespace dmoscope {
 /// Numbers of vertices and elements of a whole mesh, which may have more of them than an Index counts.
 using WholeIndex = std::uint64_t;
 
-/// One number for each vertex or element of the block, which the file carried.
+/// One number of the file for each vertex or element of the block.
 struct BlockField {
   std::string name;
   Field::On on = Field::On::Elements;
@@ -27,20 +27,20 @@ struct VertexString {
 };
 
 struct MeshBlock {
-  Ranges vertices, elements;        // which rank has which
-  std::vector<Vec3> positions;      // of this rank's vertices
-  std::vector<ElementKind> kinds;   // of its elements
-  std::vector<WholeIndex> corners;  // likewise, element after element, in our order
-  std::vector<BlockField> fields;   // those that were asked for, see FieldFilter
+  Ranges vertices, elements;        // the ranks' ranges
+  std::vector<Vec3> positions;      // positions of this rank's vertices
+  std::vector<ElementKind> kinds;   // kinds of this rank's elements
+  std::vector<WholeIndex> corners;  // corners of this rank's elements, one after the other, in the program's order
+  std::vector<BlockField> fields;   // those that FieldFilter selects
   std::vector<VertexString> strings;
   bool single_precision = false;  // see Mesh
 };
 
-/// Deals a block's vertices and elements out evenly, in their order: of a text the first ranks have read all vertices, and the last ones
-/// all elements. All ranks together.
+/// Deals the vertices and elements of all blocks out evenly, in their order: after reading a text the first ranks have all vertices, and
+/// the last ones all elements. To be called by all ranks together.
 void spread_evenly(const World& world, MeshBlock& block);
 
-/// Which of a file's numbers are wanted: those that name materials, and those of these names.
+/// Selection of a file's fields: those that name materials, and those of these names.
 struct FieldFilter {
   std::vector<std::string> names;
   [[nodiscard]] bool wants(const std::string& name, Field::On on) const;

@@ -24,7 +24,7 @@ PartitionChoice parse_partition(const std::string& word) {
 
 namespace {
 
-/// The vertices' places along the curve, cut into stretches of about as many vertices.
+/// Cuts the vertices' order along the curve into stretches of about equal numbers.
 std::vector<int> along_curve(const World& world, const MeshBlock& block) {
   const PointBox box = world.around_all(box_of(block.positions));
   const HilbertCurve curve(box.low, box.high);
@@ -33,7 +33,7 @@ std::vector<int> along_curve(const World& world, const MeshBlock& block) {
   std::vector<std::uint64_t> sorted = keys;
   std::ranges::sort(sorted);
 
-  // Where the ranks' stretches begin: for each the least key below which there are enough, bit by bit and all at once.
+  // Starts of the ranks' stretches: for each the least key below which there are enough, found bit by bit and all at once.
   const auto cuts = static_cast<std::size_t>(world.size() - 1);
   const Ranges wanted(block.vertices.size(), world.size());
   std::vector<std::uint64_t> cut(cuts, 0), below(cuts);

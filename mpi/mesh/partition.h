@@ -1,5 +1,5 @@
 #pragma once
-// Which rank gets which vertex.
+// Partition of the vertices among ranks.
 
 #include <filesystem>
 #include <string>
@@ -9,17 +9,17 @@
 
 namespace dmoscope {
 
-/// How vertices are dealt to ranks. No result depends on it, only how much the ranks have to tell each other.
+/// Choice of a partition. No result depends on it, only how much the ranks communicate.
 struct PartitionChoice {
   enum class Kind { Hilbert, Block, File };
-  Kind kind = Kind::Hilbert;  // pieces of a Hilbert curve; or in the order of the mesh; or as a file says
+  Kind kind = Kind::Hilbert;  // stretches of a Hilbert curve; of the mesh's order; ranks that a file gives
   std::filesystem::path file{};
 };
-/// "hilbert", "block" or "file:PATH". Throws UsageError.
+/// Parses "hilbert", "block" or "file:PATH". Throws UsageError.
 [[nodiscard]] PartitionChoice parse_partition(const std::string& word);
 
-/// The rank of each vertex of the block, which is spread evenly. Of Kind::File: one number a line, a vertex each, taken modulo the number
-/// of ranks. Throws InputError with file and line.
+/// Returns the rank of each vertex of the block, which is spread evenly. Kind::File: the file has one number a line, for a vertex each,
+/// taken modulo the number of ranks. Throws InputError with file and line.
 [[nodiscard]] std::vector<int> partition(const World& world, const MeshBlock& block, const PartitionChoice& choice);
 
 }  // namespace dmoscope

@@ -18,11 +18,11 @@ void release(std::vector<T>& values) {
   std::vector<T>().swap(values);
 }
 
-/// Places in an ascending list; fast where what is asked for lies near what was asked before.
+/// Search in an ascending list, fast for numbers near the one before.
 class NearSearch {
  public:
   explicit NearSearch(std::span<const WholeIndex> list) : list_(list) {}
-  /// The place of a number that is in the list.
+  /// Returns the place of a number that is in the list.
   Index find(WholeIndex number) {
     std::size_t low = at_, high = at_, step = 1;
     if (list_[at_] < number) {
@@ -62,7 +62,7 @@ void add_once(std::vector<WholeIndex>& all, std::span<const WholeIndex> numbers,
   }
 }
 
-/// All numbers of these lists, each once. `most`: no number is greater.
+/// Returns all numbers of these lists, sorted, each once. `most`: no number is greater.
 std::vector<WholeIndex> sorted_once(std::initializer_list<std::span<const WholeIndex>> lists, WholeIndex most) {
   const auto bits = static_cast<unsigned>(std::bit_width(most));
   std::vector<WholeIndex> all;
@@ -88,7 +88,7 @@ class OwnersOfElement {
   std::size_t count_ = 0;
 };
 
-/// Sends the block's elements to all that own one of their corners.
+/// Sends the block's elements to all ranks that own one of their corners.
 class ElementDealer {
  public:
   ElementDealer(const World& world, MeshBlock& block, const std::vector<int>& part) : world_(world), block_(block) {
@@ -106,7 +106,7 @@ class ElementDealer {
       to_offsets_.push_back(to_.size());
     }
   }
-  /// What `of(element, put)` puts for each of its elements, sent to the ranks that get it.
+  /// Sends the values that `of(element, put)` puts for each element to the ranks that get the element.
   template <Plain T, class Of>
   [[nodiscard]] std::vector<T> deal(const Of& of) const {
     Dealer<T> dealer(world_.size());
@@ -174,7 +174,7 @@ class ShareMaker {
     release(block_.fields);
   }
 
-  /// Those that are owned, and the other corners.
+  /// Collects the owned vertices and the other corners of elements.
   void vertices() {
     const WholeIndex first = block_.vertices.begin(world_.rank());
     Dealer<WholeIndex> dealer(world_.size());
@@ -220,7 +220,7 @@ class ShareMaker {
     release(corners_);
   }
 
-  /// A group for each value of each field that names materials, and one for each string.
+  /// Makes a group for each value of each field that names materials, and one for each string.
   void groups() {
     for (std::size_t f = 0; f < materials_.size(); ++f) {
       std::map<double, std::vector<Index>> members;
@@ -245,7 +245,7 @@ class ShareMaker {
   Share share_;
   std::vector<ElementKind> kinds_;
   std::vector<WholeIndex> corners_;
-  std::vector<double> labels_;  // of each element in turn, one a field
+  std::vector<double> labels_;  // element after element, one label a field
   std::vector<std::uint8_t> element_marks_;
 };
 

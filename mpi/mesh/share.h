@@ -10,24 +10,24 @@
 namespace dmoscope {
 
 struct Share {
-  std::uint64_t vertex_count = 0, element_count = 0;  // of the whole mesh
+  std::uint64_t vertex_count = 0, element_count = 0;  // counts of the whole mesh
   std::vector<WholeIndex> vertices, elements;         // numbers in the whole mesh, ascending, by vertex and element of the share
-  std::vector<int> owner;                             // by vertex: a rank
-  std::vector<std::uint8_t> home;                     // by element: 1 where this rank counts it, as one rank does
-  std::vector<std::uint8_t> named;                    // by vertex, of owned ones: 1 where the block's marks said so; empty: none
+  std::vector<int> owner;                             // by vertex: its owner's rank
+  std::vector<std::uint8_t> home;                     // by element: 1 on the one rank that counts it
+  std::vector<std::uint8_t> named;                    // by vertex: 1 if owned and marked in the block; empty: none
   Mesh mesh;                                          // without fields; its groups of elements tell materials apart
-  /// The share's number of a vertex of the whole mesh; kNoIndex: it has none.
+  /// Returns the share's number of a vertex of the whole mesh; kNoIndex: it is not in the share.
   [[nodiscard]] Index find_vertex(WholeIndex vertex) const;
 };
 
-/// Marks of a block's vertices and elements: those that a person names. Empty: none.
+/// Marks of a block's vertices and elements that the user named. Empty: none.
 struct BlockMarks {
   std::vector<std::uint8_t> vertices, elements;
   [[nodiscard]] bool any() const noexcept { return !vertices.empty() || !elements.empty(); }
 };
 
-/// `part`: the rank of each of the block's vertices; `materials`: numbers of block.fields. Takes the block's contents, but for the ranges.
-/// Throws InputError where a share has more than an Index counts.
+/// Makes the rank's share. `part`: the rank of each of the block's vertices; `materials`: numbers of block.fields. Moves the block's
+/// contents out, but for the ranges. Throws InputError if a share has more vertices or elements than an Index counts.
 [[nodiscard]] Share make_share(const World& world, MeshBlock& block, const std::vector<int>& part, std::span<const std::size_t> materials,
                                const BlockMarks& marks);
 

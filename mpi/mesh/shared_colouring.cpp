@@ -19,12 +19,12 @@ class Colourer {
     for (Index v = 0; v < waits_for_.size(); ++v) {
       if (!is_mine(v)) continue;
       ++left_;
-      // Each corner of each element counts: it is counted down as often.
+      // A neighbour counts once for each corner of each element, as often as it is counted down.
       for_others(v, [&](Index other) { waits_for_[v] += other < v && fixed_[other] == 0 ? 1U : 0U; });
       if (waits_for_[v] == 0) ready_.push_back(v);
     }
-    std::ranges::reverse(ready_);  // from the back, the first vertex first
-    // Whether all are done is asked ever more seldom: it takes as long as a round.
+    std::ranges::reverse(ready_);  // taken from the back, the first vertex first
+    // The test whether all are done is made ever more seldom: it takes as long as a round.
     for (std::uint64_t next_question = 0;;) {
       if (found_.rounds >= next_question) {
         if (!world_.any(left_ > 0)) break;
@@ -64,7 +64,7 @@ class Colourer {
     }
   }
 
-  /// The vertices behind it need wait for it no longer.
+  /// Sets a vertex's colour; free neighbours after it wait for one fewer.
   void set(Index v, Index colour) {
     found_.of_vertex[v] = colour;
     for (Index i = first_listener_[v]; i < first_listener_[v + 1]; ++i)
@@ -100,7 +100,7 @@ class Colourer {
     return static_cast<int>(values.size() * sizeof(T));
   }
 
-  /// Where each owned vertex stands in the neighbours' lists.
+  /// Finds the place of each owned vertex in the neighbours' lists.
   void find_listeners() {
     const auto neighbours = halo_.neighbours();
     news_.resize(neighbours.size());
@@ -119,7 +119,7 @@ class Colourer {
     std::uint32_t neighbour, place;
   };
   struct News {
-    std::uint32_t place;  // in the neighbour's list
+    std::uint32_t place;  // place in the neighbour's list
     Index colour;
   };
   const World& world_;
@@ -129,11 +129,11 @@ class Colourer {
   const Topology& topology_;
   std::span<const std::uint8_t> fixed_;
   SharedColours found_;
-  std::vector<std::uint32_t> waits_for_;  // by vertex: corners of its star's elements that have to be coloured first
+  std::vector<std::uint32_t> waits_for_;  // by vertex: corners of its star's elements that are to be coloured before it
   std::vector<Index> ready_, taken_by_;
-  std::vector<Index> first_listener_;  // by vertex, into listeners_
+  std::vector<Index> first_listener_;  // by vertex: start of its stretch in listeners_
   std::vector<Listener> listeners_;
-  std::vector<std::vector<News>> news_, from_;  // for each neighbour, and room for its own
+  std::vector<std::vector<News>> news_, from_;  // one list for each neighbour to send, and one to receive
   std::uint64_t left_ = 0;
   Index classes_ = 0;
 };

@@ -10,8 +10,8 @@
 namespace dmoscope {
 namespace {
 
-/// A set of elements that hang together within a share: by its lowest element in the whole mesh and the rank, for many ranks may know sets
-/// with one lowest element.
+/// Name of a set of connected elements of a share: its lowest element in the whole mesh and the rank, since sets of several ranks may have
+/// one lowest element.
 struct SetName {
   WholeIndex lowest;
   std::uint64_t rank;
@@ -19,13 +19,13 @@ struct SetName {
   friend auto operator<=>(const SetName&, const SetName&) = default;
 };
 
-/// What a rank knows of one of its sets: the votes of those elements that it counts, were the lowest to keep its winding.
+/// Votes of a set's elements that the rank counts, for the lowest element to keep its winding.
 struct SetVotes {
   SetName set;
   WindingVote vote;
 };
 
-/// Two sets of different ranks have an element in common.
+/// A pair of sets of different ranks with an element in common.
 struct Common {
   SetName here, there;
   std::uint64_t against;  // 1: their lowest elements are wound against each other
@@ -36,7 +36,7 @@ class Orienter {
   Orienter(const World& world, const Share& share, Mesh& mesh, const Geometry& geometry)
       : world_(world), share_(share), mesh_(mesh), geometry_(geometry), sets_(mesh.elements.size()) {}
 
-  /// Of edges and faces alone that have an owned corner all elements are known.
+  /// Relates elements across edges and faces with an owned corner: of these alone all elements are known.
   void relate(const Topology& topology) {
     for_each_edge(mesh_, topology, [&](Edge edge, std::span<const EdgeSide> sides) {
       if (sides.size() != 2 || sides[0].element == sides[1].element || (!is_owned(edge.low) && !is_owned(edge.high))) return;
@@ -73,7 +73,7 @@ class Orienter {
                                             : 0.5 * dot(area_vector(mesh_, e, geometry_.plane), geometry_.plane.normal);
   }
 
-  /// Of each of this share's sets.
+  /// Votes of each set of this share.
   [[nodiscard]] std::vector<SetVotes> votes_here() {
     std::unordered_map<Index, WindingVote> votes;
     for (Index e = 0; e < mesh_.elements.size(); ++e) {
@@ -87,7 +87,7 @@ class Orienter {
     return all;
   }
 
-  /// Each rank asks the one that counts an element which set it has it in.
+  /// Finds the common sets: each rank asks the one that counts an element for its set there.
   [[nodiscard]] std::vector<Common> sets_in_common() {
     struct Known {
       WholeIndex element;
@@ -117,11 +117,11 @@ class Orienter {
     return all;
   }
 
-  /// On rank 0: joins the ranks' sets; on all: the names of those whose lowest element is to be turned over.
+  /// Joins the ranks' sets on rank 0 and returns, on all ranks, the names of those whose lowest element is to be turned over.
   [[nodiscard]] std::vector<SetName> decide(const std::vector<SetVotes>& votes, const std::vector<Common>& common) {
     std::vector<SetName> turned;
     world_.together([&] {
-      // By their lowest elements: the root of a joined set is the lowest of all.
+      // Sorted by their lowest elements: the root of a joined set is the lowest of all.
       std::vector<SetVotes> sorted = votes;
       std::ranges::sort(sorted, {}, &SetVotes::set);
       const auto number = [&](const SetName& set) {

@@ -11,7 +11,7 @@
 namespace dmoscope {
 namespace {
 
-/// Calls visit(part) for what stands between commas.
+/// Calls visit(part) for each part between commas.
 template <class Visit>
 void each_part(std::string_view text, const Visit& visit) {
   for (std::size_t at = 0; at <= text.size();) {

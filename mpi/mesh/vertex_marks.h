@@ -1,5 +1,5 @@
 #pragma once
-// Vertices that a person names, in a mesh that many ranks have.
+// Vertices that the user names, in a mesh that ranks share.
 
 #include <string>
 #include <vector>
@@ -8,33 +8,34 @@
 
 namespace dmoscope {
 
-/// How such words are written, in one line for --help: those of vertex_words.h but for groups other than strings.
+/// Forms of such words, in one line for --help: those of vertex_words.h but for groups other than strings.
 inline constexpr std::string_view kSharedVertexWords =
     "ids from 0 and ranges (3,7-9 or vertices:3,7-9), a boundary string of a fort.14 (group:NAME), those with some number in the file's "
     "data "
     "(mat_id=3,5, of elements or points), or those in a box (box:X0,Y0,X1,Y1 or box:X0,Y0,Z0,X1,Y1,Z1)";
 
-/// Words, read but not yet looked up.
+/// Words that were parsed, but not yet looked up.
 class SharedVertexWords {
  public:
-  /// Throws UsageError, which begins with the word.
+  /// Parses the words. Throws UsageError, which begins with the word.
   explicit SharedVertexWords(const std::vector<std::string>& words);
-  /// The fields that the words speak of.
+  /// The fields that the words need.
   [[nodiscard]] FieldFilter fields() const;
-  /// All ranks together. Throws UsageError (as SharedError on all) for a word that names nothing.
+  /// Finds the vertices and elements that the words name; all ranks together. Throws UsageError (as SharedError on all) for a word that
+  /// names nothing.
   [[nodiscard]] BlockMarks find(const World& world, const MeshBlock& block) const;
 
  private:
   struct Range {
     WholeIndex first, last;
   };
-  /// One word: one of these.
+  /// One word; one of the members is set.
   struct Word {
     std::string text;
     std::vector<Range> ranges{};
     std::string group{}, field{};
-    std::vector<double> values{};  // of the field
-    std::vector<double> box{};     // low then high, 4 or 6 numbers
+    std::vector<double> values{};  // values of the field
+    std::vector<double> box{};     // low corner, then high corner: 4 or 6 numbers
   };
   static Word read(const std::string& text);
   static void read_list(Word& word, std::string_view list);

@@ -52,14 +52,14 @@ void RangeFile::require_unchanged(std::int64_t stamp) const {
 
 namespace {
 
-/// Does a line end here at which a text may be cut? `text[at]` is the line feed.
+/// Whether a line ends here at which a text may be cut. `text[at]` is the line feed.
 bool may_cut(const std::string& text, std::size_t at, bool joined) {
   if (!joined) return true;
   const std::size_t before = at > 0 && text[at - 1] == '\r' ? at - 1 : at;
   return before == 0 || text[before - 1] != '\\';
 }
 
-/// The begin of the first line that starts at `offset` or later.
+/// The start of the first line that starts at `offset` or later.
 std::uint64_t next_line(const RangeFile& file, std::uint64_t offset, std::uint64_t begin, bool joined) {
   constexpr std::uint64_t kLook = 4096, kBack = 2;
   if (offset <= begin) return begin;
@@ -85,7 +85,7 @@ LineBlock read_lines(const World& world, const RangeFile& file, std::uint64_t be
     block.text = file.read(first, last - first);
   });
   std::uint64_t before = 0;
-  world.together([&] {  // what stands before the first line that is dealt out
+  world.together([&] {  // the text before the first line that is dealt out
     if (!world.is_first()) return;
     const std::string head = file.read(0, begin);
     before = static_cast<std::uint64_t>(std::ranges::count(head, '\n'));

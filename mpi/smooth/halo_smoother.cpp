@@ -52,13 +52,13 @@ class HaloSmoother final : public Smoother {
       : world_(world), plan_(plan), here_(std::move(here)), colouring_(std::move(colouring)), cost_(cost) {}
 
   void begin(const Sweep& sweep) override { here_->begin(sweep); }
-  /// The ranks' classes end in the same order everywhere, however a rank cuts its iteration into calls.
+  /// Visits vertices; the ranks' classes end in the same order everywhere, however a rank cuts its iteration into calls.
   std::uint64_t visit(std::uint64_t first, std::uint64_t count, std::span<Vec3> positions, ThreadPool* pool) override {
     const std::uint64_t last = first + count, whole = colouring_->order.size(), parts = 2 * plan_.classes.size();
     if (first == 0) {
       part_ = told_ = 0;
       searched_before_ = here_->searched();
-      static_cast<void>(here_->visit(0, 0, positions, pool));  // so that it knows the positions, even where it visits nobody
+      static_cast<void>(here_->visit(0, 0, positions, pool));  // tells the smoother the positions, even if it visits no vertex
     }
     std::uint64_t moved = 0;
     for (std::uint64_t at = first; part_ < parts; ++part_) {
@@ -79,7 +79,8 @@ class HaloSmoother final : public Smoother {
  private:
   static constexpr int kTag = 31;
 
-  /// After a class's first part its shared vertices are sent, after its second those of others are awaited: in between there is work.
+  /// Ends a part of a class: after the first the shared vertices are sent, after the second those of others are awaited, with work in
+  /// between.
   void end_part(std::span<Vec3> positions) {
     const HaloPlan::Exchange& exchange = plan_.classes[part_ / 2];
     if (exchange.neighbours.empty()) return;
@@ -115,7 +116,7 @@ class HaloSmoother final : public Smoother {
     requests_.clear();
     here_->take(exchange.receive, came_, positions);
   }
-  /// How many moved on all ranks.
+  /// Returns how many vertices moved on all ranks.
   std::uint64_t end_iteration() {
     const auto searched = here_->searched();
     std::array<std::uint64_t, 3> all{told_, searched && searched_before_ ? *searched - *searched_before_ : 0, searched ? 0U : 1U};
@@ -129,7 +130,7 @@ class HaloSmoother final : public Smoother {
   std::unique_ptr<Smoother> here_;
   std::shared_ptr<const Colouring> colouring_;
   HaloCost& cost_;
-  std::uint64_t part_ = 0, told_ = 0;  // of the iteration: the part under way, and moves that the caller knows
+  std::uint64_t part_ = 0, told_ = 0;  // the present part of the iteration, and moves that the caller knows of
   std::optional<std::uint64_t> searched_ = 0, searched_before_;
   std::vector<Vec3> sent_, came_;
   std::vector<MPI_Request> requests_;

@@ -31,7 +31,7 @@ Colouring RankShare::colour(const Mesh& mesh, const Geometry& geometry, const To
   std::vector<std::uint8_t> awaited(share_.vertices.size(), 0);
   for (const Halo::Neighbour& neighbour : halo_.neighbours())
     for (const Index v : neighbour.send) awaited[v] = 1;
-  // A counting sort by class and, within it, those that others wait for first.
+  // Counting sort by class; within a class, vertices that others wait for come first.
   Colouring colouring;
   colouring.class_offsets.assign(2 * std::size_t{colours_.classes} + 1, 0);
   const auto part = [&](Index v) { return 2 * std::size_t{colours_.of_vertex[v]} + (awaited[v] != 0 ? 0U : 1U); };

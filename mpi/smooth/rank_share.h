@@ -1,5 +1,5 @@
 #pragma once
-// A rank's share of a mesh as core asks for it.
+// A rank's share of a mesh, by the interface that core uses.
 
 #include <memory>
 
@@ -13,7 +13,7 @@ namespace dmoscope {
 
 class RankShare final : public MeshShare {
  public:
-  /// All ranks together. Takes all of the share but its mesh.
+  /// Takes all of the share but its mesh; all ranks together.
   RankShare(const World& world, Share share);
 
   [[nodiscard]] std::uint64_t element_count() const noexcept override { return share_.element_count; }
@@ -39,9 +39,9 @@ class RankShare final : public MeshShare {
   [[nodiscard]] const Share& share() const noexcept { return share_; }
   [[nodiscard]] const Halo& halo() const noexcept { return halo_; }
   [[nodiscard]] const SharedStatistics& sums() const noexcept { return statistics_; }
-  /// Of the last colour(): bytes that an iteration sends from here, classes of the mesh, rounds that the colouring took.
+  /// Figures of the last colour(): bytes that an iteration sends from here, classes of the mesh, rounds of the colouring.
   [[nodiscard]] std::uint64_t bytes_sent() const { return plan_.bytes(); }
-  /// Of all smoothers so far.
+  /// Time of all smoothers so far.
   [[nodiscard]] const HaloCost& cost() const noexcept { return cost_; }
   [[nodiscard]] Index classes() const noexcept { return colours_.classes; }
   [[nodiscard]] std::uint64_t rounds() const noexcept { return colours_.rounds; }

@@ -11,13 +11,13 @@ struct Element {
   double jacobian = 0.0;
   WholeIndex number = ~WholeIndex{0};
   bool inside_alone = false;
-  Vec3 inside{};  // likewise: where
+  Vec3 inside{};  // the place inside, if inside_alone
 };
 struct Vertex {
   std::uint64_t around = 0, fixed = 0;
   WholeIndex number = ~WholeIndex{0};
   Vec3 place{};
-  /// Comes before another as one to look at.
+  /// Whether it is a better example than another.
   [[nodiscard]] bool before(const Vertex& other) const {
     return std::tuple(other.around, other.fixed, number) < std::tuple(around, fixed, other.number);
   }

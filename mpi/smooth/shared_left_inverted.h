@@ -1,5 +1,5 @@
 #pragma once
-// What a person should look at where elements of a mesh that ranks share stay inverted.
+// Examples of elements that stay inverted in a mesh that ranks share.
 
 #include <optional>
 
@@ -8,9 +8,9 @@
 
 namespace dmoscope {
 
-/// Of all ranks together, on all; numbers are those of the whole mesh.
+/// Counts the inverted elements of all ranks, on all ranks together; numbers are those of the whole mesh.
 [[nodiscard]] InvertedCount count_inverted(const QualityContext& context, PositionView positions, const RankShare& share);
-/// As find_left_inverted() has it, with numbers of the whole mesh; on all ranks. None where no element is inverted. All ranks together.
+/// Finds the examples of find_left_inverted(), with numbers of the whole mesh, on all ranks together. None if no element is inverted.
 [[nodiscard]] std::optional<LeftInverted> find_left_inverted(const Run& run, const RankShare& share);
 
 }  // namespace dmoscope

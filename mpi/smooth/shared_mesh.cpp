@@ -13,7 +13,7 @@
 namespace dmoscope {
 namespace {
 
-/// The whole mesh's geometry, which classify() finds for one process.
+/// Finds the whole mesh's geometry, as classify() does for one process.
 Geometry classify_shares(const World& world, const Mesh& mesh, const std::string& file) {
   PointBox own;
   for (const Index v : mesh.elements.all_corners()) own.add(mesh.positions[v]);
@@ -71,7 +71,7 @@ SharedFindings find(const World& world, const RankShare& share, const InputMesh&
   return findings;
 }
 
-/// Elements that have a corner several times as the simpler kinds that they are, as one process takes them; how many all ranks have.
+/// Takes elements with repeated corners as the simpler kinds that they are, as one process does. Returns how many all ranks have.
 CollapsedKinds take_simpler_kinds(const World& world, MeshBlock& block) {
   CollapsedKinds here;
   if (any_collapsed<WholeIndex>(block.kinds, block.corners)) {
@@ -128,7 +128,7 @@ SharedMesh share_block(const World& world, MeshBlock block, const std::filesyste
     if (block.elements.size() == 0) throw InputError(path.string(), 0, "the file holds no elements");
   });
   SharedMesh shared;
-  shared.vertices = block.vertices;  // as the file has them
+  shared.vertices = block.vertices;  // with the ranges of the file
   const CollapsedKinds collapsed = take_simpler_kinds(world, block);
   spread_evenly(world, block);
   const BlockMarks marks = named.find(world, block);

@@ -1,5 +1,5 @@
 #pragma once
-// From a file to the shares of its mesh that ranks smooth, and back.
+// Loading of a mesh file as shares that ranks smooth, and the way back.
 
 #include <filesystem>
 #include <memory>
@@ -14,7 +14,7 @@
 
 namespace dmoscope {
 
-/// What a person should know of the whole mesh; counts, each with the lowest number of such an element.
+/// Findings about the whole mesh for the user: counts, each with the lowest number of such an element.
 struct SharedFindings {
   struct Some {
     std::uint64_t count = 0;
@@ -24,28 +24,28 @@ struct SharedFindings {
   std::uint64_t flipped = 0, held = 0;  // elements turned over; vertices on interfaces
   bool volume = false;
   CollapsedKinds collapsed{};
-  /// One sentence a finding, as MeshReport has them.
+  /// One sentence per finding, as in MeshReport.
   [[nodiscard]] std::vector<std::string> sentences() const;
 };
 
 struct SharedMesh {
   std::shared_ptr<const RankShare> share;
-  std::shared_ptr<const InputMesh> input;  // of the share
-  std::vector<Index> named;                // owned vertices that a person named
+  std::shared_ptr<const InputMesh> input;  // mesh of the share
+  std::vector<Index> named;                // owned vertices that the user named
   SharedFindings findings;
-  Ranges vertices;  // of the block that positions_of_block() fills
+  Ranges vertices;  // ranges of the block that positions_of_block() fills
 };
 
-/// All ranks together. Throws InputError for meshes that ranks cannot share: curved surfaces, planar meshes of no coordinate plane, and
-/// those that wrap around the Earth; and what reading throws (as SharedError on all).
+/// Loads the file, all ranks together. Throws InputError for meshes that ranks cannot share: curved surfaces, planar meshes of no
+/// coordinate plane, and those that wrap around the Earth; and errors of reading (as SharedError on all).
 [[nodiscard]] SharedMesh load_shared(const World& world, SharedMeshFile& file, const std::filesystem::path& path,
                                      const PartitionChoice& partition, const SharedVertexWords& named, Need need);
 
-/// The same of a block that was had another way.
+/// Makes the shares of a block that was not read from a file, as load_shared() does.
 [[nodiscard]] SharedMesh share_block(const World& world, MeshBlock block, const std::filesystem::path& path,
                                      const PartitionChoice& partition, const SharedVertexWords& named, Need need);
 
-/// Where the vertices of this rank's block stand. `positions`: of the share. All ranks together.
+/// Returns the positions of this rank's block. `positions`: of the share. To be called by all ranks together.
 [[nodiscard]] std::vector<Vec3> positions_of_block(const SharedMesh& mesh, std::span<const Vec3> positions);
 
 }  // namespace dmoscope

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::uint64_t kSign = std::uint64_t{1} << 63U;
 
-/// Whole numbers in the order of the doubles.
+/// Converts back from whole numbers that have the order of the doubles.
 double double_of(std::uint64_t key) { return std::bit_cast<double>((key & kSign) != 0 ? key ^ kSign : ~key); }
 
 std::uint64_t key_of(double value) {
@@ -19,7 +19,7 @@ std::uint64_t key_of(double value) {
 }  // namespace
 
 std::vector<double> values_of_ranks(const World& world, std::span<const double> here, std::span<const std::uint64_t> ranks) {
-  // Bit by bit, the greatest key of which no more than `rank` values lie below.
+  // Finds the keys bit by bit: each is the greatest with no more than `rank` values below it.
   std::vector<std::uint64_t> keys(ranks.size(), 0), below(ranks.size());
   for (std::uint64_t bit = kSign; bit > 0; bit >>= 1U) {
     for (std::size_t i = 0; i < keys.size(); ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-// Values that many ranks have, in order.
+// Order statistics of values that ranks share.
 
 #include <cstdint>
 #include <span>
@@ -9,8 +9,8 @@
 
 namespace dmoscope {
 
-/// The values of these ranks, from 0, among all. `here`: this rank's, ascending, none of them NaN; each of `ranks` below the number of all.
-/// All ranks of the world together.
+/// Returns the values of these ranks, from 0, among all values. `here`: this rank's, ascending, none of them NaN; each of `ranks` is below
+/// the number of all. To be called by all ranks of the world together.
 [[nodiscard]] std::vector<double> values_of_ranks(const World& world, std::span<const double> here, std::span<const std::uint64_t> ranks);
 
 }  // namespace dmoscope

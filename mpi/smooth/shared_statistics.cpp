@@ -13,7 +13,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kElementsAtOnce = 8192;
 
-/// What the elements that a rank counts have; a minimum with its element's number in the whole mesh.
+/// Extremes over the elements that a rank counts; a minimum with its element's number in the whole mesh.
 struct Extremes {
   double minimum = kInfinity, movable = kInfinity, ceiling = kInfinity;
   WholeIndex worst = std::numeric_limits<WholeIndex>::max();
@@ -36,7 +36,7 @@ void add(Lanes& sums, const Lanes& more) {
   for (std::size_t lane = 0; lane < sums.size(); ++lane) sums[lane] += more[lane];
 }
 
-/// How many stretches, or groups of them, there are up to an element that ends one.
+/// Number of stretches, or groups of them, up to an element that ends one.
 std::uint64_t up_to(std::uint64_t elements, std::uint64_t size) { return (elements + size - 1) / size; }
 
 }  // namespace
@@ -46,7 +46,7 @@ SharedStatistics::SharedStatistics(const World& world, const Share& share)
   Dealer<std::uint32_t> dealer(world.size());
   for (Index e = 0; e < share.home.size(); ++e) {
     if (share.home[e] == 0) continue;
-    to_.push_back(e);  // ascending, so by rank
+    to_.push_back(e);  // ascending, hence by rank
     dealer.count(stretches_.holder(share.elements[e]));
   }
   dealer.begin();
@@ -57,7 +57,7 @@ SharedStatistics::SharedStatistics(const World& world, const Share& share)
   }
   places_ = world.exchange(dealer.take());
 
-  // Which stretches a rank has, and which it adds up, are both consecutive: what is sent is what both have in common.
+  // The stretches that a rank has and those that it adds up are both consecutive: it sends the intersection.
   const std::uint64_t stretches = up_to(share.element_count, Tally::kStretch);
   groups_ = Ranges(up_to(stretches, TallyTotal::kGroup), world.size());
   const auto have = [&](int rank, bool end) { return up_to(end ? stretches_.end(rank) : stretches_.begin(rank), Tally::kStretch); };
@@ -88,7 +88,7 @@ SharedStatistics::Sum SharedStatistics::sum_of_mine() const {
   in_order.resize(stretches_.count(world_.rank()));
   for (std::size_t i = 0; i < came_.size(); ++i) in_order[places_.values[i]] = came_[i];
 
-  // As Tally adds, and TallyTotal.
+  // Adds in the order of Tally and TallyTotal.
   std::vector<Lanes> sums;
   std::uint64_t defined = 0;
   for (std::size_t first = 0; first < in_order.size(); first += Tally::kStretch) {

@@ -1,5 +1,5 @@
 #pragma once
-// Statistics of a mesh that many ranks have: the very bits that one process finds.
+// Statistics of a mesh that ranks share, with the bits that one process finds.
 
 #include <span>
 #include <vector>
@@ -10,16 +10,16 @@
 
 namespace dmoscope {
 
-/// Sums in floating point depend on their order, so all are added in the order of the mesh's elements, in the stretches of core's Tally:
-/// each rank adds stretches of the whole mesh, for which the others send it the qualities of their elements.
+/// Adds in the order of the mesh's elements, in the stretches of core's Tally, since floating-point sums depend on their order: each rank
+/// adds stretches of the whole mesh, for which the others send it the qualities of their elements.
 class SharedStatistics {
  public:
-  /// All ranks together. The share must outlive it.
+  /// Plans the exchange, all ranks together. The share must outlive it.
   SharedStatistics(const World& world, const Share& share);
-  /// See compute_statistics(); `immovable`: of the share. All ranks together.
+  /// Computes the statistics: see compute_statistics(). `immovable`: of the share. To be called by all ranks together.
   [[nodiscard]] Statistics of(const QualityContext& context, std::span<const Vec3> positions, Metric metric,
                               std::span<const Index> immovable, ThreadPool* pool) const;
-  /// The sum of values by element of the share, of which NaN are left out, and how many are not: as core adds qualities up.
+  /// Sum of the values that are not NaN, and their number, with core's order of addition.
   struct Sum {
     double sum = 0.0;
     std::uint64_t count = 0;
@@ -34,9 +34,9 @@ class SharedStatistics {
   Ranges stretches_;       // elements of the whole mesh, in whole stretches
   std::vector<Index> to_;  // elements that are counted here, by the rank that adds them up
   std::vector<std::uint64_t> to_offsets_;
-  Ranges groups_;                                       // of stretches: which rank adds up their sums
-  std::vector<std::uint64_t> sums_to_, sums_from_;      // offsets by rank of the sums of stretches that are sent and that come
-  Parts<std::uint32_t> places_;                         // where in the rank's stretches come those that others send
+  Ranges groups_;                                       // ranges of stretches: the rank that adds up their sums
+  std::vector<std::uint64_t> sums_to_, sums_from_;      // offsets by rank of the sums of stretches that are sent and received
+  Parts<std::uint32_t> places_;                         // places in the rank's stretches of values that others send
   mutable std::vector<double> mine_, came_, in_order_;  // kept: fresh memory costs as much as the sums
 };
 

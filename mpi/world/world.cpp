@@ -12,7 +12,7 @@
 namespace dmoscope {
 namespace {
 
-/// MPI counts what is sent in ints: larger messages go in pieces of this size.
+/// Greatest size of a message, in bytes, for MPI counts in ints: longer messages are sent in pieces.
 constexpr std::size_t kMostBytes = std::size_t{1} << 30U;
 
 }  // namespace
@@ -36,7 +36,7 @@ Ranges::Ranges(std::span<const std::uint64_t> counts) {
 Ranges::Ranges(std::uint64_t size, int ranks, std::uint64_t grain) {
   const std::uint64_t grains = (size + grain - 1) / grain, all = static_cast<std::uint64_t>(ranks);
   for (std::uint64_t r = 1; r <= all; ++r) {
-    // grains * r / all, which could overflow, in parts.
+    // grains * r / all, in parts, for the product could overflow.
     const std::uint64_t share = grains / all * r + grains % all * r / all;
     begin_.push_back(std::min(size, grain * share));
   }
@@ -103,7 +103,7 @@ void World::exchange_bytes(std::span<const std::byte> to, std::span<const std::u
       MPI_Irecv(from.data() + at, count, MPI_BYTE, r, kTag, comm_, request);
     });
   }
-  for (int step = 1; step < size_; ++step) {  // each rank begins with another one
+  for (int step = 1; step < size_; ++step) {  // every rank begins with another one
     const int r = (rank_ + step) % size_;
     const auto i = static_cast<std::size_t>(r);
     in_pieces(to_offsets[i], to_offsets[i + 1], [&](std::uint64_t at, int count, MPI_Request* request) {

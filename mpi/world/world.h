@@ -1,5 +1,5 @@
 #pragma once
-// The processes of an MPI job, called ranks, and what they ask each other.
+// The processes of an MPI job, called ranks, and their communication.
 
 #include <cstddef>
 #include <cstdint>
@@ -27,7 +27,7 @@ class MpiSession {
   [[noreturn]] static void abort(int exit_code);
 };
 
-/// An error of one rank that all ranks throw: what() says which rank's it is.
+/// Error of one rank that all ranks throw: what() tells the rank.
 class SharedError : public Error {
  public:
   SharedError(const std::string& what, int exit_code) : Error(what), exit_code_(exit_code) {}
@@ -37,25 +37,25 @@ class SharedError : public Error {
   int exit_code_;
 };
 
-/// One value a rank, whole numbers added up before each rank: rank r has [begin(r), end(r)) of size().
+/// Consecutive ranges of numbers, one a rank: rank r has [begin(r), end(r)) of size().
 class Ranges {
  public:
   Ranges() = default;
   explicit Ranges(std::span<const std::uint64_t> counts);
-  /// `size` things dealt out as evenly as multiples of `grain` can be.
+  /// Deals `size` things out as evenly as multiples of `grain` can be.
   Ranges(std::uint64_t size, int ranks, std::uint64_t grain = 1);
   [[nodiscard]] std::uint64_t begin(int rank) const noexcept { return begin_[static_cast<std::size_t>(rank)]; }
   [[nodiscard]] std::uint64_t end(int rank) const noexcept { return begin_[static_cast<std::size_t>(rank) + 1]; }
   [[nodiscard]] std::uint64_t count(int rank) const noexcept { return end(rank) - begin(rank); }
   [[nodiscard]] std::uint64_t size() const noexcept { return begin_.back(); }
-  /// Who has the i-th.
+  /// The rank that has thing i.
   [[nodiscard]] int holder(std::uint64_t i) const noexcept;
 
  private:
   std::vector<std::uint64_t> begin_{0};
 };
 
-/// What is sent as bytes.
+/// Types that are sent as bytes.
 template <class T>
 concept Plain = std::is_trivially_copyable_v<T>;
 
@@ -70,7 +70,7 @@ struct Parts {
   }
 };
 
-/// A group of ranks. All of them call the same functions in the same order. A view: whoever made the communicator frees it.
+/// A group of ranks, which all call the same functions in the same order. A view: its communicator is freed by its maker.
 class World {
  public:
   explicit World(MPI_Comm comm = MPI_COMM_WORLD);
@@ -87,22 +87,22 @@ class World {
   [[nodiscard]] std::uint64_t least(std::uint64_t here) const { return reduced(here, MPI_UINT64_T, MPI_MIN); }
   [[nodiscard]] std::uint64_t greatest(std::uint64_t here) const { return reduced(here, MPI_UINT64_T, MPI_MAX); }
   [[nodiscard]] bool any(bool here) const { return reduced(here ? 1 : 0, MPI_INT, MPI_MAX) != 0; }
-  /// Element by element, in place.
+  /// Adds up the ranks' values element by element, in place.
   void sum(std::span<std::uint64_t> here) const;
   void least(std::span<double> here) const;
 
-  /// One value of each rank, on all.
+  /// Returns one value of each rank, on all.
   template <Plain T>
   [[nodiscard]] std::vector<T> all_of(const T& here) const {
     std::vector<T> all(static_cast<std::size_t>(size_));
     MPI_Allgather(&here, sizeof(T), MPI_BYTE, all.data(), sizeof(T), MPI_BYTE, comm_);
     return all;
   }
-  /// Counts of each rank as ranges.
+  /// Makes ranges from the count of each rank.
   [[nodiscard]] Ranges ranges(std::uint64_t here) const { return Ranges(all_of(here)); }
-  /// The box of all ranks' points.
+  /// Returns the box around all ranks' points.
   [[nodiscard]] PointBox around_all(const PointBox& here) const;
-  /// What one rank has, on all.
+  /// Sends one rank's values to all.
   template <Plain T>
   void broadcast(T& value, int from) const {
     MPI_Bcast(&value, sizeof(T), MPI_BYTE, from, comm_);
@@ -115,7 +115,7 @@ class World {
     values.resize(count);
     broadcast_bytes(std::as_writable_bytes(std::span(values)), from);
   }
-  /// Sends to[r] to rank r; what each rank sent here.
+  /// Sends to[r] to rank r; returns the values that each rank sent here.
   template <Plain T>
   [[nodiscard]] Parts<T> exchange(const Parts<T>& to) const {
     Parts<T> from;
@@ -129,13 +129,13 @@ class World {
   [[nodiscard]] Parts<T> exchange(const std::vector<std::vector<T>>& to) const {
     return exchange(joined(to));
   }
-  /// The same where both sides know how much comes.
+  /// Exchanges parts whose sizes both sides know.
   template <Plain T>
   void exchange(std::span<const T> to, std::span<const std::uint64_t> to_offsets, std::span<T> from,
                 std::span<const std::uint64_t> from_offsets) const {
     exchange_bytes(std::as_bytes(to), to_offsets, std::as_writable_bytes(from), from_offsets, sizeof(T));
   }
-  /// All that the ranks have, in their order, on rank 0; nothing on others.
+  /// Returns all values of the ranks, in their order, on rank 0; nothing on others.
   template <Plain T>
   [[nodiscard]] std::vector<T> gather(const std::vector<T>& here) const {
     std::vector<std::vector<T>> to(static_cast<std::size_t>(size_));
@@ -143,10 +143,10 @@ class World {
     return exchange(to).values;
   }
 
-  /// Different sentences of all ranks, sorted, on rank 0; nothing on others.
+  /// Returns the different sentences of all ranks, sorted, on rank 0; nothing on others.
   [[nodiscard]] std::vector<std::string> gather_sentences(const std::vector<std::string>& here) const;
 
-  /// Does work that may fail on some ranks alone and that asks no other rank. Where it does, all ranks throw the error of the first of
+  /// Does work that may fail on some ranks alone and that does not communicate. If it fails, all ranks throw the error of the first of
   /// them: a SharedError that names it.
   void together(const std::function<void()>& work) const;
 
@@ -177,19 +177,19 @@ class World {
   int rank_ = 0, size_ = 1;
 };
 
-/// Which of many things goes to which rank: fills Parts without a vector for each rank. Two passes: count(), then put().
+/// Sorts many things by the rank that gets them: fills Parts without a vector for each rank. Two passes: count(), then put().
 template <Plain T>
 class Dealer {
  public:
   explicit Dealer(int ranks) : next_(static_cast<std::size_t>(ranks) + 1, 0) {}
   void count(int rank, std::uint64_t how_many = 1) { next_[static_cast<std::size_t>(rank) + 1] += how_many; }
-  /// Call it between the passes.
+  /// Starts the second pass.
   void begin() {
     for (std::size_t r = 1; r < next_.size(); ++r) next_[r] += next_[r - 1];
     parts_.offsets = next_;
     parts_.values.resize(next_.back());
   }
-  /// Where it was put.
+  /// Puts a value and returns its place.
   std::uint64_t put(int rank, const T& value) {
     const std::uint64_t at = next_[static_cast<std::size_t>(rank)]++;
     parts_.values[at] = value;
@@ -203,8 +203,8 @@ class Dealer {
   Parts<T> parts_;
 };
 
-/// Asks the holders of numbered things for what they know of them: answer(i) of the holder, for each i of `asked`, in its order.
-/// `asked`: numbers below ranges.size().
+/// Asks the holders of numbered things about them: answer(i) of the holder, for each i of `asked`, in its order. `asked`: numbers below
+/// ranges.size().
 template <Plain T, class Answer>
 [[nodiscard]] std::vector<T> ask_holders(const World& world, const Ranges& ranges, std::span<const std::uint64_t> asked, Answer answer) {
   Dealer<std::uint64_t> questions(world.size());

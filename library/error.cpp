@@ -6,7 +6,7 @@
 
 namespace dmo {
 
-// Here, so that every program that catches them has the same.
+// Defined out of line, so that every program that catches these errors has the same type information.
 Error::~Error() = default;
 InputError::InputError(const std::string& what, std::string file, std::size_t line) : Error(what), file_(std::move(file)), line_(line) {}
 InputError::~InputError() = default;

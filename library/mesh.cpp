@@ -35,7 +35,7 @@ namespace {
 [[noreturn]] void refuse(const std::string& what) { throw dmoscope::InputError(kNoFile, 0, what); }
 [[noreturn]] void refuse_thin(const std::string& why) { refuse(fmt::format("it cannot be taken for a mesh one cell thick: {}", why)); }
 
-/// Why the mesh cannot be taken for that of its front; empty: it can.
+/// Returns why the mesh cannot be replaced by that of its front; empty if it can.
 std::string why_not_thin(const dmoscope::Mesh& mesh, dmoscope::Progress& progress) {
   dmoscope::Mesh copy;
   copy.positions = mesh.positions;
@@ -55,7 +55,7 @@ std::vector<Vec3> vectors(const double* positions, std::size_t vertices) {
   return result;
 }
 
-/// Corners are read only where the offsets are known to lie within connectivity.
+/// Checks the offsets before corners are read: these must lie within connectivity.
 void require_rising_offsets(const Cells& cells) {
   if (cells.count == 0) return;
   for (const auto& [array, name] :
@@ -139,7 +139,7 @@ std::shared_ptr<const InputMesh> Mesh::Data::prepared(dmoscope::Progress& progre
   dmoscope::Mesh mesh = with_fields(input->mesh, fields);
   if (moved) mesh.positions = *moved;
   if (mapped) map_to_mercator(mesh);
-  // As the elements came in: what is reversed is noted anew.
+  // The elements' original order of corners, for the new mesh finds anew which are reversed.
   for (std::size_t e = 0; e < mesh.flipped.size(); ++e)
     if (mesh.flipped[e] != 0) mesh.elements.flip(static_cast<Index>(e));
   mesh.flipped.clear();

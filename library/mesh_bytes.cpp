@@ -25,7 +25,7 @@ using dmoscope::SourceFile;
 using dmoscope::Vec3;
 
 constexpr std::string_view kBegin = "dmoscope mesh " DMOSCOPE_VERSION "\n";
-constexpr std::size_t kHashSize = 16;  // digits, at the end
+constexpr std::size_t kHashSize = 16;  // hexadecimal digits, at the end
 
 struct SourceParts {
   std::string path, bytes, format, beside, not_patchable;
@@ -34,20 +34,20 @@ struct SourceParts {
   std::vector<std::uint64_t> places;
   std::vector<Index> place_vertices;
   std::vector<std::string> only_in_file, notes;
-  std::vector<SourceParts> companion;  // one, or none
+  std::vector<SourceParts> companion;  // one or none
 };
 
 struct MeshParts {
   std::string name, title, path;
   std::vector<Vec3> positions, moved, as_read;  // the last two may be empty, see Mesh::Data
   std::vector<CellKind> kinds;
-  std::vector<Index> offsets, connectivity;  // as they came in
+  std::vector<Index> offsets, connectivity;  // in the order of corners that was given
   std::vector<Field> fields, fields_as_read;
   std::vector<dmoscope::FieldValues> moved_fields;
   std::vector<Group> groups;
   std::vector<std::array<Index, 2>> periodic;
   bool single_precision = false, in_degrees = false, thin = false;
-  std::vector<SourceParts> source;  // one, or none
+  std::vector<SourceParts> source;  // one or none
 };
 
 template <class Archive>
@@ -181,7 +181,7 @@ class Loader {
       table.add(kind, std::span(corners).first(info(kind).corners));
     }
   }
-  /// Of things of `size` bytes or more, that are there.
+  /// Number of things of at least `size` bytes, which must be there.
   std::size_t count_of(std::size_t size) {
     std::uint64_t count = 0;
     get_all(&count, 1);

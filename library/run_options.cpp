@@ -22,7 +22,7 @@ namespace {
 
 using Words = std::map<std::string, std::string>;
 
-/// Takes what is said of an option; empty where nothing is.
+/// Removes an option and returns its value; empty if it is not given.
 std::string take(Words& words, const std::string& name) {
   const auto node = words.extract(name);
   return node.empty() ? std::string() : node.mapped();
@@ -57,7 +57,7 @@ void set_objective(dmoscope::RunParameters& parameters, Words& words) {
     naming("target", [&] { aim_at(parameters, dmoscope::parse_target(target)); });
 }
 
-/// As the program does, which refuses such options together.
+/// Throws UsageError for options that exclude each other, by the rules of the program.
 void refuse_together(const Words& words, bool until_converged) {
   const auto said = [&words](const char* name) { return words.count(name) > 0; };
   for (const char* other : {"method", "combine", "then"})

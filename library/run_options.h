@@ -1,5 +1,5 @@
 #pragma once
-// Options as words, and the run that they ask for.
+// Options as words, and the run that they describe.
 
 #include <string>
 #include <vector>
@@ -18,7 +18,7 @@ struct RunRequest {
   std::vector<std::string> warnings;
 };
 
-/// Throws dmoscope::UsageError that names the option.
+/// Makes the run's request from the options. Throws dmoscope::UsageError that names the option.
 [[nodiscard]] RunRequest request_of(const dmoscope::InputMesh& input, const SmoothOptions& options);
 
 }  // namespace dmo

@@ -23,7 +23,7 @@ Iteration iteration_of(const dmoscope::IterationRecord& record) {
   return {record.iteration, statistics_of(record.statistics), record.moved, record.seconds};
 }
 
-/// Runs to the end that is asked for, or until somebody cancels.
+/// Steps the run to the end that the request gives, or until it is cancelled.
 void advance(dmoscope::Run& run, const RunRequest& request, const SmoothOptions& options, Smoothed& result) {
   dmoscope::Progress& progress = options.progress.state().progress;
   const auto after = [&](const dmoscope::Run& at) {
@@ -58,7 +58,7 @@ Smoothed smooth(const Mesh& mesh, const SmoothOptions& options) {
     }
     RunRequest request = request_of(*input, options);
     auto pool = std::make_shared<dmoscope::ThreadPool>(options.threads);
-    dmoscope::Run run(input, request.parameters, pool, 0);  // no past positions: nobody asks for them
+    dmoscope::Run run(input, request.parameters, pool, 0);  // no past positions: none are returned
     require_fields(request.parameters.fields, input->mesh);
     Smoothed result{mesh, {}, 0, false, false, {}, std::move(request.warnings), {}};
     if (std::string warning = run.take_warning(); !warning.empty()) result.warnings.push_back(std::move(warning));
@@ -69,7 +69,7 @@ Smoothed smooth(const Mesh& mesh, const SmoothOptions& options) {
     if (const auto left = find_left_inverted(run)) result.warnings.push_back(left->sentence());
     if (const auto crossing = find_crossing_faces(run)) result.warnings.push_back(crossing->sentence());
     std::vector<dmoscope::Vec3> positions = places_in_file(input->mesh, run.positions());
-    dmoscope::Progress unwatched;  // what was done until a cancel is kept whole
+    dmoscope::Progress unwatched;  // the result until a cancel is completed
     if (input->mesh.thin) positions = places_with_back(*input, positions, pool.get(), unwatched);
     dmoscope::MovedFields fields =
         move_fields(input->mesh.thin ? *input : *mesh.data()->input, request.parameters.fields, positions, pool.get(), unwatched);

@@ -1,5 +1,5 @@
 #pragma once
-// The core's statistics as the library's users see them.
+// The core's statistics in the library's form.
 
 #include "core/quality/quality.h"
 #include "library/include/dmoscope/quality.h"

@@ -16,7 +16,7 @@ void put(double (&to)[3], const dmoscope::Vec3& p) {
   to[2] = p.z;
 }
 
-/// `lift`: an offset from the vertex, in space.
+/// Converts a trace. `lift`: maps an offset from the vertex to space.
 template <class Traced, class Lift>
 Trace trace_of(const dmoscope::Mesh& mesh, const Traced& traced, const Lift& lift) {
   Trace result;

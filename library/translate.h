@@ -1,5 +1,5 @@
 #pragma once
-// The program's errors, as the library's users know them.
+// Translation of the program's errors to the library's.
 
 #include <string>
 
@@ -8,9 +8,9 @@
 
 namespace dmo {
 
-inline constexpr const char* kNoFile = "mesh";  // what stands for the file of a mesh that is none's
+inline constexpr const char* kNoFile = "mesh";  // stands for the file of a mesh that has none
 
-/// Returns work(); what it throws becomes an error of the library.
+/// Returns work(); its errors become errors of the library.
 template <class Work>
 decltype(auto) translated(const Work& work) {
   try {

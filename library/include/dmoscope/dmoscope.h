@@ -13,7 +13,7 @@
 
 namespace dmo {
 
-/// "0.2.0", of the library that is loaded.
+/// Returns the version of the library that is loaded: "0.2.0".
 [[nodiscard]] DMO_API const char* version();
 
 }  // namespace dmo

@@ -1,5 +1,5 @@
 #pragma once
-// What the library shows of itself.
+// Marks of the symbols that the library exports.
 
 #if defined(__GNUC__)
 #define DMO_API __attribute__((visibility("default")))

@@ -1,5 +1,5 @@
 #pragma once
-// Meshes: from arrays or files, and back.
+// Meshes, made from arrays or files, and back.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,34 +13,34 @@
 
 namespace dmo {
 
-/// Of vertices and cells, from 0 on.
+/// Number of a vertex or cell, from 0 on.
 using Index = std::uint32_t;
 
 /// Kinds of cells. Their corners have VTK's order.
 enum class CellKind : std::uint8_t { Triangle, Quadrilateral, Tetrahedron, Hexahedron, Wedge, Pyramid };
-/// 3, 4, 4, 8, 6, 5.
+/// Returns the number of corners: 3, 4, 4, 8, 6 or 5, in the order of CellKind.
 [[nodiscard]] DMO_API std::size_t corner_count(CellKind kind);
 
-/// Cells of any mix of kinds, in arrays that somebody else owns.
+/// Cells of any mix of kinds, as a view of arrays.
 struct Cells {
   std::size_t count = 0;
-  const CellKind* kinds = nullptr;      // count of them
-  const Index* offsets = nullptr;       // count + 1: the corners of cell c are connectivity[offsets[c]] up to offsets[c + 1]
-  const Index* connectivity = nullptr;  // offsets[count] vertices
+  const CellKind* kinds = nullptr;      // count kinds
+  const Index* offsets = nullptr;       // count + 1 offsets: the corners of cell c are connectivity[offsets[c]] up to offsets[c + 1]
+  const Index* connectivity = nullptr;  // offsets[count] numbers of vertices
 };
 
-/// Numbers of each vertex, or of each cell. Where each cell has one and its name is one that programs use for materials ("material",
-/// "gmsh:physical", "region" ...), what lies between cells of different numbers is an interface, which stays.
+/// Data of each vertex, or of each cell. Cell data of one component whose name is one that programs use for materials ("material",
+/// "gmsh:physical", "region" ...) make interfaces between cells of different values; interfaces stay.
 struct Numbers {
   std::string name;
   std::vector<double> values;  // those of the first vertex or cell, then of the next
-  std::size_t components = 1;  // how many each has
-  bool whole = false;          // are they of a type of whole numbers?
+  std::size_t components = 1;  // values of each vertex or cell
+  bool whole = false;          // whether their type is one of whole numbers
 };
 using PointData = Numbers;
 using CellData = Numbers;
 
-/// Cells that a file names. What lies between cells of different groups is an interface, likewise.
+/// Cells that a file names as a group. Cells of different groups have an interface between them, which stays.
 struct CellGroup {
   std::string name;
   std::vector<Index> cells;
@@ -50,18 +50,18 @@ struct CellGroup {
 struct BoundaryLoop {
   std::vector<Index> vertices;  // in order, with the mesh to the left
   double length = 0.0;
-  double area = 0.0;     // that it encloses; of a loop that is not planar: of its shadow where that is largest
-  std::size_t part = 0;  // that it bounds: parts()[part]
-  bool outer = false;    // of a planar mesh: its part lies inside of it
+  double area = 0.0;     // enclosed, in square mesh units; of a loop that is not planar: the largest area of its projections
+  std::size_t part = 0;  // the part that the loop bounds: parts()[part]
+  bool outer = false;    // planar meshes: whether the part lies inside the loop
 };
 
-/// A mesh that does not change: smooth() gives a new one, which shares all but the positions with the old. Cheap to copy. All members may
-/// be called from several threads.
+/// Immutable mesh: smooth() returns a new one, which shares all but the positions with the old. Cheap to copy. All members may be called
+/// from several threads.
 class DMO_API Mesh {
  public:
-  /// Copies the arrays. `positions`: vertices x 3, mesh units; of a planar mesh one of the coordinates is the same everywhere. Throws
-  /// InputError: null pointers, corners that do not exist or repeat, a number of corners that the kind has not, offsets that do not rise
-  /// from 0 on, coordinates that are not finite, planar and volume cells mixed, data of another length.
+  /// Copies the arrays. `positions`: vertices x 3, mesh units; in a planar mesh one of the coordinates is the same everywhere. Throws
+  /// InputError for null pointers, corners that do not exist or repeat, a wrong number of corners for the kind, offsets that do not rise
+  /// from 0 on, coordinates that are not finite, planar and volume cells mixed, and data of another length.
   Mesh(const double* positions, std::size_t vertices, const Cells& cells, const std::vector<CellData>& data = {},
        const std::vector<PointData>& point_data = {}, const Progress& progress = {});
   ~Mesh();
@@ -70,53 +70,55 @@ class DMO_API Mesh {
 
   /// Reads a file of any format that the program reads. Throws InputError.
   [[nodiscard]] static Mesh read(const std::string& path, const Progress& progress = {});
-  /// Writes by the name's extension, whole or not at all. What the file held that was read, such as groups, stands in one of its format
-  /// again. Returns a sentence for each thing that the format cannot carry. Throws OutputError, UsageError.
+  /// Writes a file of the format that the name's extension gives, whole or not at all. A file of the format that was read keeps its other
+  /// content, such as groups. Returns a sentence for each thing that the format cannot carry. Throws OutputError, UsageError.
   std::vector<std::string> write(const std::string& path, const Progress& progress = {}) const;
 
-  /// All of the mesh, with what its file held, for another process or a later one: it is smoothed and written as this one is.
+  /// Returns all of the mesh, with the other content of its file, as bytes for another or a later process, which smooths and writes it as
+  /// this one does.
   [[nodiscard]] std::string to_bytes() const;
-  /// Of bytes that to_bytes() of the same version made. Throws InputError for others, and where they were damaged.
+  /// Makes a mesh from bytes of to_bytes() of the same version. Throws InputError for others, and for damaged ones.
   [[nodiscard]] static Mesh from_bytes(std::string_view bytes, const Progress& progress = {});
 
   [[nodiscard]] std::size_t vertex_count() const;
   [[nodiscard]] std::size_t cell_count() const;
-  /// vertex_count() x 3, as long as this mesh or a copy lives.
+  /// Positions in mesh units, vertex_count() x 3; valid as long as this mesh or a copy exists.
   [[nodiscard]] const double* positions() const;
-  /// As they came in; likewise.
+  /// The cells as they were given; valid as long as this mesh or a copy exists.
   [[nodiscard]] Cells cells() const;
-  /// What was given, or what the file held.
+  /// Cell data that was given or read from the file.
   [[nodiscard]] std::vector<CellData> cell_data() const;
   [[nodiscard]] std::vector<PointData> point_data() const;
   [[nodiscard]] std::vector<CellGroup> cell_groups() const;
-  /// The boundary loops of the mesh as it stands, in the order in which the option "fix" knows them as loop:1, loop:2 ...; none of a volume
-  /// mesh. Worked out at each call, in about two seconds for a million vertices.
+  /// Finds the boundary loops of the mesh at its present positions, in the order of the option "fix", which names them loop:1, loop:2 ...;
+  /// none of a volume mesh. Takes about two seconds for a million vertices.
   [[nodiscard]] std::vector<BoundaryLoop> boundary_loops() const;
-  /// Cells connected across edges, as part:1, part:2 ...; likewise.
+  /// Finds the sets of cells connected across edges, in the order of part:1, part:2 ...; none of a volume mesh. Takes as long as
+  /// boundary_loops().
   [[nodiscard]] std::vector<std::vector<Index>> parts() const;
-  /// The neighbours of a vertex across edges in order, counter-clockwise where its cells are; on the boundary from edge to edge. Empty in a
-  /// volume mesh. Throws UsageError for a vertex that does not exist.
+  /// Finds the neighbours of a vertex across edges in order, counter-clockwise if its cells are; on the boundary from edge to edge. Empty
+  /// in a volume mesh. Throws UsageError for a vertex that does not exist.
   [[nodiscard]] std::vector<Index> ring(std::size_t vertex) const;
-  /// Has it volume cells?
+  /// Whether it has volume cells.
   [[nodiscard]] bool is_volume() const;
-  /// Is it curved: planar cells that do not lie in a plane?
+  /// Whether it is curved: its cells are planar and do not lie in one plane.
   [[nodiscard]] bool is_surface() const;
-  /// vertex_count() of them: 1 on the boundary, else 0; as long as this mesh or a copy lives.
+  /// Whether vertices are on the boundary, vertex_count() values: 1 or 0; valid as long as this mesh or a copy exists.
   [[nodiscard]] const std::uint8_t* boundary() const;
-  /// Are x and y longitude and latitude in degrees, so that the mesh is judged and smoothed on the Earth? read() takes them so where the
-  /// title or the name of a fort.14 or .2dm says it; with_degrees() says it, or that they are not. Throws InputError for what cannot be
+  /// Whether x and y are longitude and latitude in degrees, so that the mesh is judged and smoothed on the Earth. read() takes them so if
+  /// the title or the name of a fort.14 or .2dm says it; with_degrees() sets it, and throws InputError for coordinates that cannot be
   /// degrees.
   [[nodiscard]] bool in_degrees() const;
   [[nodiscard]] Mesh with_degrees(bool degrees) const;
-  /// Is this a mesh of hexahedra and wedges one cell thick, which is judged and smoothed as the 2-D mesh of its front? read() finds it out;
-  /// with_thin() says it, or that its cells count. Its positions and cells stay those of the file: the back follows the front. Throws
-  /// InputError for what is not one cell thick.
+  /// Whether this is a mesh of hexahedra and wedges one cell thick, which is judged and smoothed as the 2-D mesh of its front. read()
+  /// detects it; with_thin() sets it. Positions and cells stay those of the file: the back follows the front. with_thin() throws InputError
+  /// for a mesh that is not one cell thick.
   [[nodiscard]] bool thin() const;
   [[nodiscard]] Mesh with_thin(bool thin) const;
-  /// The same mesh with its vertices elsewhere: vertex_count() x 3, copied. Throws InputError as the constructor does.
+  /// Returns the mesh with other positions: vertex_count() x 3, mesh units, copied. Throws InputError as the constructor does.
   [[nodiscard]] Mesh with_positions(const double* positions, const Progress& progress = {}) const;
-  /// The same mesh, in which the cell data of these names, one number a cell each, name materials whatever they are called; no names: those
-  /// of known names alone. Throws UsageError for a name that no cell data have.
+  /// Returns the mesh with the cell data of these names, one number a cell each, as materials whatever they are called; no names: those of
+  /// known names alone. Throws UsageError for a name that no cell data have.
   [[nodiscard]] Mesh with_materials(const std::vector<std::string>& names) const;
 
   struct Data;

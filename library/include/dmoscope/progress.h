@@ -1,5 +1,5 @@
 #pragma once
-// Long work reports here, and learns here that it shall stop.
+// Progress of long work, and requests to stop it.
 
 #include <memory>
 #include <string>
@@ -8,18 +8,18 @@
 
 namespace dmo {
 
-/// Shared by the thread that works and those that watch: all members may be called from any thread. A copy is the same.
+/// Progress shared by the thread that works and those that watch: all members may be called from any thread. Copies share their state.
 class DMO_API Progress {
  public:
   Progress();
   ~Progress();
   Progress(const Progress&);
   Progress& operator=(const Progress&);
-  /// Fraction that is done of the step under way, 0 to 1.
+  /// Fraction of the present step that is done, 0 to 1.
   [[nodiscard]] double fraction() const;
-  /// The step under way: "reading east.14".
+  /// Description of the present step: "reading east.14".
   [[nodiscard]] std::string label() const;
-  /// The work ends within some 50 ms. smooth() gives back what it has until then; all others throw Cancelled.
+  /// Asks the work to end, which takes some 50 ms. smooth() returns its result so far; all other functions throw Cancelled.
   void request_cancel();
 
   struct State;

@@ -1,5 +1,5 @@
 #pragma once
-// How good cells are.
+// Quality of cells.
 
 #include <cstddef>
 #include <string>
@@ -11,29 +11,29 @@
 namespace dmo {
 
 struct Metric {
-  std::string name;      // "mean-ratio": what others are called by
-  std::string title;     // "Mean ratio"
-  double lowest = 0.0;   // range; 1 is the ideal cell, 0 or less one that is inverted
-  double highest = 1.0;  // likewise
+  std::string name;      // name to pass to functions: "mean-ratio"
+  std::string title;     // title for people: "Mean ratio"
+  double lowest = 0.0;   // least value; 0 or less means inverted
+  double highest = 1.0;  // greatest value; 1 is the ideal cell
   std::string formula;   // plain text
-  std::string doc;       // a line: what it measures, and whose it is
+  std::string doc;       // one line: its meaning and its source
 };
-/// All that there are.
+/// Returns all built-in metrics.
 [[nodiscard]] DMO_API std::vector<Metric> metrics();
 
-/// Of every cell, mesh.cell_count() of them: 1 is ideal, 0 or less inverted; NaN where the metric is not defined for the kind. `threads`:
-/// 0 for all processors; the values do not depend on it. Throws UsageError for an unknown metric.
+/// Returns the quality of every cell, mesh.cell_count() values: 1 is ideal, 0 or less inverted; NaN if the metric is not defined for the
+/// kind. `threads`: 0 for all processors; the values do not depend on it. Throws UsageError for an unknown metric.
 [[nodiscard]] DMO_API std::vector<double> quality(const Mesh& mesh, const std::string& metric = "mean-ratio", unsigned threads = 0);
 
-/// Of all cells at once.
+/// Statistics of the quality of all cells.
 struct Statistics {
   double minimum = 0.0;
   double mean = 0.0;
-  double movable_minimum = 0.0;  // over cells with a corner off the boundary; infinite where there is none
-  std::size_t inverted = 0;      // cells with a corner that is turned over, whatever the metric
-  std::size_t worst_cell = 0;    // the first of those at the minimum
+  double movable_minimum = 0.0;  // over cells with a corner off the boundary; infinite if there is none
+  std::size_t inverted = 0;      // cells whose Jacobian is not positive at some corner, by any metric
+  std::size_t worst_cell = 0;    // the first cell at the minimum
 };
-/// Throws UsageError for an unknown metric, or one that is not defined for all cells.
+/// Returns the statistics of all cells. Throws UsageError for an unknown metric, or one that is not defined for all cells.
 [[nodiscard]] DMO_API Statistics statistics(const Mesh& mesh, const std::string& metric = "mean-ratio", unsigned threads = 0);
 
 }  // namespace dmo

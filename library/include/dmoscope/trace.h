@@ -1,5 +1,5 @@
 #pragma once
-// Looking into the search of one vertex.
+// Trace of the search of one vertex.
 
 #include <cstddef>
 #include <string>
@@ -11,25 +11,25 @@
 
 namespace dmo {
 
-/// A level of the search: a grid of candidates, each next one finer.
+/// Level of the search: a grid of candidates, finer than that of the level before.
 struct TraceLevel {
-  std::size_t points = 0;          // per axis
-  std::vector<double> candidates;  // points^2 x 3, of a volume points^3 x 3: places, mesh units. The last axis counts fastest
-  std::vector<double> values;      // of each: what the search compared; more is better
-  std::vector<double> quality;     // of each: the worst cell of the star, with the vertex there
-  long best = -1;                  // the candidate that was chosen; -1: none is better than what was found before
+  std::size_t points = 0;          // candidates per axis
+  std::vector<double> candidates;  // places, mesh units: points^2 x 3, in a volume points^3 x 3; the last axis varies fastest
+  std::vector<double> values;      // one per candidate: the number that the search compared; more is better
+  std::vector<double> quality;     // one per candidate: quality of the worst cell of the star, with the vertex there
+  long best = -1;                  // number of the chosen candidate; -1: none is better than the one found before
 };
 
 struct Trace {
-  double from[3] = {}, to[3] = {};   // where the vertex stands, and where it goes
-  double before = 0.0, after = 0.0;  // the worst cell of its star
-  std::vector<TraceLevel> levels;    // none of a vertex that may not move
-  std::string value;                 // what `values` are: "mean ratio"
-  std::string sentence;              // what came of it: "moved: worst element of its star 0.31 -> 0.82"
+  double from[3] = {}, to[3] = {};   // places of the vertex before and after, mesh units
+  double before = 0.0, after = 0.0;  // quality of the worst cell of its star, before and after
+  std::vector<TraceLevel> levels;    // empty if the vertex may not move
+  std::string value;                 // name of the number in `values`: "mean ratio"
+  std::string sentence;              // the outcome: "moved: worst element of its star 0.31 -> 0.82"
 };
 
-/// What the first visit of dmo would do to a vertex of the mesh as it is. Options as in smooth(). Not of curved surfaces. Throws
-/// UsageError.
+/// Returns what the first visit of dmo would do to a vertex of the mesh at its present positions. Options as in smooth(). Not for curved
+/// surfaces. Throws UsageError.
 [[nodiscard]] DMO_API Trace trace(const Mesh& mesh, Index vertex, const SmoothOptions& options = {});
 
 }  // namespace dmo

@@ -1,4 +1,4 @@
-// The Python module's core: meshes, quality, smoothing and traces as NumPy arrays. What makes it pleasant is in dmoscope/__init__.py.
+// The Python module's core: meshes, quality, smoothing and traces as NumPy arrays. dmoscope/__init__.py wraps it for users.
 
 #include <chrono>
 #include <condition_variable>
@@ -34,7 +34,7 @@ py::array_t<T> view_of(const T* data, std::vector<py::ssize_t> shape, const py::
   array.attr("flags").attr("writeable") = false;
   return array;
 }
-/// The vector moves into the array's memory: no copy.
+/// Moves a vector into an array's memory, without a copy.
 template <class T>
 py::array array_of(std::vector<T> values, const std::vector<py::ssize_t>& shape) {
   auto* kept = new std::vector<T>(std::move(values));
@@ -44,14 +44,14 @@ py::array array_of(std::vector<T> values, const std::vector<py::ssize_t>& shape)
 
 py::ssize_t length(std::size_t n) { return static_cast<py::ssize_t>(n); }
 
-/// `points`: n x 3.
+/// Throws unless `points` is n x 3.
 void require_points(const Array<double>& points) {
   if (points.ndim() != 2 || points.shape(1) != 3) throw py::value_error("points must be an array of n x 3");
 }
 
 using NumbersByName = std::map<std::string, py::array>;
 
-/// Of each vertex or cell one number, or a row of them.
+/// Converts arrays with one number, or a row of them, for each vertex or cell.
 std::vector<dmo::Numbers> numbers_of(const NumbersByName& arrays) {
   std::vector<dmo::Numbers> all;
   for (const auto& [name, array] : arrays) {
@@ -89,10 +89,10 @@ dmo::Mesh make_mesh(const Array<double>& points, const Array<std::uint8_t>& kind
   return dmo::Mesh(points.data(), vertices, cells, cell_data, point_data);
 }
 
-/// Lets a thread that works ask the one that has Python.
+/// Lets a working thread ask the thread that has Python.
 class Question {
  public:
-  /// By the thread that works: waits for the answer.
+  /// Asks, on the working thread, and waits for the answer.
   bool ask(const dmo::Iteration& about) {
     std::unique_lock lock(mutex_);
     about_ = about;
@@ -100,7 +100,7 @@ class Question {
     changed_.wait(lock, [this] { return !about_; });
     return answer_;
   }
-  /// By the other: answers by look(iteration) what is asked, if anything is.
+  /// Answers, on the Python thread, by look(iteration), if a question is open.
   template <class Look>
   void answer(const Look& look) {
     const std::scoped_lock lock(mutex_);
@@ -109,13 +109,13 @@ class Question {
     about_.reset();
     changed_.notify_all();
   }
-  /// By the thread that works: there will be no more questions.
+  /// Tells, on the working thread, that there will be no more questions.
   void end() {
     const std::scoped_lock lock(mutex_);
     ended_ = true;
     changed_.notify_all();
   }
-  /// By the other: waits for a question or the end, but not long.
+  /// Waits, on the Python thread, for a question or the end, for at most 20 ms.
   void wait() {
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, std::chrono::milliseconds(20), [this] { return about_ || ended_; });
@@ -128,8 +128,8 @@ class Question {
   bool answer_ = true, ended_ = false;
 };
 
-/// Does the work on another thread, while this one answers its questions by look(iteration), and sees to the signals that Python has for
-/// it: at the first one the work is cancelled. Returns what the signal's handler raised, if one did.
+/// Does the work on another thread, while this one answers its questions by look(iteration), and handles Python's signals: the first one
+/// cancels the work. Returns the exception that a signal's handler raised, if one did.
 template <class Work, class Look>
 auto interruptible(dmo::Progress progress, Question& question, const Work& work, const Look& look) {
   std::optional<py::error_already_set> raised;
@@ -189,14 +189,14 @@ dmo::SmoothOptions options_of(std::optional<std::uint64_t> iterations, bool unti
   return options;
 }
 
-/// False itself, or NumPy's.
+/// Whether the answer is False, or NumPy's False.
 bool is_false(const py::object& answer) {
   if (answer.ptr() == Py_False) return true;
   return std::string(Py_TYPE(answer.ptr())->tp_name).starts_with("numpy.bool") && PyObject_IsTrue(answer.ptr()) == 0;
 }
 
 py::tuple smooth(const dmo::Mesh& mesh, dmo::SmoothOptions options, const py::object& callback) {
-  std::exception_ptr failure;  // of the callback
+  std::exception_ptr failure;  // an exception of the callback
   Question question;
   if (!callback.is_none()) options.after_iteration = [&question](const dmo::Iteration& at) { return question.ask(at); };
   const auto look = [&](const dmo::Iteration& at) {
@@ -210,7 +210,7 @@ py::tuple smooth(const dmo::Mesh& mesh, dmo::SmoothOptions options, const py::ob
   auto [future, raised] = interruptible(
       options.progress, question, [&] { return dmo::smooth(mesh, options); }, look);
   if (failure) std::rethrow_exception(failure);
-  if (raised && !raised->matches(PyExc_KeyboardInterrupt)) throw std::move(*raised);  // a handler of the user's own
+  if (raised && !raised->matches(PyExc_KeyboardInterrupt)) throw std::move(*raised);  // raised by the user's own handler
   dmo::Smoothed smoothed = future.get();
   const bool interrupted = raised.has_value();
   return py::make_tuple(smoothed.mesh, history_of(smoothed.history), smoothed.iteration, smoothed.converged, smoothed.cancelled,
@@ -335,7 +335,7 @@ void define_mesh(py::module_& module) {
 
 PYBIND11_MODULE(_dmoscope, module) {
   module.attr("__version__") = dmo::version();
-  // Never destroyed: the interpreter is gone before static objects are.
+  // Never destroyed: the interpreter ends before static objects are destroyed.
   static const py::object& error = *new py::exception<dmo::Error>(module, "Error", PyExc_RuntimeError);
   static const py::object& input_error = *new py::exception<dmo::InputError>(module, "InputError", error);
   static const py::object& output_error = *new py::exception<dmo::OutputError>(module, "OutputError", error);

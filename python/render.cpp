@@ -1,4 +1,4 @@
-// Pictures of meshes as arrays: apart from the rest of the module, for it needs OpenGL's libraries.
+// Pictures of meshes as arrays, apart from the rest of the module, for they need OpenGL's libraries.
 
 #include <algorithm>
 #include <cstdint>
@@ -45,7 +45,7 @@ dmoscope::app::PictureLook look_of(const std::string& metric, std::pair<int, int
   return look;
 }
 
-/// Height x width x 4 bytes: red, green, blue, opacity.
+/// Draws a mesh. Returns height x width x 4 bytes: red, green, blue, opacity.
 py::array_t<std::uint8_t> render(const Array<double>& points, const Array<std::uint8_t>& kinds, const Array<dmo::Index>& offsets,
                                  const Array<dmo::Index>& connectivity, const std::string& metric, std::pair<int, int> size,
                                  const std::string& colormap, const std::optional<std::pair<double, double>>& range, bool transparent,

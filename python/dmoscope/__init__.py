@@ -24,9 +24,9 @@ from ._dmoscope import Error, InputError, Iteration, OutputError, UsageError, __
 __all__ = ["BoundaryLoop", "Error", "InputError", "Iteration", "Mesh", "Metric", "OutputError", "Smoothed", "Trace", "TraceLevel", "UsageError",
            "metrics", "read", "render", "smooth", "trace", "__version__"]
 
-# In the order of the library's CellKind: meshio's name, VTK's number, corners.
+# Kinds in the order of the library's CellKind: meshio's name, VTK's number, corners.
 _KINDS = (("triangle", 5, 3), ("quad", 9, 4), ("tetra", 10, 4), ("hexahedron", 12, 8), ("wedge", 13, 6), ("pyramid", 14, 5))
-_MOST = 0xFFFFFFFF  # of the library's numbers
+_MOST = 0xFFFFFFFF  # the greatest number that the library takes
 _KIND_BY_NAME = {name: kind for kind, (name, _, _) in enumerate(_KINDS)}
 _KIND_BY_VTK = {number: kind for kind, (_, number, _) in enumerate(_KINDS)}
 
@@ -358,7 +358,7 @@ def _from_pyvista(grid) -> Mesh:
 def _mesh_of(mesh) -> Mesh:
     if isinstance(mesh, Mesh):
         return mesh
-    if _is_pyvista(mesh):  # first: it has much of what meshio's have
+    if _is_pyvista(mesh):  # tested first: a PyVista mesh has most attributes of a meshio one
         return _from_pyvista(mesh)
     if _is_meshio(mesh):
         return _from_meshio(mesh)
@@ -406,14 +406,14 @@ def metrics() -> Dict[str, Metric]:
 class Smoothed:
     """What smooth() gives back."""
 
-    mesh: Any  # of the kind that was smoothed
+    mesh: Any  # of the class of the mesh that was given
     history: Dict[str, np.ndarray] = field(repr=False)  # by iteration, 0 the input: iteration, minimum, mean, movable_minimum, inverted, moved, seconds
-    iteration: int  # whose end `mesh` is
+    iteration: int  # number of the iteration whose end is `mesh`
     converged: bool
-    cancelled: bool  # by the callback or Ctrl+C; `mesh` is what there was then
-    sentence: str  # why it ended
+    cancelled: bool  # by the callback or Ctrl+C; `mesh` is the result until then
+    sentence: str  # reason for the end
     warnings: List[str] = field(repr=False)
-    fields: str = field(default="", repr=False)  # what became of the point data
+    fields: str = field(default="", repr=False)  # changes of the point data
 
 
 def _options(iterations, until_converged, threads, fixed, points, words):
@@ -461,21 +461,21 @@ class TraceLevel:
     """A level of the search, from coarse to fine. p candidates per axis, d = 2 axes in a plane and 3 in space."""
 
     candidates: np.ndarray = field(repr=False)  # p x p (x p) x 3: places, mesh units
-    values: np.ndarray = field(repr=False)  # p x p (x p): what the search compared; more is better
-    quality: np.ndarray = field(repr=False)  # p x p (x p): the worst cell of the star with the vertex there
-    best: Optional[int]  # the one that was chosen, by its place in values.ravel(); None: none is better than what was found before
+    values: np.ndarray = field(repr=False)  # p x p (x p): the numbers that the search compared; more is better
+    quality: np.ndarray = field(repr=False)  # p x p (x p): quality of the worst cell of the star with the vertex there
+    best: Optional[int]  # the chosen candidate, an index into values.ravel(); None: none is better than the one found before
 
 
 @dataclass
 class Trace:
     """What trace() gives back."""
 
-    start: np.ndarray  # where the vertex stands: 3
-    end: np.ndarray  # where it goes: 3
-    before: float  # the worst cell of its star
+    start: np.ndarray  # place before: 3 coordinates, mesh units
+    end: np.ndarray  # place after: 3 coordinates, mesh units
+    before: float  # quality of the worst cell of its star
     after: float
     levels: List[TraceLevel] = field(repr=False)
-    value: str  # what `values` are
+    value: str  # name of the number in `values`
     sentence: str
 
 

@@ -1,4 +1,4 @@
-# What module.cpp defines; dmoscope/__init__.py makes it pleasant.
+# Types of module.cpp, which dmoscope/__init__.py wraps for users.
 from typing import Any, Callable, Dict, List, Optional, Tuple
 
 import numpy as np

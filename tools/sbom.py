@@ -10,7 +10,7 @@ import re
 import subprocess
 import sys
 
-# Whose code becomes part of the binaries without a library to load.
+# Packages whose code becomes part of the binaries without a library to load.
 INSIDE = ["libcli11-dev", "nlohmann-json3-dev", "libxsimd-dev", "libimgui-dev", "libstb-dev", "libhdf5-dev", "libaec-dev", "python3-glad"]
 
 

@@ -26,7 +26,7 @@ std::vector<std::string> names_in(const Table& table) {
   return names;
 }
 
-/// The words that an option's value can be; empty: any, such as a file.
+/// The words that an option's value can be; empty: any value, such as a file.
 std::vector<std::string> choices_of(const CLI::Option& option) {
   const std::string name = option.get_positional() ? option.get_name(true) : option.get_lnames().empty() ? "" : option.get_lnames().front();
   if (name == "metric") return names_in(metric_table());
@@ -41,7 +41,7 @@ std::vector<std::string> choices_of(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   if (type.find('|') == std::string::npos) return {};
   std::vector<std::string> words;
-  for (std::string& word : CLI::detail::split(type, '|'))  // but for what stands for something, as in shuffle:SEED
+  for (std::string& word : CLI::detail::split(type, '|'))  // placeholders, such as in shuffle:SEED, are left out
     if (std::none_of(word.begin(), word.end(), [](char c) { return c >= 'A' && c <= 'Z'; })) words.push_back(std::move(word));
   return words;
 }
@@ -58,7 +58,7 @@ std::vector<const CLI::App*> subcommands_of(const CLI::App& app) {
     if (!subcommand->get_group().empty()) shown.push_back(subcommand);
   return shown;
 }
-/// "-o", "--output".
+/// Spellings of an option: "-o", "--output".
 std::vector<std::string> spellings(const CLI::Option& option) {
   std::vector<std::string> all;
   for (const std::string& name : option.get_snames()) all.push_back("-" + name);
@@ -113,7 +113,7 @@ complete -o default -F _dmoscope dmoscope
                      verbs.substr(1), own, cases, positionals);
 }
 
-/// Between the quotes of _arguments, where brackets and colons have a meaning of their own.
+/// Escapes text for the quotes of _arguments, where brackets and colons have a meaning of their own.
 std::string zsh_text(std::string_view text) {
   std::string out;
   for (const char c : text) {

@@ -1,5 +1,5 @@
 #pragma once
-// What a shell completes, from the same options as --help.
+// Shell completion, from the same options as --help.
 
 #include <string>
 #include <string_view>
@@ -10,7 +10,7 @@ class App;
 
 namespace dmoscope::app {
 
-/// A completion script for `shell`: bash or zsh. Throws UsageError for any other.
+/// Makes a completion script for `shell`: bash or zsh. Throws UsageError for any other.
 [[nodiscard]] std::string completion_script(const CLI::App& app, std::string_view shell);
 
 }  // namespace dmoscope::app

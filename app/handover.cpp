@@ -14,7 +14,7 @@
 namespace dmoscope::app {
 namespace {
 
-/// What launchers tell their processes: Open MPI, MPICH and Intel MPI, PMIx (srun).
+/// Environment of the processes of a launcher: Open MPI, MPICH and Intel MPI, PMIx (srun).
 struct Launcher {
   const char* rank;
   const char* size;
@@ -22,7 +22,7 @@ struct Launcher {
 constexpr std::array kLaunchers{Launcher{"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"}, Launcher{"PMI_RANK", "PMI_SIZE"},
                                 Launcher{"PMIX_RANK", "SLURM_STEP_NUM_TASKS"}};
 
-/// One process alone does all there is; but what only many are told, it is to understand.
+/// Whether this process is alone and does the job itself, but for words that dmoscope-mpi alone understands.
 bool is_alone(const char* size, char** argv) {
   if (size == nullptr || std::string_view(size) != "1") return false;
   for (; *argv != nullptr; ++argv)

@@ -25,7 +25,7 @@ namespace {
 constexpr int kWrongUsage = 2;
 constexpr int kBadInputOrOutput = 3;
 
-/// Runs what was asked for; whatever ends it early becomes a message and its exit code.
+/// Runs the action; an error becomes a message and its exit code.
 int guarded(const Action& action) {
   try {
     return action();
@@ -48,7 +48,7 @@ int guarded(const Action& action) {
   }
 }
 
-/// --help and --version, which the parser ends with.
+/// Prints --help or --version, with which the parser ends.
 int print_requested(const CLI::App& app, const CLI::ParseError& error) {
   std::ostringstream text;
   app.exit(error, text, text);
@@ -86,7 +86,7 @@ int run(int argc, char** argv) {
   add_paper(app, action, command_line);
   add_formula(app, action);
   add_info(app, action);
-  // Last: subcommands would take it over.
+  // Added last: subcommands would inherit it.
   app.footer(
       "Without a subcommand the window opens on the files. Exit codes: 0 done; 1 ran but did not reach what was asked; 2 wrong usage; "
       "3 bad input or output.");
@@ -121,7 +121,7 @@ int main(int argc, char** argv) {
     dmoscope::app::ignore_file_limit_signal();
     dmoscope::app::hand_over_to_mpi(argv);
     const int code = dmoscope::app::run(argc, argv);
-    // A full disk or closed pipe below standard output must not look like success; whoever failed already said why.
+    // A full disk or closed pipe below standard output must not look like success; an error of it was reported already.
     if (code != dmoscope::app::kBadInputOrOutput) dmoscope::app::flush_output();
     return code;
   } catch (const dmoscope::Error& error) {

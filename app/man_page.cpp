@@ -16,7 +16,7 @@
 namespace dmoscope::app {
 namespace {
 
-/// Text as roff shows it literally.
+/// Escapes text so that roff shows it literally.
 std::string roff(std::string_view text) {
   std::string out;
   for (const char c : text) {
@@ -34,7 +34,7 @@ std::string roff(std::string_view text) {
 
 std::string item(std::string_view head, std::string_view body) { return fmt::format(".TP\n\\fB{}\\fR\n{}\n", roff(head), roff(body)); }
 
-/// "--size WxH" as --help names it: the option's names and, unless it is a flag, what it takes.
+/// Heading of an option, as in --help: "--size WxH"; its names and, unless it is a flag, its value.
 std::string heading(const CLI::Option& option) {
   std::string head = option.get_name(option.get_positional(), true);
   std::string separated;

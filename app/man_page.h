@@ -9,7 +9,7 @@ class App;
 
 namespace dmoscope::app {
 
-/// dmoscope(1) in roff.
+/// The man page dmoscope(1) in roff.
 [[nodiscard]] std::string man_page(const CLI::App& app);
 
 }  // namespace dmoscope::app

@@ -18,7 +18,7 @@
 namespace dmoscope::app {
 namespace {
 
-constexpr int kInterruptedExit = 130;  // what a shell expects of a program that Ctrl+C ended
+constexpr int kInterruptedExit = 130;  // the exit code by which a shell knows that Ctrl+C ended a program
 constexpr int kPollsBeforeDrawing = 4;
 constexpr int kPollMilliseconds = 50;
 
@@ -27,7 +27,7 @@ sigset_t interrupts() {
   sigemptyset(&set);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU}) {
     struct sigaction now {};
-    if (sigaction(signal, nullptr, &now) == 0 && now.sa_handler == SIG_IGN) continue;  // blocked, it would come all the same
+    if (sigaction(signal, nullptr, &now) == 0 && now.sa_handler == SIG_IGN) continue;  // if blocked, an ignored signal would be delivered
     sigaddset(&set, signal);
   }
   return set;
@@ -97,7 +97,7 @@ void Watch::watch() {
   bool drawn = false;
   bool asked = false;
   for (int polls = 1;; ++polls) {
-    // Without a terminal there is nothing to draw: it sleeps until something happens.
+    // Sleeps until an event without a terminal, since there is nothing to draw.
     (void)poll(events.data(), events.size(), terminal ? kPollMilliseconds : -1);
     if (events[1].revents != 0) break;
     signalfd_siginfo came{};

@@ -1,6 +1,6 @@
 #pragma once
-// What a person at a terminal sees, and how Ctrl+C reaches the work. All that the program prints goes through here, so that nothing in a
-// file or a name can give the terminal orders.
+// Output to the terminal, and Ctrl+C for the work. All that the program prints goes through here, so that no text of a file or a name can
+// control the terminal.
 
 #include <functional>
 #include <string>
@@ -15,8 +15,8 @@
 
 namespace dmoscope::app {
 
-/// From now on the signals that ask a program to end (SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU) wait for a Watch in this thread and in all
-/// threads it starts afterwards, but for those that whoever started the program has it ignore (nohup).
+/// Makes the signals that ask a program to end (SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU) wait for a Watch, in this thread and in all
+/// threads that it starts afterwards. Signals that are ignored already (nohup) stay so.
 void block_interrupts();
 
 /// Makes a file that grows beyond the process's limit an error like a full disk, instead of a signal that ends the program.
@@ -25,10 +25,10 @@ void ignore_file_limit_signal();
 /// Writes "dmoscope: TEXT" and a line feed to standard error; `hint`: another line after it.
 void complain(std::string_view text, std::string_view hint = {});
 
-/// Writes lines to standard output that the program composed, possibly with texts of others in them.
+/// Writes lines that the program composed to standard output; they may contain texts of files.
 void print_lines(std::string_view text);
 
-/// Text as one line shows it, see terminal_line(); other things as they are.
+/// Text in its form for one line, see terminal_line(); other things unchanged.
 template <class Thing>
 using Shown = std::conditional_t<std::is_convertible_v<const Thing&, std::string_view>, std::string, Thing>;
 
@@ -40,24 +40,24 @@ template <class Thing>
     return thing;
 }
 
-/// fmt::print to standard output; text that is filled in cannot leave its line.
+/// Prints by fmt::print to standard output; text that is filled in cannot leave its line.
 template <class... Things>
 void print(fmt::format_string<const Shown<Things>&...> format, const Things&... things) {
   print_lines(fmt::format(format, static_cast<const Shown<Things>&>(shown(things))...));
 }
 
-/// Flushes standard output. Throws OutputError when that fails, or when an earlier write failed.
+/// Flushes standard output. Throws OutputError if that fails, or if an earlier write failed.
 void flush_output();
 
-/// Shows, on a terminal, one rewritten line of progress for work of more than 0.2 s, and turns the first Ctrl+C into a cancel;
-/// the second ends the process at once.
+/// Shows one rewritten line of progress, on a terminal, for work of more than 0.2 s, and turns the first Ctrl+C into a cancel; the second
+/// ends the process at once.
 class Watch {
  public:
   /// Watches its own progress(); Ctrl+C requests a cancel there.
   Watch();
   /// Watches the progress of another owner; `cancel` is called from the watching thread.
   Watch(const Progress& shown, std::function<void()> cancel);
-  /// Shows nothing.
+  /// Watches for Ctrl+C alone and shows nothing.
   explicit Watch(std::function<void()> cancel);
   ~Watch();
   Watch(const Watch&) = delete;
@@ -74,8 +74,8 @@ class Watch {
   const Progress& shown_;
   std::function<void()> cancel_;
   const bool quiet_;
-  int signals_ = -1, wake_ = -1;  // descriptors: the signals that wait, and the end of the watch
-  std::jthread thread_;           // last: everything above exists before it starts
+  int signals_ = -1, wake_ = -1;  // descriptors: the pending signals, and the end of the watch
+  std::jthread thread_;           // last: it uses all members above
 };
 
 }  // namespace dmoscope::app

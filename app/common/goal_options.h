@@ -1,5 +1,5 @@
 #pragma once
-// The options that say how far a run goes, shared by the subcommands that smooth.
+// The options for the end of a run, shared by the subcommands that smooth.
 
 #include "app/common/judged_run.h"
 

@@ -10,7 +10,7 @@ namespace dmoscope::app {
 
 namespace {
 
-/// What the run took counts whole, wherever it has gone back to.
+/// Counts all iterations of the run, also those after the one that it has gone back to.
 void count_all(RunRow& row, const Run& run) {
   const auto& records = run.history().records();
   row.iterations = records.size() - 1;
@@ -27,7 +27,7 @@ JudgedRun run_judged(std::string name, std::shared_ptr<const InputMesh> input, R
   ThreadPool* const pool = workshop.pool.get();
   const QualityContext context = input->quality_context();
   const bool own = judge == parameters.metric;
-  Run run(input, std::move(parameters), workshop.pool, 0, workshop.acceleration);  // no past positions: nobody asks for them here
+  Run run(input, std::move(parameters), workshop.pool, 0, workshop.acceleration);  // no past positions: none are asked for
   if (std::string warning = run.take_warning(); !warning.empty()) workshop.warn(std::move(warning));
   if (run.size_field() && !run.size_field()->note().empty()) workshop.warn(run.size_field()->note());
 
@@ -36,7 +36,7 @@ JudgedRun run_judged(std::string name, std::shared_ptr<const InputMesh> input, R
     judged.push_back(compute_statistics(context, now.positions(), judge, now.immovable(), pool));
   };
   const auto smooth_all = [&] {
-    run.reset(workshop.progress);  // after a failure it stands where its positions were last asked for
+    run.reset(workshop.progress);  // after a failure the run is at the last positions that were asked for
     judged.clear();
     if (!own) judge_now(run);
     const Run::AfterIteration after = own ? Run::AfterIteration{} : judge_now;

@@ -1,5 +1,5 @@
 #pragma once
-// A run from the input on, done and judged by any metric.
+// A run from the input on, completed and judged by any metric.
 
 #include <functional>
 #include <memory>
@@ -14,10 +14,10 @@
 
 namespace dmoscope::app {
 
-/// How far runs go.
+/// The end of a run.
 struct Goal {
   std::uint64_t iterations = 20;
-  std::optional<ConvergenceLimits> until_converged{};  // instead
+  std::optional<ConvergenceLimits> until_converged{};  // replaces the number of iterations
 };
 
 struct JudgedRun {
@@ -26,11 +26,11 @@ struct JudgedRun {
   std::string backend_reason;  // see Run
   std::uint64_t free = 0;      // vertices that may move
   RunRow row;                  // its title is `name`; iterations and seconds are those of all that was done
-  Statistics after;            // by the judge, where the run stands: until converged, at its best iteration (see Run::end_at_best)
+  Statistics after;            // by the judge, at the run's present iteration: until converged, the best one (see Run::end_at_best)
   Outcome outcome;
-  std::string held;  // of a run that moved vertices jointly, with hints: what holds its minimum, without a point; else empty
+  std::string held;  // the hold of the minimum in words, without a full stop, for joint runs with hints; else empty
   ReportCard card;
-  std::vector<IterationRecord> records;  // their statistics are the judge's; the first is the input
+  std::vector<IterationRecord> records;  // with the judge's statistics; the first is the input
   std::vector<double> qualities;         // of all elements by the judge, ascending
   std::vector<Vec3> positions;
   [[nodiscard]] const Statistics& before() const { return records.front().statistics; }
@@ -39,7 +39,7 @@ struct JudgedRun {
   }
 };
 
-/// What runs share.
+/// Resources that runs share.
 struct Workshop {
   std::shared_ptr<ThreadPool> pool;
   Acceleration acceleration;
@@ -48,8 +48,8 @@ struct Workshop {
   Hints hints = Hints::On;
 };
 
-/// Throws what Run does, and UsageError when the judge is not defined for the mesh. Where a device fails that was not
-/// asked for by name, a message says so and the CPU does the work.
+/// Does the run and judges it. Throws the errors of Run, and UsageError if the judge is not defined for the mesh. If a device fails that
+/// was not asked for by name, the CPU does the work, with a warning.
 [[nodiscard]] JudgedRun run_judged(std::string name, std::shared_ptr<const InputMesh> input, RunParameters parameters, Metric judge,
                                    const Goal& goal, const Workshop& workshop);
 

@@ -12,16 +12,16 @@
 namespace dmoscope::app {
 namespace {
 
-// Told apart also by those who see fewer colours (after Okabe and Ito); the pale yellow of that set is left out.
+// Colours that differ also for the colour-blind (after Okabe and Ito); the pale yellow of that set is left out.
 constexpr std::array<DrawingColour, 8> kColours{
     {{0, 114, 178}, {213, 94, 0}, {0, 158, 115}, {204, 121, 167}, {86, 180, 233}, {230, 159, 0}, {120, 80, 40}, {70, 70, 160}}};
 constexpr std::array<double, 4> kDashes{0.0, 7.0, 13.0, 3.0};
 constexpr DrawingColour kInk{40, 40, 40}, kFaint{110, 110, 110}, kGrid{200, 200, 200}, kFineGrid{232, 232, 232};
 
-constexpr double kPlotWidth = 620.0, kLeast = 380.0;  // of the frame; it grows with the legend
+constexpr double kPlotWidth = 620.0, kLeast = 380.0;  // size of the frame, which grows with the legend
 constexpr double kLeft = 70.0, kTop = 92.0, kBottom = 84.0, kGap = 24.0;
 constexpr double kRow = 21.0, kSample = 34.0, kText = 12.0;
-constexpr double kWidthOfALetter = 0.62 * kText;  // of DejaVu Sans, generously: other fonts are narrower
+constexpr double kWidthOfALetter = 0.62 * kText;  // upper bound for DejaVu Sans, which is wider than other fonts
 
 std::string axis_number(double value) {
   if (value >= 1e6) return fmt::format("{:g} M", value / 1e6);
@@ -30,13 +30,13 @@ std::string axis_number(double value) {
 
 bool drawable(double value, AxisKind kind) { return std::isfinite(value) && (kind == AxisKind::Linear || value > 0.0); }
 
-/// Where a value is along its axis.
+/// Maps values to places along an axis.
 class Axis {
  public:
   Axis(AxisKind kind, double lowest, double highest, double start, double end)
       : kind_(kind), low_(along(lowest)), high_(along(highest)), start_(start), end_(end) {
-    // Room at both ends. Of a logarithmic axis at least a decade, so that there are two labels even for a single value; of a linear one
-    // at least something.
+    // Room at both ends. A logarithmic axis spans at least a decade, so that there are two labels even for a single value; a linear one is
+    // never empty.
     const double span = high_ - low_;
     const double least = kind == AxisKind::Logarithmic ? 0.5 * (1.0 - span) : span > 0.0 ? 0.0 : std::max(0.5 * std::abs(low_), 1e-3);
     const double widen = std::max((kind == AxisKind::Logarithmic ? 0.08 : 0.03) * span, least);
@@ -59,7 +59,7 @@ class Axis {
  private:
   [[nodiscard]] double along(double value) const { return kind_ == AxisKind::Logarithmic ? std::log10(value) : value; }
 
-  /// Calls tick(value, labelled) for 1 to 9 times every power of ten inside.
+  /// Calls tick(value, labelled) for 1 to 9 times every power of ten on the axis.
   template <class Tick>
   void for_powers(Tick tick) const {
     const bool many = high_ - low_ > 2.0;
@@ -130,7 +130,7 @@ void draw_axes(Drawing& drawing, const LinePlot& plot, const Frame& f) {
 DrawingColour colour_of(const PlotSeries& series) { return series.muted ? kFaint : kColours[series.colour % kColours.size()]; }
 
 void draw_series(Drawing& drawing, const LinePlot& plot, const PlotSeries& series, const Frame& f) {
-  constexpr double kNear = 0.4;  // points of a line without dots that nobody can tell apart
+  constexpr double kNear = 0.4;  // distance below which points of a line without dots look the same
   const DrawingColour colour = colour_of(series);
   std::vector<Drawing::Point> points;
   const auto finish = [&] {

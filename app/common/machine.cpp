@@ -10,7 +10,7 @@
 namespace dmoscope::app {
 namespace {
 
-/// What follows the colon of the first line of `file` that begins with `key`; none where there is no such line.
+/// The text after the colon of the first line of `file` that begins with `key`; none without such a line.
 std::optional<std::string> value_of(const char* file, std::string_view key) {
   std::ifstream stream(file);
   for (std::string line; std::getline(stream, line);) {

@@ -46,7 +46,7 @@ void add_memory_option(CLI::App& subcommand, MemoryLimit& limit) {
 
 int within_memory(const MemoryLimit& limit, const std::filesystem::path& file, const std::function<int()>& work) {
   if (const std::uint64_t most = limit.bytes(); most != 0) {
-    // Limits data alone: addresses that a driver reserves and never touches are no memory.
+    // Limits data alone: addresses that a driver reserves and never touches are not memory.
     rlimit now{};
     if (getrlimit(RLIMIT_DATA, &now) != 0) throw std::system_error(errno, std::generic_category(), "--max-memory");
     now.rlim_cur = std::min<rlim_t>(most + room_for_stacks(), now.rlim_max);
@@ -56,7 +56,7 @@ int within_memory(const MemoryLimit& limit, const std::filesystem::path& file, c
     return work();
   } catch (const std::bad_alloc&) {
     fail(file, limit.text);
-  } catch (const std::system_error& error) {  // a thread that gets no stack
+  } catch (const std::system_error& error) {  // no memory for a thread's stack
     if (limit.text.empty() || error.code() != std::errc::resource_unavailable_try_again) throw;
     fail(file, limit.text);
   }

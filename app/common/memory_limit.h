@@ -1,5 +1,5 @@
 #pragma once
-// The --max-memory option: how much memory a subcommand may take.
+// The --max-memory option: the most memory that a subcommand may use.
 
 #include <cstdint>
 #include <filesystem>
@@ -13,7 +13,7 @@ class App;
 namespace dmoscope::app {
 
 struct MemoryLimit {
-  std::string text;  // as it was given; empty: none
+  std::string text;  // the option's text; empty: not given
   /// Bytes; 0: no limit. Throws UsageError.
   [[nodiscard]] std::uint64_t bytes() const;
 };
@@ -21,7 +21,7 @@ struct MemoryLimit {
 /// Declares --max-memory.
 void add_memory_option(CLI::App& subcommand, MemoryLimit& limit);
 
-/// Does the work within the limit, which holds for the whole process from now on; work that needs more ends with an error that names `file`
+/// Does the work within the limit, which holds for the whole process from now on; if it needs more it ends with an error that names `file`
 /// (empty: none).
 int within_memory(const MemoryLimit& limit, const std::filesystem::path& file, const std::function<int()>& work);
 

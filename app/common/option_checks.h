@@ -1,5 +1,5 @@
 #pragma once
-// Checks that several subcommands' options share.
+// Checks of options that several subcommands share.
 
 #include <charconv>
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace dmoscope::app {
 
-/// A transform for counts: a whole number from `least` to `most` in plain digits. The parser alone would turn -1 into the largest
+/// Makes a transform for counts: a whole number from `least` to `most` in plain digits. The parser alone would turn -1 into the largest
 /// number, read 010 as 8, and wrap numbers that are too large.
 [[nodiscard]] inline CLI::Validator whole_number(std::uint64_t least, std::uint64_t most) {
   return CLI::Validator(

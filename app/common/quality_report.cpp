@@ -51,8 +51,8 @@ void print_table(const std::vector<MetricSummary>& summaries) {
 
 constexpr double kMostDecimals = 9.0;
 
-/// Coordinates of places in a mesh, to six digits of the mesh's size; far from the origin that is more digits of the coordinate. Without z
-/// where all of the mesh has the same. --json has all digits.
+/// Formats places in a mesh, to six digits of the mesh's size; far from the origin the coordinates have more digits. Without z if all of
+/// the mesh has the same. --json has all digits.
 class PlaceText {
  public:
   explicit PlaceText(const Geometry& geometry);
@@ -61,7 +61,7 @@ class PlaceText {
 
  private:
   [[nodiscard]] std::string coordinate(double x) const;
-  std::optional<int> decimals_;  // none: such numbers are written with an exponent
+  std::optional<int> decimals_;  // none: numbers with an exponent
   bool flat_ = false;
 };
 PlaceText::PlaceText(const Geometry& geometry) {

@@ -1,5 +1,5 @@
 #pragma once
-// How good a mesh's elements are, for a person and as JSON.
+// Quality of a mesh's elements, for the user and as JSON.
 
 #include <cstdint>
 #include <string>
@@ -21,21 +21,21 @@ struct MetricSummary {
     Vec3 centroid;
   };
   Metric metric{};
-  std::uint64_t elements = 0;  // for which it is defined
+  std::uint64_t elements = 0;  // number for which the metric is defined
   double minimum = 0.0, percentile_1 = 0.0, percentile_5 = 0.0, percentile_50 = 0.0, mean = 0.0;
   std::uint64_t unacceptable = 0;
   std::vector<Worst> worst{};
 };
 
 [[nodiscard]] Json json_of(const MetricSummary& summary, bool with_worst);
-/// A list of the elements that it names.
+/// The list of the elements that `inverted` names.
 [[nodiscard]] Json json_of_inverted(const InvertedCount& inverted);
-/// "0 inverted"; "3 inverted, 2 of them inside alone, where corners do not tell: element 17 at (1, 0.5, 1), element 18 at (2, 0.5, 1)", of
-/// many the first.
+/// One sentence: "0 inverted"; "3 inverted, 2 of them inside alone, where corners do not tell: element 17 at (1, 0.5, 1), element 18 at (2,
+/// 0.5, 1)"; of many elements the first.
 [[nodiscard]] std::string sentence_of(const InvertedCount& inverted);
-/// "coast.14: 4,934 vertices, 9,290 elements, 0 inverted"
+/// Prints the counts: "coast.14: 4,934 vertices, 9,290 elements, 0 inverted".
 void print_counts(const std::string& mesh, std::uint64_t vertices, std::uint64_t elements, const InvertedCount& inverted);
-/// The table of all metrics, then the worst elements of each.
+/// Prints the table of all metrics, then the worst elements of each.
 void print_summaries(const std::vector<MetricSummary>& summaries, const Geometry& geometry);
 
 }  // namespace dmoscope::app

@@ -1,5 +1,5 @@
 #pragma once
-// The options that say what a mesh is taken for: --geographic and --thin.
+// The options --geographic and --thin, which set the meaning of a mesh.
 
 #include <string>
 
@@ -13,11 +13,11 @@ namespace dmoscope::app {
 
 struct ReadingOptions {
   std::string geographic = "auto", thin = "auto";
-  /// Tells them to those that read. Throws UsageError.
+  /// Sets them for reading. Throws UsageError.
   void tell(IoContext& reading) const;
 };
 
-/// Declares them.
+/// Declares --geographic and --thin.
 void add_reading_options(CLI::App& subcommand, ReadingOptions& options);
 
 }  // namespace dmoscope::app

@@ -20,7 +20,7 @@
 namespace dmoscope::app {
 namespace {
 
-/// Refuses what is no number.
+/// Makes a check that refuses words other than numbers.
 CLI::Validator real_number() {
   return CLI::Validator(
       [](const std::string& word) {

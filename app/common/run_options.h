@@ -1,5 +1,5 @@
 #pragma once
-// The options that say how a run smooths, shared by the subcommands that smooth.
+// The options of a run, shared by the subcommands that smooth.
 
 #include <functional>
 #include <map>
@@ -15,10 +15,10 @@ class App;
 
 namespace dmoscope::app {
 
-/// The defaults.
+/// The default parameters.
 [[nodiscard]] std::map<std::string, std::string, std::less<>> usual_parameters();
 
-/// Words that name vertices or edges, by the option that they follow.
+/// Words that name vertices or edges, by their option.
 struct KindWords {
   std::vector<std::string> corner, no_corner, feature, no_feature;
 };
@@ -26,11 +26,11 @@ struct KindWords {
 struct RunOptions {
   std::string method = "dmo";
   std::string metric = "mean-ratio";
-  std::string target;         // see parse_target(); empty: that of the metric
+  std::string target;         // see parse_target(); empty: the metric's own
   std::string combine;        // FIRST:THRESHOLD:SECOND; empty: one metric alone
-  std::string size_function;  // of a combination with density; empty: constant
+  std::string size_function;  // for a combination with density; empty: constant
   std::string then;           // see set_then(); empty: nothing
-  std::string recipe;         // of recipe_table(); empty: none
+  std::string recipe;         // a name of recipe_table(); empty: none
   unsigned threads = 0;
   std::string hints = "on";                                                         // for parse_hints()
   std::vector<std::string> fix;                                                     // for vertices_to_fix()
@@ -46,8 +46,8 @@ void add_backend_option(CLI::App& subcommand, std::string& backend);
 /// option for every row of parameter_table().
 void add_run_options(CLI::App& subcommand, RunOptions& options);
 
-/// The parameters without the fixed set and the kinds, which need the mesh. Throws UsageError for names that do not exist and values out of
-/// range.
+/// Makes the parameters without the fixed set and the kinds, which need the mesh. Throws UsageError for names that do not exist and values
+/// out of range.
 [[nodiscard]] RunParameters parameters_of(const RunOptions& options);
 
 }  // namespace dmoscope::app

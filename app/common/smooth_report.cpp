@@ -22,7 +22,7 @@ namespace {
 
 std::string_view reason_name(StopReason reason) {
   constexpr std::array<std::string_view, 5> kNames{"nothing-moved", "no-rise", "certified", "no-joint-gain", "iteration-limit"};
-  return kNames[static_cast<std::size_t>(reason)];  // in its order
+  return kNames[static_cast<std::size_t>(reason)];  // in the order of StopReason
 }
 
 Json json_of(const Statistics& s, std::uint64_t inside_alone) {
@@ -30,8 +30,7 @@ Json json_of(const Statistics& s, std::uint64_t inside_alone) {
           {"ceiling", json_number(s.ceiling)}, {"inverted", s.inverted},      {"inverted_inside_alone", inside_alone}};
 }
 
-/// Of joint moves, tried or in the run: what they reach, the bound, how many elements hold one another, and by how much those that hold
-/// most.
+/// Result of joint moves, tried or in the run: the minimum, its bound, the number of holders, and the first holders with their multipliers.
 Json json_of(const JointCluster& cluster) {
   constexpr std::size_t kMostNamed = 1000;
   const auto all = holders(cluster);
@@ -89,17 +88,17 @@ namespace {
 
 bool on_cpu(const Run& run) { return run.backend() == Backend::Cpu; }
 
-/// By packs: the grid search alone can do that.
+/// Whether packs compute: the grid search alone can use them.
 bool in_packs(const RunParameters& p) { return method_info(p.method).searches_grid && p.search.precision == Precision::Float; }
 
-/// What the search computed with; null on a device.
+/// Name of the instructions that the search used; null on a device.
 Json simd_name(const Run& run) {
   const RunParameters& p = run.parameters();
   if (!on_cpu(run)) return nullptr;
   return in_packs(p) ? name(p.search.simd.value_or(best_simd_level())) : "scalar";
 }
 
-/// "2 threads", "4 ranks of 2 threads each".
+/// Where the search ran: "2 threads", "4 ranks of 2 threads each".
 std::string where_computed(const SmoothReport& r) {
   if (!on_cpu(r.run)) return r.run.backend_reason();
   const std::string threads = counted(r.threads, "thread", "threads");
@@ -124,7 +123,7 @@ Json json_of(const SmoothReport& r) {
   nlohmann::ordered_json parameters;
   for (const ParameterInfo& row : parameter_table())
     if (row.in_session) parameters[std::string(row.name)] = parameter_json(row, p);
-  parameters["precision"] = in_packs(p) && !p.combination ? "float" : "double";  // what was computed with
+  parameters["precision"] = in_packs(p) && !p.combination ? "float" : "double";  // the precision of the computation
   parameters["fixed_by_user"] = r.fixed_by_user;
   parameters["kinds_by_user"] = {{"corners", p.kinds.corners.size()},
                                  {"no_corners", p.kinds.no_corners.size()},
@@ -212,7 +211,7 @@ void require_output_moment(const std::string& word) {
 
 std::string seek_output_iteration(Run& run, const std::string& write, bool until_converged, Progress& progress) {
   const bool optimises = method_info(run.parameters().method).optimises;
-  // A number of iterations that was asked for is done, where it makes nothing worse.
+  // A method that optimises makes nothing worse: the last of a given number of iterations is written.
   if (write == "last" || (optimises && !until_converged)) return {};
   const std::uint64_t ended = run.moment().iteration;
   run.end_at_best(progress);

@@ -1,5 +1,5 @@
 #pragma once
-// What came of smoothing a mesh, for a person and as JSON.
+// Report of a smoothing run, for the user and as JSON.
 
 #include <cstdint>
 #include <filesystem>
@@ -19,28 +19,28 @@
 
 namespace dmoscope::app {
 
-/// Counts are of the whole mesh, however many processes have it.
+/// Results of smoothing. Counts are those of the whole mesh, for any number of processes.
 struct SmoothReport {
   std::filesystem::path input, output;
   bool until_converged = false;
   const Run& run;
   std::uint64_t vertices = 0, elements = 0, free = 0, fixed_by_user = 0;
-  std::uint64_t on_interfaces = 0;  // vertices that interfaces hold
-  unsigned threads = 1;             // of this process
+  std::uint64_t on_interfaces = 0;  // vertices that interfaces fix
+  unsigned threads = 1;             // threads of this process
   unsigned ranks = 0;               // 0: one process alone
   Outcome outcome{};
   double seconds = 0.0;
-  std::uint64_t inside_alone_before = 0;    // elements that only their inside inverted
-  std::optional<LeftInverted> left{};       // of what is written
-  std::optional<CrossingFaces> crossing{};  // likewise
-  std::optional<ReportCard> card{};         // likewise; none where many processes have the mesh
-  std::optional<HeldMinimum> held{};        // likewise
-  MovedFields fields{};                     // nodal fields as they were written
+  std::uint64_t inside_alone_before = 0;    // elements that are inverted inside alone
+  std::optional<LeftInverted> left{};       // in the positions that are written
+  std::optional<CrossingFaces> crossing{};  // in the positions that are written
+  std::optional<ReportCard> card{};         // of the positions that are written; none with many processes
+  std::optional<HeldMinimum> held{};        // at the positions that are written
+  MovedFields fields{};                     // nodal fields that are written
   std::vector<std::string> warnings{};
   std::optional<Provenance> provenance{};
 
   [[nodiscard]] const IterationRecord& before() const { return run.history().records().front(); }
-  /// What is written.
+  /// The record of the iteration that is written.
   [[nodiscard]] const IterationRecord& after() const { return run.history().records()[run.moment().iteration]; }
   [[nodiscard]] double visits_per_second() const {
     const auto visits = static_cast<double>(outcome.iterations * free);
@@ -50,18 +50,18 @@ struct SmoothReport {
 
 [[nodiscard]] Json card_json(const ReportCard& card);
 
-/// Prints it, for a person or as JSON, and complains where the run has not converged as was asked.
+/// Prints the report, for the user or as JSON, and complains if a run that was asked to converge has not.
 void print_report(const SmoothReport& report, bool as_json);
-/// Whether the run ended as was asked, with no element inverted; `strict`: and with nothing worse than in the input.
+/// Whether the run ended as asked, with no element inverted; `strict`: also with nothing worse than in the input.
 [[nodiscard]] bool all_well(const SmoothReport& report, bool strict);
 
-/// Reads the word for the iteration that is written, "best" or "last". Throws UsageError.
+/// Checks the word for the iteration that is written, "best" or "last". Throws UsageError.
 void require_output_moment(const std::string& word);
-/// Goes to the iteration that is written; returns a sentence where that is not the last though it was the last that was asked for.
+/// Goes to the iteration that is written; returns a sentence if that is not the last although the last was asked for.
 [[nodiscard]] std::string seek_output_iteration(Run& run, const std::string& write, bool until_converged, Progress& progress);
 /// The run's records as the text of a file, see stats_csv.
 [[nodiscard]] std::string stats_of(const Run& run);
-/// How long all iterations took.
+/// Time of all iterations, in seconds.
 [[nodiscard]] double smoothing_seconds(const Run& run);
 
 }  // namespace dmoscope::app

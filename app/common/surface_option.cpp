@@ -25,7 +25,7 @@ void add_materials_option(CLI::App& subcommand, std::vector<std::string>& materi
 std::shared_ptr<const InputMesh> load_input_on(const std::filesystem::path& mesh, const std::filesystem::path& surface, Need need,
                                                const IoContext& context, std::span<const std::string> materials) {
   if (surface.empty()) return load_input(mesh, need, context, materials);
-  IoContext of_all = context;  // the boundary of all cells slides, on that of all cells
+  IoContext of_all = context;  // both meshes' boundaries are those of all cells
   if (of_all.thin == Thin::Auto) of_all.thin = Thin::Off;
   const auto input = load_input(mesh, need, of_all, materials);
   of_all.thin = Thin::Off;

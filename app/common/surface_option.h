@@ -1,5 +1,5 @@
 #pragma once
-// How an input is read beyond its file: --surface, another mesh, on whose surface vertices slide; --materials, cell data that name
+// Options for an input beyond its file: --surface, another mesh, on whose surface vertices slide; --materials, cell data that name
 // materials.
 
 #include <filesystem>
@@ -22,7 +22,7 @@ void add_surface_option(CLI::App& subcommand, std::filesystem::path& surface);
 /// Declares --materials.
 void add_materials_option(CLI::App& subcommand, std::vector<std::string>& materials);
 
-/// load_input, to slide on another surface where a file is given: see slide_on().
+/// Loads the input, to slide on another surface if a file is given: see load_input() and slide_on().
 [[nodiscard]] std::shared_ptr<const InputMesh> load_input_on(const std::filesystem::path& mesh, const std::filesystem::path& surface,
                                                              Need need, const IoContext& context,
                                                              std::span<const std::string> materials = {});

@@ -16,7 +16,7 @@ std::string brief(double value) { return std::isfinite(value) ? fmt::format("{:.
 Json json_number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 void print_json(const Json& object) {
-  // All that a terminal obeys lies in strings: those of ASCII are escaped by the dump; the others stay the same string as \u0085.
+  // Characters that control a terminal occur in strings alone: ASCII ones are escaped by the dump; the others become \u0085 and the like.
   const std::string text = object.dump(2, ' ', false, Json::error_handler_t::replace);
   std::string escaped;
   std::size_t done = 0;
@@ -33,7 +33,7 @@ void print_json(const Json& object) {
 
 std::string text_table(const std::vector<std::string>& head, const std::vector<std::vector<std::string>>& rows,
                        std::string_view alignment) {
-  // Letters of UTF-8, not bytes.
+  // Counts letters of UTF-8, not bytes.
   const auto letters = [](const std::string& text) {
     return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
   };

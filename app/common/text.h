@@ -1,5 +1,5 @@
 #pragma once
-// Numbers, tables and JSON as the subcommands print them.
+// Numbers, tables and JSON in the form that the subcommands print.
 
 #include <string>
 #include <string_view>
@@ -11,16 +11,16 @@
 
 namespace dmoscope::app {
 
-/// Keeps the order in which keys were given, so that the output reads like its documentation.
+/// JSON that keeps the order of its keys, so that the output reads like its documentation.
 using Json = nlohmann::ordered_json;
 
-/// Six significant digits for a person; "-" for infinity and NaN.
+/// Six significant digits; "-" for infinity and NaN.
 [[nodiscard]] std::string brief(double value);
-/// A number for JSON: null where it is infinite or NaN.
+/// A number as JSON: null if it is infinite or NaN.
 [[nodiscard]] Json json_number(double value);
-/// The one object on standard output.
+/// Prints the one object on standard output.
 void print_json(const Json& object);
-/// "a, b, c" of the names of a table's rows.
+/// Names of a table's rows: "a, b, c".
 template <class Table>
 [[nodiscard]] std::string names_of(const Table& table) {
   std::string names;
@@ -30,12 +30,12 @@ template <class Table>
   }
   return names;
 }
-/// Those of all metrics that may be named, and how others are written.
+/// Names of all metrics that may be named, and the form of others.
 [[nodiscard]] std::string names_of_metrics();
-/// Lines of cells under a head, each column as wide as its widest cell, two blanks apart. `alignment`: an 'l' or an 'r' a column.
+/// Formats lines of cells under a head, each column as wide as its widest cell, two blanks apart. `alignment`: an 'l' or an 'r' a column.
 [[nodiscard]] std::string text_table(const std::vector<std::string>& head, const std::vector<std::vector<std::string>>& rows,
                                      std::string_view alignment);
-/// Words as a line that a shell takes apart into the same words.
+/// Quotes words as a line that a shell splits into the same words.
 [[nodiscard]] std::string shell_line(const std::vector<std::string>& words);
 
 }  // namespace dmoscope::app

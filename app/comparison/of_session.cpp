@@ -16,7 +16,7 @@ namespace dmoscope::app {
 
 namespace {
 
-/// A record for each iteration that is known by the judge; the first is the input's.
+/// Records of the iterations whose values by the judge are known; the first is the input's.
 std::vector<IterationRecord> judged_records(Run& run, Metric judge, ThreadPool* pool) {
   const std::vector<IterationRecord>& own = run.history().records();
   if (judge == run.parameters().metric) return own;

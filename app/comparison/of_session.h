@@ -1,5 +1,5 @@
 #pragma once
-// The page of `dmoscope compare` about the runs of a session, as they stand.
+// The page of `dmoscope compare` for the runs of a session at their present iterations.
 
 #include <filesystem>
 #include <string>
@@ -9,11 +9,11 @@
 
 namespace dmoscope::app {
 
-/// How the runs on the active run's mesh compare, judged by the metric that is shown. Courses of runs by other metrics are those of the
-/// iterations that are known by it: where they stand and whose positions are kept.
+/// Makes the page about the runs on the active run's mesh, judged by the metric that is shown. Curves of runs by other metrics contain the
+/// iterations known by it: the present one and those whose positions are kept.
 [[nodiscard]] std::string report_of_session(Session& session, Progress& progress);
 
-/// Writes it, whole or not at all. Throws UsageError where no mesh is open, OutputError, Cancelled.
+/// Writes the page, whole or not at all. Throws UsageError if no mesh is open, OutputError, Cancelled.
 void write_report_of_session(Session& session, const std::filesystem::path& file, Progress& progress);
 
 }  // namespace dmoscope::app

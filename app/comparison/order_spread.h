@@ -1,5 +1,5 @@
 #pragma once
-// How much the order in which vertices are visited matters (paper, Section 5.4).
+// Influence of the order in which vertices are visited (paper, Section 5.4).
 
 #include <cstddef>
 #include <limits>
@@ -10,25 +10,25 @@
 namespace dmoscope::app {
 
 struct OrderSpread {
-  std::string name;        // of the run whose order was changed
-  std::size_t orders = 0;  // that were tried
+  std::string name;        // the run whose order was changed
+  std::size_t orders = 0;  // number of orders that were tried
   double lowest_minimum = std::numeric_limits<double>::infinity(), highest_minimum = -std::numeric_limits<double>::infinity();
   double largest_difference = 0.0;  // between two curves of sorted qualities, at one rank
-  double mean_difference = 0.0;     // of the widest curves at a rank, over all ranks
-  std::size_t rank = 0;             // of the largest, from 0, the worst element, on
+  double mean_difference = 0.0;     // mean over all ranks of the widest distance of curves at a rank
+  std::size_t rank = 0;             // rank of the largest difference, from 0 for the worst element
   std::size_t elements = 0;
 };
 
 /// Gathers sorted qualities, one curve per order.
 class OrderCurves {
  public:
-  /// `sorted`: ascending, the same number of elements for all.
+  /// Adds a curve. `sorted`: ascending, the same number of elements for all.
   void add(std::span<const double> sorted);
   [[nodiscard]] OrderSpread spread(std::string name) const;
 
  private:
   std::size_t orders_ = 0;
-  std::vector<double> low_, high_;  // of all curves at every rank
+  std::vector<double> low_, high_;  // over all curves, by rank
   double highest_minimum_ = -std::numeric_limits<double>::infinity();
 };
 

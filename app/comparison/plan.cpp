@@ -14,7 +14,7 @@ namespace dmoscope::app {
 
 namespace {
 
-/// Takes what follows the comma of a SPEC: another aim than --combine and --then give every run.
+/// Sets the aim after the comma of a SPEC, in place of that of --combine and --then.
 void choose_aim(RunOptions& chosen, std::string aim) {
   aim.erase(0, aim.find_first_not_of(' '));
   constexpr std::string_view kThen = "then ";
@@ -27,7 +27,7 @@ void choose_aim(RunOptions& chosen, std::string aim) {
   chosen.then = aim == "alone" ? "" : then;
 }
 
-/// METHOD[:METRIC[:BACKEND]][,AIM] taken apart; formulas and targets have colons and commas of their own.
+/// Parts of METHOD[:METRIC[:BACKEND]][,AIM]; formulas and targets have colons and commas of their own.
 struct SpecParts {
   std::string method, metric, backend;
   std::optional<std::string> aim;
@@ -57,7 +57,7 @@ SpecParts parts_of(const std::string& spec) {
   return parts;
 }
 
-/// The parameters of such words.
+/// Makes the run of a SPEC.
 Contender parse_spec(const std::string& spec, const RunOptions& open) {
   const SpecParts parts = parts_of(spec);
   if (parts.method.empty()) throw UsageError(fmt::format("--run {}: expected METHOD, METHOD:METRIC or METHOD:METRIC:BACKEND", spec));
@@ -95,7 +95,7 @@ void add_every(ComparisonPlan& plan, const std::string& what, const RunOptions& 
     plan.contenders.push_back(std::move(contender));
   };
   if (what == "method") {
-    // Those that know no such combination are there to compare with.
+    // Methods without combinations are in the comparison all the same.
     std::optional<CompositeTerms> combination;
     if (!open.combine.empty()) combination = parse_composite(open.combine, open.size_function).second;
     for (const MethodInfo& method : method_table())
@@ -108,7 +108,7 @@ void add_every(ComparisonPlan& plan, const std::string& what, const RunOptions& 
   }
 }
 
-/// Looked for only where a run may use one.
+/// The accelerator, looked for only if a run may use one.
 Acceleration acceleration_of(const std::vector<Contender>& contenders) {
   const auto wants = [&](Backend backend) {
     return std::ranges::any_of(contenders, [&](const Contender& c) { return c.parameters.backend == backend; });

@@ -1,5 +1,5 @@
 #pragma once
-// What `dmoscope compare` is asked for, and which runs that makes.
+// The request of `dmoscope compare`, and the runs that it makes.
 
 #include <cstdint>
 #include <filesystem>
@@ -18,7 +18,7 @@ struct CompareOptions {
   std::vector<std::string> materials;
   std::vector<std::string> runs;   // METHOD[:METRIC[:BACKEND]][,alone|,then mean]
   std::vector<std::string> every;  // "method", "metric"
-  RunOptions run;                  // what a SPEC leaves open
+  RunOptions run;                  // defaults for the parts that a SPEC omits
   std::string judge;               // empty: the first run's metric
   Goal goal;
   std::uint64_t shuffles = 0;
@@ -27,9 +27,9 @@ struct CompareOptions {
   bool json = false;
 };
 
-/// A run that was asked for: by name, then it must be possible; or by --every, which leaves out impossible runs.
+/// A run of the comparison, either named, then it must be possible, or made by --every, which leaves out impossible runs.
 struct Contender {
-  std::string name;  // "dmo:mean-ratio"; no two have the same
+  std::string name;  // unique, such as "dmo:mean-ratio"
   RunParameters parameters;
   bool by_every = false;
 };
@@ -44,11 +44,11 @@ struct ComparisonPlan {
   Acceleration acceleration;
 };
 
-/// The runs, as far as that can be said without the mesh. Throws UsageError for what does not exist, and when there is none.
+/// Plans the runs, as far as that needs no mesh. Throws UsageError for names that do not exist, and if there is no run.
 [[nodiscard]] ComparisonPlan plan_of(const CompareOptions& options);
 
-/// Gives every run these kinds, and leaves out what --every asked for and cannot be on this mesh. Throws UsageError for
-/// a run that was asked for by name and cannot be, for a judge that is not defined for the mesh, and when nothing is left.
+/// Gives every run these kinds, and leaves out runs of --every that are impossible on this mesh. Throws UsageError for a named run that is
+/// impossible, for a judge that is not defined for the mesh, and if no run is left.
 void fit_to_mesh(ComparisonPlan& plan, const std::shared_ptr<const InputMesh>& input, const Kinds& kinds);
 
 }  // namespace dmoscope::app

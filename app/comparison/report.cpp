@@ -30,7 +30,7 @@ std::vector<const JudgedRun*> every_run(const Comparison& comparison) {
   return runs;
 }
 
-/// How those runs ended that have gone back to an iteration before their last, or had later phases.
+/// Sentences about the ends of runs that have gone back to an iteration before their last, or had later phases.
 std::vector<std::string> endings(const Comparison& comparison) {
   std::vector<std::string> lines;
   for (const JudgedRun* run : every_run(comparison))
@@ -39,17 +39,17 @@ std::vector<std::string> endings(const Comparison& comparison) {
   return lines;
 }
 
-/// A line a run: what it made of the mesh as a whole.
+/// One line per run: the verdict of its report card.
 std::vector<std::string> verdicts(const Comparison& comparison) {
   std::vector<std::string> lines;
   for (const JudgedRun& run : comparison.runs) lines.push_back(fmt::format("{}: {}", run.name, run.card.sentence(true)));
   return lines;
 }
 
-/// Every figure of the runs' report cards, a column a run; what is worse than in the input is marked.
+/// Adds all figures of the runs' report cards, a column a run; those worse than in the input are marked.
 void add_cards(Page& page, const Comparison& comparison) {
   std::vector<std::string> head{"figure", "input"};
-  std::vector<const CardFigure*> figures;  // those of all cards
+  std::vector<const CardFigure*> figures;  // figures of all cards
   const auto same = [](const CardFigure& a) { return [&a](const CardFigure* b) { return a.of == b->of && a.name == b->name; }; };
   for (const JudgedRun& run : comparison.runs) {
     head.push_back(run.name);
@@ -75,7 +75,7 @@ void add_cards(Page& page, const Comparison& comparison) {
   page.table(head, {}, rows);
 }
 
-/// Of the input and the runs those with elements that only their inside inverts, and where.
+/// Lines about the input and the runs with elements that are inverted inside alone, with places.
 std::vector<std::string> inverted_inside(const Comparison& comparison) {
   std::vector<std::string> lines;
   const auto look_at = [&](const std::string& name, std::span<const Vec3> positions, Index inverted) {
@@ -99,7 +99,7 @@ std::vector<RunRow> shown_rows(const Comparison& comparison) {
   return rows;
 }
 
-/// What a person compares runs by; the CSV has all columns. Those of sizes only where a run has a size function.
+/// Columns for the user; the CSV has all. Those of sizes are there only if a run has a size function.
 std::vector<const RunColumn*> shown_columns(std::span<const RunRow> rows) {
   std::vector<const RunColumn*> columns;
   for (const char* name : {"run", "backend", "iterations", "min_quality", "movable_minimum", "mean_quality", "p1", "p5", "inverted",
@@ -132,7 +132,7 @@ Json json_of(const JudgedRun& run) {
   return object;
 }
 
-/// The largest quality of a column among the runs, where they differ; else NaN.
+/// The largest quality of a column among the runs, if they differ; else NaN.
 double best_of(const Comparison& comparison, const RunColumn& column) {
   if (column.is_word() || column.is_count || column.name == "seconds" || column.name == "vertices_per_second" ||
       column.name == "input_size_correlation")
@@ -186,7 +186,7 @@ void add_orders(Page& page, const Comparison& comparison) {
   page.table({"run", "orders", "lowest minimum", "highest minimum", "largest difference", "at rank", "mean difference"}, {}, rows);
 }
 
-/// Where the pictures' colours begin: the worst element of all of them, downwards to a tenth. From 0 on, good meshes would be of one
+/// Low end of the pictures' colours: the least quality in any of them, rounded down to a tenth. From 0 on, good meshes would have one
 /// colour.
 double low_end(const Comparison& comparison) {
   double worst = comparison.runs.front().before().minimum;
@@ -342,7 +342,7 @@ std::string html_of(const Comparison& comparison, const ComparisonFacts& facts, 
     head.emplace_back(column->title);
     hints.emplace_back(column->doc);
   }
-  page.table(head, hints, page_rows(comparison), 1);  // the input, as in the window
+  page.table(head, hints, page_rows(comparison), 1);  // the input stays on top, as in the window
   for (const std::string& line : inverted_inside(comparison)) page.paragraph(line + ".");
   for (const std::string& line : endings(comparison)) page.paragraph(line + ".");
   for (const LeftOut& left : comparison.left_out) page.paragraph(fmt::format("Left out: {}: {}", left.name, left.reason));

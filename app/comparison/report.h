@@ -1,5 +1,5 @@
 #pragma once
-// What `dmoscope compare` tells: a table for a person, one JSON object, files.
+// Output of `dmoscope compare`: a table, one JSON object, files.
 
 #include <string>
 #include <vector>
@@ -9,27 +9,27 @@
 
 namespace dmoscope::app {
 
-/// What is reported besides the results.
+/// Facts of a report besides the results.
 struct ComparisonFacts {
   const CompareOptions& options;
-  std::string goal;  // how far the runs went, in words
+  std::string goal;  // the end of the runs, in words
   unsigned threads;
-  std::string command_line;  // empty: there was none
+  std::string command_line;  // empty: not started by a command line
   std::vector<std::string> warnings;
 };
 
-/// The table, the spread of the orders, and what was left out.
+/// The report as text: the table, the spread of the orders, and what was left out.
 [[nodiscard]] std::string text_of(const Comparison& comparison);
 [[nodiscard]] Json json_of(const Comparison& comparison, const ComparisonFacts& facts);
-/// As `dmoscope smooth --stats` has them, by the judge.
+/// The statistics of all iterations, in the format of `dmoscope smooth --stats`, by the judge.
 [[nodiscard]] std::string statistics_csv(const Comparison& comparison);
 [[nodiscard]] std::string table_csv(const Comparison& comparison);
-/// A page that stands alone. Throws Cancelled.
+/// The report as a page without other files. Throws Cancelled.
 [[nodiscard]] std::string html_of(const Comparison& comparison, const ComparisonFacts& facts, const Progress& progress);
 
-/// "40 iterations", "until converged: ...".
+/// The goal in words: "40 iterations", "until converged: ...".
 [[nodiscard]] std::string goal_sentence(const Goal& goal);
-/// Version, commit, compiler, processor, date: what a figure depends on besides the code.
+/// Conditions of a figure besides the code: version, commit, compiler, processor, date.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> machine_facts(unsigned threads);
 /// A cell that sorts by its number; NaN and infinity come last.
 struct PageCell;

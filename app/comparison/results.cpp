@@ -12,7 +12,7 @@ namespace dmoscope::app {
 namespace {
 
 constexpr std::size_t kReportPoints = 1500;
-constexpr std::uint64_t kFewIterations = 100;  // up to this many the axis is linear and shows the input
+constexpr std::uint64_t kFewIterations = 100;  // up to this number the axis is linear and shows the input
 
 std::vector<double> input_qualities(const InputMesh& input, Metric judge, ThreadPool* pool) {
   std::vector<double> qualities(input.mesh.elements.size());
@@ -20,7 +20,7 @@ std::vector<double> input_qualities(const InputMesh& input, Metric judge, Thread
   return qualities;
 }
 
-/// Unlike `= {}`, which keeps the capacity, frees the memory.
+/// Clears a container and frees its memory; `= {}` would keep the capacity.
 template <class T>
 void free_all(std::vector<T>& values) {
   std::vector<T>().swap(values);

@@ -1,4 +1,4 @@
-// mpirun -n P dmoscope bench: how smoothing scales over ranks.
+// mpirun -n P dmoscope bench: measures how smoothing scales over ranks.
 
 #include <algorithm>
 #include <memory>
@@ -32,7 +32,7 @@ struct SharedBenchOptions {
   bool json = false;
 };
 
-/// Some of a job's ranks; the others get none.
+/// The first ranks of a job; the others get no communicator.
 class SomeRanks {
  public:
   SomeRanks(const World& world, int count) { MPI_Comm_split(world.comm(), world.rank() < count ? 0 : MPI_UNDEFINED, world.rank(), &comm_); }
@@ -59,18 +59,18 @@ void wait_asleep(const World& world) {
   }
 }
 
-/// What a number of ranks took. Times are of one iteration, medians of the repeats; the slowest rank's.
+/// Costs with a number of ranks. Times are of one iteration, medians of the repeats; the slowest rank's.
 struct Scaling {
   int ranks = 0;
   std::uint64_t vertices = 0, free = 0;
-  double seconds = 0.0;        // from its begin to its end, statistics included
-  double visiting = 0.0;       // processor seconds of visits, the slowest rank's,
-  double visiting_mean = 0.0;  // and the mean of the ranks
-  double halo = 0.0;           // vertices of others, as a share of all vertices
-  std::uint64_t bytes = 0;     // sent an iteration, the most of a rank
+  double seconds = 0.0;        // from its start to its end, statistics included
+  double visiting = 0.0;       // processor seconds of visits, the slowest rank's
+  double visiting_mean = 0.0;  // processor seconds of visits, mean of the ranks
+  double halo = 0.0;           // others' vertices, as a share of all vertices
+  std::uint64_t bytes = 0;     // sent per iteration, the most of a rank
   std::uint64_t classes = 0, rounds = 0;
-  double memory = 0.0;  // peak of a rank so far, the most, MB
-  double setup = 0.0;   // seconds of partition, shares and colouring
+  double memory = 0.0;  // greatest peak of a rank so far, MB
+  double setup = 0.0;   // time of partition, shares and colouring
 };
 
 double median(std::vector<double> values) {
@@ -151,7 +151,7 @@ int bench(const World& world, const SharedBenchOptions& options) {
   for (int count = 1; count < world.size(); count *= 2) counts.push_back(count);
   counts.push_back(world.size());
   std::vector<Scaling> strong, weak;
-  // Memory is told by its peak, which does not fall: first where a rank has least, which is all of weak scaling.
+  // Peak memory never falls: sizes with the least memory a rank, all of weak scaling, come first.
   const auto measure_all = [&](std::vector<Scaling>& into, bool shares_grow) {
     for (auto count = counts.rbegin(); count != counts.rend(); ++count) {
       const SomeRanks some(world, *count);
@@ -159,7 +159,7 @@ int bench(const World& world, const SharedBenchOptions& options) {
       std::string failed;
       try {
         if (some.has_me()) into.push_back(measure(some.world(), shares_grow ? options.vertices : part, options));
-      } catch (const SharedError& error) {  // those who wait do not know of it
+      } catch (const SharedError& error) {  // waiting ranks do not know of it
         failed = error.what();
       }
       wait_asleep(world);

@@ -1,4 +1,4 @@
-// dmoscope-mpi: the verbs that many processes do together. dmoscope starts it where mpirun started dmoscope.
+// dmoscope-mpi: the verbs that many processes do together. dmoscope starts it if mpirun started dmoscope.
 
 #include <algorithm>
 #include <cstdlib>
@@ -29,7 +29,7 @@ namespace {
 
 constexpr int kWrongUsage = 2, kBadInputOrOutput = 3;
 
-/// An error that all ranks throw is told by the first. One that a rank meets alone ends all of them, for they wait for it.
+/// Runs the action. The first rank reports an error that all ranks throw; an error of one rank ends all of them, for they wait for it.
 int guarded(const World& world, const SharedAction& action) {
   const auto alone = [&](const std::string& what, int code) {
     complain(world.size() == 1 ? what : fmt::format("rank {}: {}", world.rank(), what));
@@ -40,7 +40,7 @@ int guarded(const World& world, const SharedAction& action) {
   } catch (const SharedError& error) {
     if (world.is_first()) complain(error.what());
     return error.exit_code();
-  } catch (const UsageError& error) {  // of words that all ranks were told
+  } catch (const UsageError& error) {  // in words that all ranks have
     if (world.is_first()) complain(error.what());
     return error.exit_code();
   } catch (const Error& error) {
@@ -53,7 +53,7 @@ int guarded(const World& world, const SharedAction& action) {
   return kBadInputOrOutput;
 }
 
-/// Where the launcher's way of telling its processes of each other is not that of this MPI, each of them is alone.
+/// Throws UsageError if srun started several processes that this MPI does not connect, so that each of them is alone.
 void refuse_lonely_tasks(const World& world) {
   const char* const tasks = std::getenv("SLURM_STEP_NUM_TASKS");
   if (world.size() > 1 || tasks == nullptr || std::string_view(tasks) == "1") return;

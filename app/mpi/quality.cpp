@@ -42,7 +42,7 @@ class SharedColumn {
     std::stable_sort(ascending_.begin(), ascending_.end(), [this](Index a, Index b) { return values_[a] < values_[b]; });
   }
 
-  /// All ranks together; `worst` elements on rank 0.
+  /// Computes the summary, all ranks together; `worst` elements on rank 0.
   [[nodiscard]] MetricSummary summary(std::uint64_t worst) const {
     const World& world = mesh_.share->world();
     const SharedStatistics::Sum sum = mesh_.share->sums().sum(values_);
@@ -91,8 +91,8 @@ class SharedColumn {
 
   const SharedMesh& mesh_;
   Metric metric_;
-  std::vector<double> values_;    // of all elements of the share
-  std::vector<Index> ascending_;  // those that are counted here
+  std::vector<double> values_;    // values of all elements of the share
+  std::vector<Index> ascending_;  // elements that are counted here
 };
 
 int quality(const World& world, const SharedQualityOptions& options) {

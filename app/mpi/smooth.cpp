@@ -43,7 +43,7 @@ void refuse(bool is_asked, std::string_view what) {
   if (is_asked) throw UsageError(fmt::format("several ranks do not do this: {}", what));
 }
 
-/// What needs more of the mesh than a rank has.
+/// Throws UsageError for options that need more of the mesh than a rank has.
 void refuse_what_needs_one_process(const RunOptions& options, const RunParameters& parameters) {
   refuse(method_info(parameters.method).joint || parameters.then_joint, "joint moves (--method joint, --then joint)");
   refuse(parameters.standing().slides() || !options.slide.empty() || !options.kinds.corner.empty() || !options.kinds.no_corner.empty() ||
@@ -54,7 +54,7 @@ void refuse_what_needs_one_process(const RunOptions& options, const RunParameter
   refuse(parameters.backend == Backend::Cuda, "a device (--backend cuda)");
 }
 
-/// `without`: what of a recipe is left out.
+/// Makes the parameters. `without`: set to the parts of a recipe that are left out.
 RunParameters shared_parameters(const SharedSmoothOptions& options, std::string& without) {
   RunParameters parameters = parameters_of(options.run);
   if (!options.run.recipe.empty()) {
@@ -67,12 +67,12 @@ RunParameters shared_parameters(const SharedSmoothOptions& options, std::string&
   }
   refuse_what_needs_one_process(options.run, parameters);
   parameters.backend = Backend::Cpu;
-  parameters.layers = LayerRule::Free;  // a rank has no whole stack of them
+  parameters.layers = LayerRule::Free;  // a rank need not have whole stacks of a boundary layer
   if (options.goal.until_converged) be_patient(parameters, options.goal.limits.patience);
   return parameters;
 }
 
-/// Tells of long runs, one line every few seconds, on rank 0.
+/// Reports progress of long runs, one line every few seconds, on rank 0.
 class ProgressLines {
  public:
   explicit ProgressLines(bool tells) : tells_(tells) {}
@@ -91,7 +91,7 @@ class ProgressLines {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// Returns what could not be kept, on rank 0.
+/// Writes the results. Returns sentences about content that was not kept, on rank 0.
 std::vector<std::string> write_results(const World& world, const SharedSmoothOptions& options, const Run& run, const SharedMesh& mesh,
                                        SharedMeshFile& file) {
   AtomicFiles others;
@@ -162,7 +162,7 @@ int smooth(const World& world, const SharedSmoothOptions& options) {
   if (std::string other = seek_output_iteration(run, options.write, options.goal.until_converged, progress); !other.empty())
     warn(std::move(other));
   if (run.last_outcome()) outcome = *run.last_outcome();
-  run.rest();  // writing needs memory, and the smoother's is no longer wanted
+  run.rest();  // frees the smoother's memory for writing
   for (const std::string& sentence : write_results(world, options, run, mesh, *file))
     warn(fmt::format("{}: {}", options.output.string(), sentence));
   std::optional<LeftInverted> left = find_left_inverted(run, *mesh.share);

@@ -11,7 +11,7 @@ namespace dmoscope::app {
 
 namespace {
 
-// No <, > or & in the style; none of < and & in the script: the page is XML too.
+// No <, > or & in the style; no < and & in the script: the page is XML too.
 constexpr std::string_view kStyle = R"(
 :root { color-scheme: light dark; --ink: #1b1e23; --dim: #5c626c; --page: #ffffff; --line: #d5d9df; --stripe: #f5f6f8; --accent: #0b63a5;
   --good: #0a6b3d; --bad: #a3160b; }
@@ -110,7 +110,7 @@ void Page::table(const std::vector<std::string>& head, const std::vector<std::st
 
 void Page::plot(const Drawing& drawing) {
   const std::string svg = svg_of(drawing);
-  body_ += "<div class=\"plot\">\n" + svg.substr(svg.find("<svg")) + "</div>\n";  // without the file's first line
+  body_ += "<div class=\"plot\">\n" + svg.substr(svg.find("<svg")) + "</div>\n";  // without the XML declaration in the file's first line
 }
 
 void Page::pictures(const std::vector<std::pair<std::string, MeshPicture>>& pictures, std::string_view metric, double low) {

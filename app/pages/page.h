@@ -1,5 +1,5 @@
 #pragma once
-// Pages of HTML that stand alone: no network, light and dark as the reader's system is, well-formed as XML too.
+// Pages of HTML without other files: no network, light or dark as the reader's system, well-formed as XML too.
 
 #include <string>
 #include <string_view>
@@ -11,8 +11,8 @@
 
 namespace dmoscope::app {
 
-/// A cell of a table: what is seen, and what it is sorted by ("" where there is nothing, which comes last). A class of the page's style may
-/// be named: "good", "bad", "best", "dim".
+/// A cell of a table: its text, and the value that it is sorted by ("" for no value, which comes last). A class of the page's style may be
+/// named: "good", "bad", "best", "dim".
 struct PageCell {
   std::string text;
   std::string key{};
@@ -20,22 +20,22 @@ struct PageCell {
   std::string style{};
 };
 
-/// Markup, put together part by part; all text that is given is escaped.
+/// Page that is put together part by part; all text that is given is escaped.
 class Page {
  public:
   explicit Page(std::string title) : title_(std::move(title)) {}
   void heading(std::string_view text, int level = 2);
   void paragraph(std::string_view text);
-  /// Names and what they are.
+  /// Adds a list of names and values.
   void facts(const std::vector<std::pair<std::string, std::string>>& facts);
-  /// A table whose rows are sorted by a click on a head. `hints`: a line on each head, may be empty; `kept`: this many rows stay
-  /// on top however the others are sorted.
+  /// Adds a table whose rows are sorted by a click on a head. `hints`: a tooltip for each head, may be empty; `kept`: number of rows that
+  /// stay on top in any order.
   void table(const std::vector<std::string>& head, const std::vector<std::string>& hints, const std::vector<std::vector<PageCell>>& rows,
              std::size_t kept = 0);
-  /// The drawing itself, as SVG.
+  /// Adds a drawing, as SVG.
   void plot(const Drawing& drawing);
-  /// Pictures side by side, each with a caption, above the bar of their colours; of one that is not there, why.
-  /// `low`: the quality at the bar's left end.
+  /// Adds pictures side by side, each with a caption, above the bar of their colours; in place of a missing one, the reason. `low`: the
+  /// quality at the bar's left end.
   void pictures(const std::vector<std::pair<std::string, MeshPicture>>& pictures, std::string_view metric, double low = 0.0);
   /// The whole page.
   [[nodiscard]] std::string text() const;

@@ -1,4 +1,4 @@
-// Figure 4: how the minimum rises under DMO, DVR, Laplace and angle-based smoothing; and what these reach on other meshes.
+// Figure 4: the rise of the minimum under DMO, DVR, Laplace and angle-based smoothing; and the minima that these reach on other meshes.
 
 #include <algorithm>
 
@@ -11,7 +11,7 @@ namespace dmoscope::app {
 
 namespace {
 
-/// The four methods of the figure, as far as this version has them; plotted.
+/// The methods of the figure that this version has, plotted.
 struct Race {
   std::optional<JudgedRun> dmo, dvr, laplace, angles;
 };
@@ -42,13 +42,12 @@ Race race(Lab& lab, Figure& figure, const std::shared_ptr<const InputMesh>& inpu
   return all;
 }
 
-constexpr double kConverged = 1e-3;  // of a minimum: nearer than this to the last
+constexpr double kConverged = 1e-3;  // distance from the last minimum
 
-/// When the minimum had converged, of a method under which it never falls.
+/// The iteration at which the minimum had converged, under a method that never lowers it.
 double converged_after(const JudgedRun& run) { return static_cast<double>(*first_at_least(run, run.after.minimum - kConverged)); }
 
-/// How many times as many iterations as DMO another method takes to get where it ends, or, where that is above DMO's end, to where DMO has
-/// converged.
+/// Ratio of iterations, another method's to DMO's, until the minimum reaches the lower of the other's end and DMO's converged minimum.
 double iterations_ratio(const JudgedRun& dmo, const JudgedRun& other) {
   const double goal = std::min(other.after.minimum, dmo.after.minimum - kConverged);
   return static_cast<double>(*first_at_least(other, goal)) / static_cast<double>(std::max<std::uint64_t>(1, *first_at_least(dmo, goal)));

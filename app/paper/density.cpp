@@ -20,7 +20,8 @@ Vec3 middle(const InputMesh& input) {
   return 0.5 * (box.low + box.high);
 }
 
-/// How the lengths of the edges at the free vertices go with the sizes wanted there: of the logarithms, since sizes count up to a factor.
+/// Correlation of the lengths of the edges at the free vertices with the sizes wanted there: of the logarithms, since sizes count up to a
+/// factor.
 double correlation(const SizeField& size, const InputMesh& input, std::span<const Vec3> positions) {
   std::vector<Index> free;
   for (Index v = 0; v < input.mesh.vertex_count(); ++v)
@@ -28,7 +29,7 @@ double correlation(const SizeField& size, const InputMesh& input, std::span<cons
   return size_correlation(size, input, positions, free).logarithms;
 }
 
-/// `papers`: the paper's own mesh; of another one the sizes are told, for nobody claims anything of them.
+/// Adds the findings about density. `papers`: the paper's own mesh; of another one no claim is made.
 void density_on(Lab& lab, Figure& figure, const std::shared_ptr<const InputMesh>& input, bool papers) {
   const std::string mesh = input->mesh.name;
   const Vec3 point = middle(*input);

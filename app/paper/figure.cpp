@@ -8,7 +8,7 @@ namespace dmoscope::app {
 
 std::string_view name(Verdict verdict) {
   constexpr std::array<std::string_view, 5> kNames{"holds", "differs", "told", "no mesh", "not possible"};
-  return kNames[static_cast<std::size_t>(verdict)];  // in its order
+  return kNames[static_cast<std::size_t>(verdict)];  // in the order of Verdict
 }
 
 Claim Claim::about(double value, double tolerance, std::string why) {

@@ -10,7 +10,7 @@ namespace dmoscope::app {
 
 namespace {
 
-/// The first file of that name below a folder, by the order of their paths.
+/// The first file of that name below a folder, in the order of paths.
 std::optional<std::filesystem::path> find_below(const std::filesystem::path& folder, const std::string& file) {
   namespace fs = std::filesystem;
   std::vector<fs::path> found;
@@ -55,7 +55,7 @@ std::optional<JudgedRun> Lab::run(const std::shared_ptr<const InputMesh>& input,
   if (parameters.combination) name += ", combined";
   name += then_text(parameters);
   workshop_.progress.begin(fmt::format("figure {}: {} on {}:", figure.id, name, input->mesh.name));
-  parameters.interfaces = InterfaceRule::Free;  // the paper knows none
+  parameters.interfaces = InterfaceRule::Free;  // the paper has no interfaces
   try {
     const Metric by = judge.value_or(parameters.metric);
     return run_judged(name, input, std::move(parameters), by, {iterations}, workshop_);

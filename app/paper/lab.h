@@ -1,5 +1,5 @@
 #pragma once
-// What the paper's experiments work with: meshes, runs, and how much of it all is wanted.
+// Means of the paper's experiments: meshes, runs, and their extent.
 
 #include <filesystem>
 #include <memory>
@@ -16,7 +16,7 @@ enum class Extent { Quick, Usual, Full };
 
 class Lab {
  public:
-  /// `meshes`: below which the paper's meshes are looked for; empty: there are none. Throws InputError when it is no folder.
+  /// `meshes`: the folder of the paper's meshes, searched with its subfolders; empty: there are none. Throws InputError if it is no folder.
   Lab(std::filesystem::path meshes, Extent extent, Workshop workshop);
 
   [[nodiscard]] Extent extent() const noexcept { return extent_; }
@@ -26,13 +26,13 @@ class Lab {
   }
   [[nodiscard]] const Workshop& workshop() const noexcept { return workshop_; }
 
-  /// The mesh of this file name; where it is not below the folder, a row that says so, and null.
+  /// Returns the mesh of this file name. If it is not below the folder, adds a row that says so, and returns null.
   [[nodiscard]] std::shared_ptr<const InputMesh> mesh(const std::string& file, Figure& figure);
-  /// A mesh that the program makes, see generate_input, named "block 10000 1, stand-in".
+  /// Returns a mesh that the program generates, see generate_input, named "block 10000 1, stand-in".
   [[nodiscard]] std::shared_ptr<const InputMesh> stand_in(const std::string& words);
 
-  /// A run, judged by the metric it optimises unless another is named. Where this version or this mesh has no such run, a row that says so,
-  /// and none.
+  /// Does a run, judged by its own metric unless another one is named. If this version or this mesh has no such run, adds a row that says
+  /// so, and returns none.
   [[nodiscard]] std::optional<JudgedRun> run(const std::shared_ptr<const InputMesh>& input, RunParameters parameters,
                                              std::uint64_t iterations, Figure& figure, std::optional<Metric> judge = {});
   /// Adds a picture of a mesh to a figure.
@@ -44,12 +44,12 @@ class Lab {
   Workshop workshop_;
 };
 
-/// An experiment: the figure that it fills.
+/// Experiment that fills one figure.
 struct Experiment {
   std::string_view id, title;
   void (*conduct)(Lab&, Figure&);
 };
-/// All of them, in the order of the paper.
+/// All experiments, in the order of the paper.
 [[nodiscard]] std::vector<Experiment> experiments();
 
 [[nodiscard]] std::vector<Experiment> convergence_experiments();  // Fig. 4, and the methods on other meshes
@@ -58,7 +58,7 @@ struct Experiment {
 [[nodiscard]] std::vector<Experiment> density_experiments();      // Fig. 9
 [[nodiscard]] std::vector<Experiment> order_experiments();        // Fig. 10 to 12
 
-/// The first iteration whose minimum is at least this; none when there is none.
+/// The first iteration whose minimum is at least this; none if there is none.
 [[nodiscard]] std::optional<std::uint64_t> first_at_least(const JudgedRun& run, double minimum);
 
 }  // namespace dmoscope::app

@@ -14,7 +14,7 @@ namespace {
 const char* const kOtherDomain =
     "The paper's block-structured \"east\" was not published; ours is another domain, so that only the course compares.";
 
-/// Runs DMO for a metric; the minimum must rise, and most of the rise must come soon.
+/// Runs DMO for a metric and checks that the minimum rises, most of it soon.
 void optimise(Lab& lab, Figure& figure, LinePlot& plot, const std::shared_ptr<const InputMesh>& input, Metric metric, std::string caption) {
   constexpr std::uint64_t kIterations = 50, kSoon = 20;
   const std::string mesh = input->mesh.name, metric_name(info(metric).name);
@@ -75,7 +75,7 @@ void quadrilaterals(Lab& lab, Figure& figure) {
       "least corner, this program's usual one, stands beside it.");
 }
 
-/// The same of the elements that have a corner free to move.
+/// Series of the minimum over the elements that have a free corner.
 PlotSeries movable_course(std::string name, std::span<const IterationRecord> records) {
   PlotSeries series = course_series(std::move(name), records);
   for (std::size_t i = 0; i < records.size(); ++i) series.values[i] = exact(series.values[i].x, records[i].statistics.movable_minimum);
@@ -130,7 +130,7 @@ void mean_phase(Lab& lab, Figure& figure) {
   const auto iterations = lab.choose<std::uint64_t>(40, 100, 300);
   if (const auto input = lab.mesh("east.14", figure)) raise(input, iterations, 0.953);
   if (const auto input = lab.mesh("bahamas.14", figure)) raise(input, iterations, 0.978);
-  // Here the minimum rises for some 90 iterations; the second phase begins only after them.
+  // The minimum rises for some 90 iterations here; the second phase begins only after them.
   raise(lab.stand_in("annulus 2500 1"), std::max<std::uint64_t>(100, iterations), std::nullopt);
 }
 

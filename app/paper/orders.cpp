@@ -1,4 +1,4 @@
-// Figures 10 to 12: what the order of the vertices does to the result.
+// Figures 10 to 12: influence of the vertices' order on the result.
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@ namespace dmoscope::app {
 
 namespace {
 
-/// DMO in the natural order and in shuffled ones.
+/// Runs of DMO in the natural order and in shuffled ones.
 struct Orders {
   OrderSpread spread;
   std::vector<JudgedRun> runs{};
@@ -90,9 +90,9 @@ double distance_of(const InputMesh& input, const JudgedRun& a, const JudgedRun& 
 }
 
 void two_orders(Lab& lab, Figure& figure) {
-  constexpr double kAlike = 0.02;  // of minima
+  constexpr double kAlike = 0.02;  // greatest difference of minima
   const auto input = lab.stand_in("random 100 1");
-  Figure unseen{figure.id, {}};  // its plot is Figure 11's
+  Figure unseen{figure.id, {}};  // the plot is that of Figure 11
   const Orders orders = shuffle(lab, unseen, input, "random");
   const JudgedRun *first = nullptr, *second = nullptr;
   double widest = -1.0;
@@ -104,7 +104,7 @@ void two_orders(Lab& lab, Figure& figure) {
       first = &a, second = &b, widest = apart;
     }
   }
-  figure.findings = std::move(unseen.findings);  // what could not be done
+  figure.findings = std::move(unseen.findings);  // keeps the rows about impossible runs
   if (first == nullptr) {
     figure.lack(input->mesh.name, "two orders with approximately the same minimum", Verdict::NotPossible,
                 fmt::format("No two of {} orders have minima within {} of each other.", orders.runs.size(), kAlike));

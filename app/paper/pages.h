@@ -1,5 +1,5 @@
 #pragma once
-// What the experiments came to, as text, CSV, files and a page.
+// Output of the experiments' findings: text, CSV, files and a page.
 
 #include <filesystem>
 #include <string>
@@ -11,9 +11,9 @@ namespace dmoscope::app {
 
 /// One line per finding.
 [[nodiscard]] std::string findings_text(const std::vector<Figure>& figures);
-/// Columns figure,mesh,what,paper,ours,difference,tolerance,verdict,why.
+/// The findings as CSV, with columns figure,mesh,what,paper,ours,difference,tolerance,verdict,why.
 [[nodiscard]] std::string findings_csv(const std::vector<Figure>& figures);
-/// A page that stands alone. `facts`: settings and machine.
+/// The findings as a page without other files. `facts`: settings and machine.
 [[nodiscard]] std::string findings_page(const std::vector<Figure>& figures, const std::vector<std::pair<std::string, std::string>>& facts);
 /// Writes a folder for each figure that has plots or pictures: plots as SVG and CSV, pictures as PNG. Throws OutputError.
 void write_figures(const std::filesystem::path& folder, const std::vector<Figure>& figures);

@@ -1,4 +1,4 @@
-// Figure 5 and the two examples of Section 5.2: how fast a method is, by the iteration and to a goal.
+// Figure 5 and the two examples of Section 5.2: the speed of methods, by the iteration and to a goal.
 
 #include <algorithm>
 
@@ -20,7 +20,7 @@ struct Racer {
   std::vector<PlotValue> speeds{};
 };
 
-/// DMO on every backend there is, and the two others of the figure.
+/// DMO on every backend of this machine, and the figure's two other methods.
 std::vector<Racer> racers(const Lab& lab) {
   std::vector<Racer> all{{"dmo, cpu", {.backend = Backend::Cpu}}};
   if (lab.workshop().acceleration.accelerator) all.push_back({"dmo, cuda", {.backend = Backend::Cuda}});
@@ -29,7 +29,7 @@ std::vector<Racer> racers(const Lab& lab) {
   return all;
 }
 
-/// Million visits a second in the first two iterations, of which none leaves vertices out that have settled: the median of three.
+/// Million visits a second in the first two iterations, which leave out no settled vertices: the median of three.
 std::optional<PlotValue> speed(Lab& lab, const std::shared_ptr<const InputMesh>& input, const Racer& racer, Figure& figure) {
   std::vector<double> speeds;
   for (int repeat = 0; repeat < 3; ++repeat) {
@@ -89,13 +89,14 @@ double seconds_up_to(const JudgedRun& run, std::uint64_t iteration) {
   return seconds;
 }
 
-/// What the paper says of such a race: DMO's and DVR's seconds on its CPU, and their ratio; and how many iterations DVR must need here.
+/// The paper's figures of a race: DMO's and DVR's seconds on its CPU, and their ratio; and the number of iterations that DVR must need
+/// here.
 struct PaperRace {
   const char *free, *minimum, *iterations, *dmo_seconds, *dvr_seconds, *ratio;
   double least_iterations;
 };
 
-/// DMO for four iterations, and DVR until it is as good, less `slack`.
+/// Runs DMO for four iterations, and DVR until it is as good, less `slack`.
 void race_to_quality(Lab& lab, Figure& figure, const std::shared_ptr<const InputMesh>& input, std::uint64_t most, double slack,
                      const PaperRace& paper) {
   const std::string mesh = input->mesh.name;

@@ -8,13 +8,13 @@
 
 namespace dmoscope::app {
 
-/// Throws UsageError when write_plot() could not write this kind of file, OutputError when it could not write there.
+/// Throws UsageError if write_plot() does not know this kind of file, OutputError if the file cannot be written.
 void require_plot_target(const std::filesystem::path& path);
 
-/// The bytes of such a file.
+/// Returns the bytes that write_plot() writes.
 [[nodiscard]] std::string plot_bytes(const std::filesystem::path& path, const Drawing& drawing);
 
-/// An .svg, or a .png where the program was built with its window; all or nothing. Throws OutputError.
+/// Writes an .svg, or a .png if the program was built with its window; all or nothing. Throws OutputError.
 void write_plot(const std::filesystem::path& path, const Drawing& drawing);
 
 }  // namespace dmoscope::app

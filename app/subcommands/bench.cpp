@@ -1,4 +1,4 @@
-// dmoscope bench: how fast this machine smooths, against the plain search in double.
+// dmoscope bench: measures how fast this machine smooths, against the plain search in double.
 
 #include <memory>
 #include <vector>

@@ -65,7 +65,7 @@ void print_row(const Row& row) {
         f.backend == Backend::Cpu ? "-" : fmt::format("{}", f.bytes_to_host));
 }
 
-/// Steps and draws what is open in the session.
+/// Steps and draws the mesh that is open in the session.
 Row measure(Session& session, const BenchPlan& plan, const Acceleration& acceleration, std::uint64_t frames, Progress& progress) {
   RunParameters parameters = session.active().parameters();
   parameters.metric = plan.metrics.front();

@@ -14,10 +14,10 @@ namespace dmoscope::app {
 namespace {
 
 constexpr std::uint64_t kMeshSeed = 1;
-/// How much the reference, which is slow, has to do: in a volume a visit costs some hundred times as much.
+/// Size of the reference's work, for it is slow: in a volume a visit costs some hundred times as much.
 struct ReferenceWork {
-  std::uint64_t visits;  // at most about this many, on meshes with no more free vertices than that
-  std::size_t size;      // of what is generated in place of a larger mesh
+  std::uint64_t visits;  // about the most visits, and the most free vertices of a mesh to measure
+  std::size_t size;      // vertices of the mesh that is generated in place of a larger one
 };
 ReferenceWork reference_work(const BenchElements& elements) {
   return elements.volume() ? ReferenceWork{2'000, 2'000} : ReferenceWork{20'000, 10'000};
@@ -39,7 +39,7 @@ std::uint64_t free_vertices(const InputMesh& input) {
   return free;
 }
 
-/// The first row of bench_elements() that has all kinds of the mesh's elements; the last row where none has.
+/// The first row of bench_elements() that has all kinds of the mesh's elements; else the last row.
 const BenchElements& elements_of(const Mesh& mesh) {
   unsigned kinds = 0;
   for (const ElementKind kind : mesh.elements.kinds()) kinds |= kind_set(kind);
@@ -55,12 +55,12 @@ Spread spread_of(std::vector<double> values) {
   return {median, values.front(), values.back()};
 }
 
-/// One way to smooth one mesh, and what its repeats took.
+/// Repeats of one way to smooth one mesh.
 struct Series {
-  Measurement figure;  // all but its times
+  Measurement figure;  // all but the times
   SharedInput input;
   std::shared_ptr<ThreadPool> pool;
-  std::uint64_t steps = 0;  // iterations to do; figure.iterations of them count
+  std::uint64_t steps = 0;  // number of iterations; figure.iterations of them are timed
   Acceleration acceleration{};
   std::vector<double> seconds{}, first{}, last{}, prepare{}, step{}, end_to_end{};
 
@@ -76,7 +76,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// A fresh run from the input, so that every repeat does the very same work.
+/// Measures a fresh run from the input, so that every repeat does the same work.
 void repeat(Series& series, Progress& progress) {
   RunParameters parameters;
   parameters.method = series.figure.method;
@@ -84,7 +84,7 @@ void repeat(Series& series, Progress& progress) {
   parameters.combination = series.figure.combination;
   parameters.search.precision = series.figure.precision;
   parameters.search.simd = series.figure.simd;
-  parameters.interfaces = InterfaceRule::Free;  // groups in a file shall not change what is compared
+  parameters.interfaces = InterfaceRule::Free;  // groups of a file do not affect the comparison
   parameters.backend = series.figure.backend;
   const auto start = std::chrono::steady_clock::now();
   Run run(series.input, parameters, series.pool, 0, series.acceleration);
@@ -92,7 +92,7 @@ void repeat(Series& series, Progress& progress) {
   const auto ready = std::chrono::steady_clock::now();
   run.iterate(series.steps, progress);
   series.step.push_back(seconds_since(ready) / static_cast<double>(series.steps));
-  (void)run.positions();  // brings them to the host
+  (void)run.positions();  // copies them to the host
   series.end_to_end.push_back(seconds_since(start));
   const std::vector<IterationRecord>& records = run.history().records();
   double seconds = 0.0;
@@ -152,7 +152,7 @@ class Bench {
     return {std::move(figure), input, pool, std::max(plan_.iterations, plan_.active), plan_.acceleration};
   }
 
-  /// The pool prepares; the device smooths.
+  /// Makes a series on the device, prepared by the pool.
   [[nodiscard]] Series on_device(const SharedInput& input, const BenchElements& elements, Metric metric) const {
     Measurement figure = figure_of(input, elements, metric);
     figure.backend = plan_.acceleration.accelerator->backend();

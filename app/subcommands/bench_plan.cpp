@@ -22,8 +22,8 @@ namespace {
 constexpr std::size_t kSmallest = 100;
 constexpr std::size_t kFullSize = 10'000'000;
 
-/// Peak memory of the whole process a vertex of the largest mesh, and a reserve: 220 measured with each kind of planar
-/// elements, 600 with tetrahedra.
+/// Peak memory of the whole process, bytes per vertex of the largest mesh, with a reserve: 220 measured with each kind of planar elements,
+/// 600 with tetrahedra.
 constexpr std::uint64_t kBytesPerVertex = 400, kBytesPerVolumeVertex = 1000;
 
 constexpr KindSet kTriangles = kind_set(ElementKind::Triangle), kQuadrilaterals = kind_set(ElementKind::Quadrilateral),
@@ -47,7 +47,7 @@ std::vector<std::string_view> words_of(std::string_view list) {
   }
 }
 
-/// One entry per word of the list, each once.
+/// Parses a list: one entry per word, each once.
 template <class Parse>
 auto parse_list(std::string_view list, Parse parse) {
   std::vector<decltype(parse(list))> entries;
@@ -103,7 +103,7 @@ std::vector<BenchElements> parse_elements(const std::string& list) {
   return elements;
 }
 
-/// Which backends to measure. "auto" is the CPU, and a device where there is one.
+/// Chooses the backends to measure. "auto" is the CPU, and a device if there is one.
 void choose_backends(BenchPlan& plan, const std::string& list) {
   const auto wanted = parse_list(list, parse_backend);
   const auto has = [&](Backend backend) { return std::ranges::find(wanted, backend) != wanted.end(); };
@@ -111,14 +111,14 @@ void choose_backends(BenchPlan& plan, const std::string& list) {
   plan.acceleration = acceleration_for(has(Backend::Cuda) ? Backend::Cuda : has(Backend::Auto) ? Backend::Auto : Backend::Cpu);
 }
 
-/// One metric with a second aim, instead of the list of metrics; sizes, where they are the aim, are the same everywhere.
+/// Sets one metric with a second aim, instead of the list of metrics; a density aim has a constant size.
 void combine(BenchPlan& plan, const std::string& text) {
   const auto [first, combination] = parse_composite(text);
   plan.metrics = {first};
   plan.combination = combination;
 }
 
-/// A name that stands for something to measure must not be dropped silently: each has to fit one of the others.
+/// Throws UsageError for a metric or elements without a partner, which would be dropped silently: each has to fit one of the others.
 void require_partners(const BenchPlan& plan, bool all_elements) {
   const Metric* second = plan.combination ? std::get_if<Metric>(&plan.combination->second) : nullptr;
   const auto fit = [second](const BenchElements& elements, Metric metric) {

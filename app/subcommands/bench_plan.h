@@ -1,5 +1,5 @@
 #pragma once
-// What `dmoscope bench` is asked to measure, read from its options and checked before anything is generated.
+// Plan of `dmoscope bench`, made from its options and checked before anything is generated.
 
 #include <cstdint>
 #include <filesystem>
@@ -31,7 +31,7 @@ struct BenchOptions {
   std::uint64_t iterations = 4;
   std::uint64_t active = 0;
   std::uint64_t draw = 0;   // frames to draw instead; 0: none
-  bool end_to_end = false;  // a column more
+  bool end_to_end = false;  // adds a column
   std::uint64_t seek = 0;   // seeks to make instead; 0: none
   bool window = false;      // open a mesh in the window instead
   bool full = false;
@@ -39,38 +39,38 @@ struct BenchOptions {
   MemoryLimit memory;
 };
 
-/// Meshes of one make-up, and the generator that makes them.
+/// A mix of elements, and the generator of its meshes.
 struct BenchElements {
   std::string_view name;       // "triangles"
   std::string_view generator;  // "grid"
   std::size_t largest;         // size, in vertices
-  KindSet kinds;               // of their elements
+  KindSet kinds;               // kinds of the elements
   [[nodiscard]] bool volume() const noexcept {
     return (kinds & (kind_set(ElementKind::Tetrahedron) | kind_set(ElementKind::Hexahedron))) != 0;
   }
   [[nodiscard]] bool suits(const MetricInfo& metric) const noexcept { return (metric.kinds & kinds) == kinds; }
 };
-/// triangles, quadrilaterals, mixed; tetrahedra, hexahedra, solids.
+/// All mixes: triangles, quadrilaterals, mixed; tetrahedra, hexahedra, solids.
 [[nodiscard]] std::span<const BenchElements> bench_elements();
 
-/// The options understood; no list has the same entry twice.
+/// The options, parsed; no list has the same entry twice.
 struct BenchPlan {
-  std::vector<std::size_t> sizes;               // of the meshes to generate, in vertices; empty when a file is given
+  std::vector<std::size_t> sizes;               // numbers of vertices of the meshes to generate; empty if a file is given
   std::vector<BenchElements> elements;          // of the meshes to generate
-  std::vector<Metric> metrics;                  // left out where a mesh has elements they are not defined for
-  std::optional<CompositeTerms> combination{};  // of the one metric with a second aim
+  std::vector<Metric> metrics;                  // left out for meshes with elements for which they are not defined
+  std::optional<CompositeTerms> combination{};  // the one metric with a second aim
   bool all_metrics;                             // asked for as "all", not by their names
   bool cpu = true;                              // whether to measure it, besides the reference
-  Acceleration acceleration{};                  // what to measure besides the CPU, or why nothing is
-  std::vector<SimdLevel> levels;                // of this processor
+  Acceleration acceleration{};                  // the device to measure besides the CPU, or the reason for none
+  std::vector<SimdLevel> levels;                // kinds of instructions of this processor
   std::vector<unsigned> threads;                // at least 1 each
-  std::size_t repeats;                          // of every measurement
+  std::size_t repeats;                          // repeats of every measurement
   std::uint64_t iterations;                     // timed, from the input on
   std::uint64_t active;                         // the iteration whose time is compared with the first's; 0: none
-  bool end_to_end = false;                      // whether to show the time from the mesh on the host to the smoothed one there
+  bool end_to_end = false;                      // whether to show the time from the mesh on the host to the smoothed positions there
 };
 
-/// Throws UsageError for what does not exist, is out of range, fits no other choice, or needs more memory than there is.
+/// Makes the plan. Throws UsageError for words that do not exist, are out of range, fit no other choice, or need more memory than there is.
 [[nodiscard]] BenchPlan plan_of(const BenchOptions& options);
 
 }  // namespace dmoscope::app

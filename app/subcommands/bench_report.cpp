@@ -19,10 +19,10 @@ constexpr std::string_view kReference =
     "the plain scalar search in double on one thread, measured in turn with the others; where a mesh has more than 20000 free vertices (a "
     "volume 2000), on a generated one of 10000 (2000) with the same kinds of elements, since its cost a visit does not depend on the size";
 
-/// What searched: the processor's instructions, or a device.
+/// Name of the unit that searched: the processor's instructions, or a device.
 std::string_view executor_name(const Measurement& f) { return !f.on_cpu() ? name(f.backend) : f.simd ? name(*f.simd) : "scalar"; }
 Json json_of(const Spread& s) { return {{"median", s.median}, {"lowest", s.lowest}, {"highest", s.highest}}; }
-/// Two aims are searched for in double, by packs or plainly.
+/// Name of the precision: two aims are searched for in double, by packs or plainly.
 std::string_view precision_name(const Measurement& f) { return f.precision == Precision::Double || f.combination ? "double" : "float"; }
 std::string composite(const Measurement& f) { return f.combination ? to_text(f.metric, *f.combination) : std::string(info(f.metric).name); }
 unsigned cores() { return std::max(1U, std::thread::hardware_concurrency()); }
@@ -60,7 +60,7 @@ Json json_of(const Measurement& f) {
   return object;
 }
 
-/// What all figures of one line of the plot have in common.
+/// Name of a line of the plot: the properties that all its figures share.
 std::string series_name(const Measurement& f) {
   const std::string what = fmt::format("{}, {}", f.elements, composite(f));
   if (f.reference) return what + ", plain double";
@@ -71,7 +71,7 @@ std::string series_name(const Measurement& f) {
 /// Million visits a second in `seconds`.
 double rate(const Measurement& f, double seconds) { return 1e-6 * f.visits() / seconds; }
 
-/// Which colours and dashes tell the series apart: a colour for elements, metric and SIMD level, a dash for the number of threads.
+/// Colours and dashes of the series: a colour for elements, metric and SIMD level, a dash for the number of threads.
 class PlotLook {
  public:
   explicit PlotLook(const std::vector<Measurement>& figures) {
@@ -79,7 +79,7 @@ class PlotLook {
     single_ = std::ranges::all_of(figures, [&](const Measurement& f) { return f.elements == first.elements && f.metric == first.metric; });
   }
 
-  /// A reference is dotted, and grey where there is but one; else it has the colour of the first series it is compared with.
+  /// A reference is dotted, and grey if it is the only one; else it has the colour of the first series it is compared with.
   [[nodiscard]] PlotSeries series(const Measurement& f, const Measurement& compared) {
     PlotSeries series{.name = series_name(f), .muted = f.reference && single_, .values = {}};
     if (!series.muted) {
@@ -174,7 +174,7 @@ LinePlot plot_of(const std::vector<Measurement>& figures) {
   for (std::size_t i = 0; i < figures.size(); ++i) {
     const Measurement& f = figures[i];
     auto series = std::ranges::find(plot.series, series_name(f), &PlotSeries::name);
-    // After a reference comes the first figure that is compared with it.
+    // The first figure that is compared with a reference follows it.
     if (series == plot.series.end()) series = plot.series.insert(series, look.series(f, figures[f.reference ? i + 1 : i]));
     series->values.push_back(
         {static_cast<double>(f.subject_vertices), rate(f, f.seconds.median), rate(f, f.seconds.highest), rate(f, f.seconds.lowest)});

@@ -1,5 +1,5 @@
 #pragma once
-// What `dmoscope bench` tells: a table for a person, one JSON object, a plot.
+// Output of `dmoscope bench`: a table, one JSON object, a plot.
 
 #include <vector>
 
@@ -9,7 +9,7 @@
 
 namespace dmoscope::app {
 
-/// What the figures depend on, and what the columns are; then print_rows() as they come.
+/// Prints the conditions of the figures, and the head of the table; then print_rows() prints rows as they come.
 void print_head(const BenchPlan& plan);
 void print_rows(const std::vector<Measurement>& figures);
 

@@ -30,7 +30,7 @@ Milliseconds of(std::vector<double> seconds) {
 
 Json json_of(const Milliseconds& m) { return {{"median_ms", json_number(m.median)}, {"worst_ms", json_number(m.worst)}}; }
 
-/// Says a command and waits for it. Throws Error for what goes wrong.
+/// Sends a command and waits until it is done. Throws Error with its message.
 void say(Engine& engine, const std::string& line) {
   engine.post(line);
   engine.wait_idle();

@@ -34,9 +34,9 @@ void refuse_early(const CheckpointOptions& options, std::initializer_list<std::f
 namespace {
 
 void refuse_another_run(const Run& run, RunParameters wanted, const std::filesystem::path& file) {
-  wanted.search.simd = run.parameters().search.simd;  // the same bits by any
+  wanted.search.simd = run.parameters().search.simd;  // all instructions give the same bits
   if (wanted.then_joint && run.parameters().then_joint) wanted.then_joint->from_best = run.parameters().then_joint->from_best;
-  if (wanted.then_mean && run.parameters().then_mean) wanted.then_mean->from_best = run.parameters().then_mean->from_best;  // no option
+  if (wanted.then_mean && run.parameters().then_mean) wanted.then_mean->from_best = run.parameters().then_mean->from_best;  // not an option
   if (run.parameters() == wanted) return;
   RunParameters but_fixed = wanted;
   but_fixed.fixed = run.parameters().fixed;
@@ -88,7 +88,7 @@ void Checkpoints::after_iteration() {
 
 void Checkpoints::save() {
   Progress unwatched;
-  last_ = Clock::now();  // also of one that fails: the next try is not at once
+  last_ = Clock::now();  // also after a failure, so that the next try is not immediate
   save_state(options_.file, session_, {}, unwatched);
   if (ending_)
     complain(fmt::format("{}: saved at iteration {}; --resume goes on from there", options_.file.string(),

@@ -1,5 +1,5 @@
 #pragma once
-// Long runs of `dmoscope smooth` that are saved on their way and continued another time.
+// Checkpoints of long runs of `dmoscope smooth`, and runs that resume them.
 
 #include <atomic>
 #include <chrono>
@@ -15,19 +15,19 @@ class App;
 namespace dmoscope::app {
 
 struct CheckpointOptions {
-  std::filesystem::path file;    // where to save; empty: nowhere
-  std::filesystem::path resume;  // what to go on with; empty: the run begins at the input
+  std::filesystem::path file;    // the checkpoint's file; empty: none
+  std::filesystem::path resume;  // the file to resume; empty: the run begins at the input
   double every = 60.0;           // seconds
 };
 
 /// Declares --checkpoint, --checkpoint-every and --resume.
 void add_checkpoint_options(CLI::App& subcommand, CheckpointOptions& options);
 
-/// Refuses what is wrong with them as far as that needs no mesh. `others`: files that the subcommand reads or writes.
+/// Checks the options as far as that needs no mesh. `others`: files that the subcommand reads or writes. Throws UsageError and OutputError.
 void refuse_early(const CheckpointOptions& options, std::initializer_list<std::filesystem::path> others);
 
-/// The session's only run: a fresh one, or the one that was saved, with these parameters all the same. Throws InputError for a damaged
-/// file, UsageError for one of another mesh or with other parameters.
+/// Begins the session's only run: a fresh one, or the saved one, which must have these parameters. Throws InputError for a damaged file,
+/// UsageError for one of another mesh or with other parameters.
 Run& begin_run(Session& session, const std::shared_ptr<const InputMesh>& input, const RunParameters& parameters,
                const CheckpointOptions& options, Progress& progress);
 
@@ -37,9 +37,9 @@ class Checkpoints {
  public:
   Checkpoints(Session& session, const CheckpointOptions& options) : session_(session), options_(options) {}
 
-  /// Called for a signal, from any thread. True where a checkpoint follows, after which the run is cancelled.
+  /// Asks for a checkpoint, on a signal, from any thread. Returns true if one follows, after which the run is cancelled.
   [[nodiscard]] bool end_soon() noexcept;
-  /// Says whether iterations are running, at whose ends the session can be saved.
+  /// Sets whether iterations are running, at whose ends the session can be saved.
   void set_running(bool running) noexcept { running_ = running && !options_.file.empty(); }
   /// To be called after every iteration. Throws Cancelled.
   void after_iteration();

@@ -39,7 +39,7 @@ std::vector<Target> targets_of(const CompareOptions& options) {
   return targets;
 }
 
-/// Everything that can be refused without reading the mesh.
+/// Checks all that needs no mesh. Throws UsageError and OutputError.
 void refuse_early(const CompareOptions& options) {
   const std::vector<Target> targets = targets_of(options);
   for (std::size_t i = 0; i < targets.size(); ++i) {
@@ -55,8 +55,8 @@ void refuse_early(const CompareOptions& options) {
 
 void write_files(const Comparison& comparison, const ComparisonFacts& facts, const Progress& progress) {
   const CompareOptions& options = facts.options;
-  const std::string report = options.report.empty() ? std::string() : html_of(comparison, facts, progress);  // the part that takes long
-  AtomicFiles files;  // all are on the disk before the first takes its place
+  const std::string report = options.report.empty() ? std::string() : html_of(comparison, facts, progress);  // this takes long
+  AtomicFiles files;  // all are on the disk before the first is renamed
   if (!options.stats.empty()) files.add(options.stats, statistics_csv(comparison));
   if (!options.table.empty()) files.add(options.table, table_csv(comparison));
   if (!options.plot.empty()) {
@@ -71,7 +71,7 @@ int compare(const CompareOptions& options, const std::string& command_line) {
   refuse_early(options);
   const Hints hints = parse_hints(options.run.hints);
   ComparisonPlan plan = plan_of(options);
-  if (options.goal.until_converged)  // the first phase is as patient as it would be alone
+  if (options.goal.until_converged)  // the first phase has the same patience as alone
     for (Contender& contender : plan.contenders) be_patient(contender.parameters, options.goal.until_converged->patience);
   Watch watch;
   Progress& progress = watch.progress();
@@ -143,7 +143,7 @@ void add_compare(CLI::App& app, Action& action, const std::string& command_line)
   add_run_options(*subcommand, options->run);
   add_surface_option(*subcommand, options->surface);
   add_materials_option(*subcommand, options->materials);
-  subcommand->remove_option(subcommand->get_option("--method"));  // a SPEC's business; --metric and --backend are what it leaves open
+  subcommand->remove_option(subcommand->get_option("--method"));  // a SPEC has the method; --metric and --backend are its defaults
   subcommand->add_option("--stats", options->stats, "Write the statistics of every iteration of every run")->type_name("FILE.csv");
   subcommand->add_option("--table", options->table, "Write the table, with all columns")->type_name("FILE.csv");
   subcommand->add_option("--plot", options->plot, "Draw how minimum and mean go, and the sorted qualities")->type_name("FILE.svg|.png");

@@ -1,4 +1,4 @@
-// dmoscope convert: reads one format, writes another; every vertex stays.
+// dmoscope convert: reads one format and writes another; every vertex stays.
 
 #include <algorithm>
 #include <filesystem>
@@ -34,7 +34,7 @@ bool becomes_another_format(const std::filesystem::path& output, const Mesh& mes
   return mesh.source == nullptr || format == nullptr || format->name != mesh.source->format();
 }
 
-/// Programs disagree on how VTK's wedges are wound, and what is inside out is of no use in the other format.
+/// Turns volume elements that are inside out, for programs disagree on the order of corners of VTK's wedges.
 void turn_volumes(Mesh& mesh, Progress& progress) {
   const auto kinds = mesh.elements.kinds();
   const auto is_volume = [](ElementKind kind) { return info(kind).dimension == 3; };

@@ -1,4 +1,4 @@
-// dmoscope formula: says what a formula is, or which names formulas may use.
+// dmoscope formula: describes a formula, or lists the names that formulas may use.
 
 #include <memory>
 #include <string>

@@ -1,4 +1,4 @@
-// dmoscope info: what this program is and what it can use here; or what is in a mesh file.
+// dmoscope info: describes this program and the machine's devices; or the content of a mesh file.
 
 #include <filesystem>
 #include <memory>
@@ -36,8 +36,8 @@ namespace {
 
 struct OpenGl {
   bool usable = false;
-  std::string text;     // what draws, or why nothing does
-  DrawingPath drawing;  // of what runs compute
+  std::string text;     // the drawing context, or why there is none
+  DrawingPath drawing;  // from the device that runs would compute on
 };
 
 OpenGl headless_opengl(const Acceleration& acceleration) {
@@ -124,7 +124,7 @@ void print_cuda(const gpu::Availability& cuda, const Acceleration& acceleration)
   }
 }
 
-/// How a run's mesh comes to the screen, and why not faster.
+/// One sentence: the path of a run's mesh to the screen, and the reason if it is not the fastest.
 std::string path_sentence(const DrawingPath& path, const Acceleration& acceleration) {
   if (!acceleration.accelerator) return "from the processor's memory, since CUDA is " + not_usable(acceleration);
   if (path.reason.empty()) return "written by the CUDA device";

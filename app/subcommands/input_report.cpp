@@ -34,7 +34,7 @@ void tell_interfaces(const InputMesh& input, const RunParameters& parameters, st
 
 namespace {
 
-/// The option's name before what is wrong with its words.
+/// Does the work; puts the option's name before an error about its words.
 template <class Work>
 auto by_option(std::string_view option, const Work& work) {
   try {

@@ -49,7 +49,7 @@ void tell_mesh(const std::filesystem::path& file, bool json) {
   reading.thin = Thin::Auto;
   const auto input = load_input(file, Need::QualityOnly, reading);
   const Mesh cells = input->mesh.thin ? with_cells(input->mesh) : Mesh();
-  const Mesh& mesh = input->mesh.thin ? cells : input->mesh;  // as the file has it
+  const Mesh& mesh = input->mesh.thin ? cells : input->mesh;  // the cells of the file
   const std::vector<std::string> warnings = tell_findings(*input);
   if (json) return print_json(json_of(*input, mesh, file, warnings));
   std::string kinds;

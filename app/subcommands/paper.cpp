@@ -1,4 +1,4 @@
-// dmoscope paper: the experiments of the paper, done again.
+// dmoscope paper: repeats the experiments of the paper.
 
 #include <algorithm>
 #include <memory>
@@ -45,7 +45,7 @@ std::vector<Experiment> chosen(const std::vector<std::string>& only) {
   return all;
 }
 
-/// Refuses before the long work what could not be written after it: the files, and what is in the way of a figure's folder.
+/// Makes the output folder. Throws OutputError before the long work if a file or a figure's folder could not be written after it.
 void make_output(const std::filesystem::path& folder, const std::vector<Experiment>& wanted) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);

@@ -72,7 +72,7 @@ Column judge(const InputMesh& input, Metric metric, ThreadPool& pool) {
   }
   std::stable_sort(column.ascending.begin(), column.ascending.end(),
                    [&column](Index a, Index b) { return column.values[a] < column.values[b]; });
-  if (column.defined())  // added up as everywhere, so that the same mesh has one mean
+  if (column.defined())  // added up in the order of all statistics, so that a mesh has one mean
     column.mean = compute_statistics(input.quality_context(), input.mesh.positions, metric, std::span<const Index>(), &pool).mean;
   return column;
 }
@@ -84,7 +84,7 @@ std::vector<Metric> wanted_metrics(const std::string& name, const std::string& t
   else if (target.empty())
     for (const MetricInfo& metric : metric_table()) metrics.push_back(metric.metric);
   else
-    metrics = {Metric::MeanRatio, parse_metric("relative-size"), parse_metric("shape-size"), parse_metric("aspect")};  // of all elements
+    metrics = {Metric::MeanRatio, parse_metric("relative-size"), parse_metric("shape-size"), parse_metric("aspect")};  // for every element
   if (!target.empty())
     for (Metric& metric : metrics) metric = with_target(metric, parse_target(target));
   return metrics;
@@ -110,11 +110,11 @@ MetricSummary summary_of(const InputMesh& input, const Column& column, std::size
   return summary;
 }
 
-/// How near the mesh lies to the surface that it is to slide on.
+/// Distance of the mesh from the surface that it is to slide on.
 struct Nearness {
-  double deviation = 0.0;       // the greatest one, in mesh units
-  double tilt = 0.0;            // likewise, degrees
-  std::size_t not_over_it = 0;  // elements with a face that the surface does not lie beneath
+  double deviation = 0.0;       // greatest, in mesh units
+  double tilt = 0.0;            // greatest, in degrees
+  std::size_t not_over_it = 0;  // elements with a face that is not above the surface
 };
 
 Nearness nearness_of(const InputMesh& input, ThreadPool& pool) {

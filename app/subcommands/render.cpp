@@ -1,4 +1,4 @@
-// dmoscope render: a picture of a mesh coloured by quality, without a window.
+// dmoscope render: draws a mesh coloured by quality, without a window.
 
 #include <array>
 #include <charconv>
@@ -54,7 +54,7 @@ struct RenderOptions {
   bool perspective = false;
 };
 
-/// Two numbers with `separator` between them and nothing else; none where the text is something else.
+/// Parses two numbers with `separator` between them; none for other text.
 template <class Number>
 std::optional<std::pair<Number, Number>> parse_pair(std::string_view text, char separator) {
   std::pair<Number, Number> result{};
@@ -75,7 +75,7 @@ std::pair<int, int> parse_size(const std::string& text) {
   return *size;
 }
 
-/// "X,Y" or "X,Y,Z"; none for an empty text.
+/// Parses "X,Y" or "X,Y,Z"; none for an empty text.
 std::optional<Vec3> parse_point(std::string_view text) {
   if (text.empty()) return std::nullopt;
   std::array<double, 3> numbers{};
@@ -92,7 +92,7 @@ std::optional<Vec3> parse_point(std::string_view text) {
   throw UsageError(fmt::format("--at {}: expected X,Y or X,Y,Z, a place in the mesh's coordinates", text));
 }
 
-/// The words of the window's command `range`; of a single mesh some of them mean the same.
+/// Range of colours, by the words of the window's command `range`; for a single mesh some of them mean the same.
 struct RangeWish {
   enum class Spans { All, Own, Percentiles } spans = Spans::All;
   std::pair<double, double> percent{2.0, 98.0};
@@ -126,7 +126,7 @@ RangeWish parse_range(const std::string& text) {
   return wish;
 }
 
-/// What is seen of a volume mesh, its clip plane apart.
+/// The visible part of a volume mesh, except the clip plane.
 ClippingView inside_view(const RenderOptions& options) {
   ClippingView view;
   view.clip.mode = parse_clip_mode(options.clip_mode);
@@ -188,7 +188,7 @@ int render(const RenderOptions& options) {
 #endif
 }
 
-/// Options of volume meshes.
+/// Adds the options of volume meshes.
 void add_inside(CLI::App& subcommand, RenderOptions& options) {
   const auto option = [&subcommand](const char* name, auto& value, const char* type, const char* doc) {
     return subcommand.add_option(name, value, doc)->type_name(type)->group("Volume meshes");

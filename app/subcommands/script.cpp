@@ -59,7 +59,7 @@ std::vector<std::string> read_lines(const std::string& file) {
   std::string text;
   if (file == "-") {
     text = text_of(std::cin, "standard input");
-  } else if (std::filesystem::is_fifo(file, unknown)) {  // a shell's <(...)
+  } else if (std::filesystem::is_fifo(file, unknown)) {  // such as a shell's <(...)
     std::ifstream stream(file);
     text = text_of(stream, file);
   } else {
@@ -71,7 +71,7 @@ std::vector<std::string> read_lines(const std::string& file) {
   return lines;
 }
 
-/// The first command of `lines` that the session does not know, with its line; 0 when it knows them all.
+/// The first command of `lines` that the session does not know, with its line; 0 if it knows them all.
 struct Foreign {
   std::size_t line = 0;
   std::string command;
@@ -92,7 +92,7 @@ Foreign first_foreign(const std::string& name, const std::vector<std::string>& l
   return {};
 }
 
-/// Prints what the engine said; the exit code of the first line that failed or was cancelled, 0 without one.
+/// Prints the engine's messages; returns the exit code of the first that is an error or a cancel, else 0.
 int tell(const std::vector<Message>& messages, const std::string& name, std::size_t line) {
   for (const Message& message : messages) {
     if (message.kind == Message::Kind::Error || message.exit_code != 0) {
@@ -114,7 +114,7 @@ int run_on_session(const std::string& name, const std::vector<std::string>& line
   block_interrupts();  // before the engine's threads start
   Engine engine(0, acceleration_for(backend), backend);
   engine.set_report_writer(write_report_of_session);
-  engine.rest_without_long_work();  // each line would wait for what none has asked for
+  engine.rest_without_long_work();  // otherwise each line would wait for work that no command asked for
   // Ctrl+C may also come between two lines, when the engine has nothing to cancel.
   std::atomic<bool> interrupted{false};
   const Watch watch(engine.progress(), [&engine, &interrupted] {
@@ -135,7 +135,7 @@ int run_on_session(const std::string& name, const std::vector<std::string>& line
   return 0;
 }
 
-/// What would cost somebody a file is refused before the first line runs.
+/// Throws UsageError before the first line runs if a command would overwrite a file that is still needed.
 void refuse_overwriting(const ScriptSubcommandOptions& options, const std::string& name, const std::vector<std::string>& lines) {
   const Overwriting found = first_overwriting(options.file == "-" ? "" : options.file, lines);
   if (found.line != 0) throw UsageError(fmt::format("{}:{}: {}", name, found.line, found.what));

@@ -57,7 +57,7 @@ struct SmoothOptions {
   std::string command_line;
 };
 
-/// Everything that can be refused without reading the mesh.
+/// Checks all that needs no mesh. Throws UsageError and OutputError.
 void refuse_early(const SmoothOptions& options) {
   require_output_moment(options.write);
   require_mesh_target(options.output, options.input);
@@ -71,7 +71,8 @@ void refuse_early(const SmoothOptions& options) {
   refuse_early(options.checkpoints, {options.input, options.output, options.stats});
 }
 
-/// The mesh and the statistics: none takes its place before both are on the disk. Returns what the mesh's format could not carry.
+/// Writes the mesh and the statistics: none is renamed before both are on the disk. Returns sentences about content that the mesh's format
+/// cannot carry.
 std::vector<std::string> write_results(const SmoothOptions& options, const Run& run, std::span<const Vec3> places,
                                        const MovedFields& fields, const std::optional<Provenance>& provenance, const IoContext& context) {
   AtomicFiles others;
@@ -82,14 +83,14 @@ std::vector<std::string> write_results(const SmoothOptions& options, const Run& 
   return sentences;
 }
 
-/// A checkpoint beyond the goal's end is no way to it.
+/// Throws UsageError if a resumed run is already beyond the goal's end.
 void require_at_goal(const Run& run, const Outcome& outcome) {
   if (run.moment().iteration == outcome.iterations) return;
   throw UsageError(fmt::format("--resume: that run has come to iteration {} already, and what is asked for ends at {}",
                                run.moment().iteration, outcome.iterations));
 }
 
-/// Says which method gets further where elements stay inverted, and what holds the minimum.
+/// Warns which method gets further if elements stay inverted, and returns the hold of the minimum.
 template <class Warn>
 std::optional<HeldMinimum> look_for_hints(const Run& run, bool inverted, Hints hints, double seconds,
                                           const std::shared_ptr<ThreadPool>& pool, Progress& progress, const Warn& warn) {
@@ -106,7 +107,7 @@ std::optional<HeldMinimum> look_for_hints(const Run& run, bool inverted, Hints h
     held = what_holds(run, pool.get(), progress, {.go_on = [&] { return budget.left(); }});
   };
   const auto find_trial = [&] {
-    // Its beginning takes about as long as some iterations.
+    // Preparing a trial takes about as long as some iterations.
     const double iteration = seconds / static_cast<double>(std::max<std::uint64_t>(1, run.history().records().size() - 1));
     if (!held || !held->change || !with_trial.has(3 * iteration)) return;
     progress.begin("trying what would free the minimum");
@@ -129,7 +130,7 @@ int smooth(const SmoothOptions& options) {
 
   block_interrupts();  // before the session's threads start
   Session session(options.run.threads, acceleration, parameters.backend);
-  session.set_history_budget(0);  // no past positions: nobody asks for them here
+  session.set_history_budget(0);  // no past positions: none are asked for
   Checkpoints checkpoints(session, options.checkpoints);
   Progress progress;
   const Watch watch(progress, [&] {
@@ -157,7 +158,7 @@ int smooth(const SmoothOptions& options) {
   if (run.size_field() && !run.size_field()->note().empty()) warn(run.size_field()->note());
   if (input->surface && !run.domain())
     warn(fmt::format("nothing slides on {}: --boundary slide lets the vertices of a volume's boundary", input->surface->mesh.name));
-  const auto smooth_all = [&] {  // from the input on: without history nothing else is left after a failure
+  const auto smooth_all = [&] {  // from the input on: without history no other positions are left after a failure
     const auto after = [&](const Run&) { checkpoints.after_iteration(); };
     const Outcome done = options.goal.until_converged ? run.until_converged_from_input(options.goal.limits, progress, after)
                                                       : run.iterate_from_input(options.goal.iterations, progress, after);
@@ -184,7 +185,7 @@ int smooth(const SmoothOptions& options) {
     complain(fmt::format("{}: {}", options.output.string(), sentence));
     warnings.push_back(std::move(sentence));
   }
-  // From here on nothing changes what comes of the call.
+  // The result is complete here; only reports follow.
   if (left) warn(left->sentence());
   const std::optional<CrossingFaces> crossing = find_crossing_faces(run);
   if (crossing) warn(crossing->sentence());

@@ -1,5 +1,5 @@
 #pragma once
-// The subcommands of the command line, one source each. Each declares its options and says what to do once they are parsed.
+// The subcommands of the command line, one source each. Each declares its options and sets the action that follows parsing.
 
 #include <filesystem>
 #include <functional>
@@ -12,10 +12,10 @@ class App;
 
 namespace dmoscope::app {
 
-/// What the parsed command line asks for; returns the exit code, throws dmoscope::Error.
+/// Work of the parsed command line; returns the exit code, throws dmoscope::Error.
 using Action = std::function<int()>;
 
-/// `command_line`: as it was given, for where results come from.
+/// Adds the subcommand smooth. `command_line`: for the provenance of results.
 void add_smooth(CLI::App& app, Action& action, const std::string& command_line);
 void add_compare(CLI::App& app, Action& action, const std::string& command_line);
 void add_quality(CLI::App& app, Action& action);
@@ -28,7 +28,7 @@ void add_paper(CLI::App& app, Action& action, const std::string& command_line);
 void add_info(CLI::App& app, Action& action);
 void add_formula(CLI::App& app, Action& action);
 
-/// No subcommand: opens the window on the files. `subcommands`: all there are, for whoever has no screen.
+/// Opens the window on the files, if there is no subcommand. `subcommands`: all names, for a message if there is no screen.
 int open_window(const std::vector<std::filesystem::path>& files, const std::vector<std::string>& subcommands);
 
 }  // namespace dmoscope::app

@@ -1,4 +1,4 @@
-// No subcommand: the window.
+// The command line without a subcommand: opens the window.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -30,7 +30,7 @@ bool has_display() {
 }
 #endif
 
-/// A mistyped subcommand must not open an empty window.
+/// Throws UsageError unless all files exist, so that a mistyped subcommand does not open an empty window.
 void require_files(const std::vector<std::filesystem::path>& files, const std::vector<std::string>& subcommands) {
   for (const auto& file : files) {
     std::error_code error;

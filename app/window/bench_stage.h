@@ -1,5 +1,5 @@
 #pragma once
-// Where measurements draw.
+// Drawing for measurements.
 
 #include <memory>
 
@@ -8,7 +8,7 @@
 
 namespace dmoscope::app {
 
-/// A scene with its picture, on a context of its own.
+/// A scene with its framebuffer, on an OpenGL context of its own.
 class BenchStage {
  public:
   BenchStage(const Acceleration& acceleration, int width, int height)

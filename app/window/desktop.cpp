@@ -54,7 +54,7 @@ Desktop::Desktop(const WindowOptions& options)
   open(options_.files, false);
 }
 
-/// The first in the place of what is open, the others beside it.
+/// Opens files: the first replaces what is open, the others are shown beside it.
 void Desktop::open(const std::vector<std::filesystem::path>& files, bool by_person) {
   for (const std::string& command : ui::open_commands(files)) {
     if (!by_person) {
@@ -67,11 +67,11 @@ void Desktop::open(const std::vector<std::filesystem::path>& files, bool by_pers
   }
 }
 
-/// Settings, the window's size among them.
+/// Restores the settings, the window's size among them.
 void Desktop::begin_as_remembered() {
   ui::ViewState& state = app_.state();
   ui::move_to_monitor(state, static_cast<double>(window_->content_scale()));
-  state.stepping.flash = ui::Flash::On;  // unless the settings say otherwise; pictures of scripts stay the same whenever they are taken
+  state.stepping.flash = ui::Flash::On;  // default of the window; pictures of scripts must not depend on the time
   state.pointer_value = true;
   settings_.begin(ui::settings_path(), ui::recent_path(), state);
   state.asks_unsaved = true;
@@ -79,12 +79,13 @@ void Desktop::begin_as_remembered() {
   if (state.place.width <= 0) return;
   int x = 0, y = 0, width = state.place.width, height = state.place.height;
   if (GLFWmonitor* monitor = glfwGetPrimaryMonitor(); monitor != nullptr) glfwGetMonitorWorkarea(monitor, &x, &y, &width, &height);
-  // The monitor may be a smaller one than last time.
+  // The monitor may be smaller than last time.
   glfwSetWindowSize(window_->handle(), std::min(state.place.width, width), std::min(state.place.height, height));
   if (state.place.maximised) glfwMaximizeWindow(window_->handle());
 }
 
-/// A person's window saves by itself; DMOSCOPE_AUTOSAVE says every how many seconds (0: never), and asks a script's for it.
+/// Begins to save automatically, by default in an interactive window alone; DMOSCOPE_AUTOSAVE is the interval in seconds (0: never), also
+/// for scripts.
 void Desktop::begin_autosave() {
   AutosaveOptions options{ui::autosave_folder()};
   const char* wish = std::getenv("DMOSCOPE_AUTOSAVE");
@@ -123,7 +124,7 @@ void Desktop::run_until_closed() {
   if (!ending_) return app_.engine().end_autosave();
   constexpr std::chrono::seconds kPatience{10};
   app_.update_autosaved_view();
-  (void)app_.engine().autosave_now(kPatience);  // else what was saved before is there
+  (void)app_.engine().autosave_now(kPatience);  // on failure the state saved before remains
 }
 
 void Desktop::end_soon() {
@@ -146,7 +147,7 @@ void Desktop::notice_place() {
   if (!place.maximised || place.width == 0) glfwGetWindowSize(window, &place.width, &place.height);
 }
 
-/// Sleeps until something happens. An event is followed by a few frames: ImGui needs two to settle, hovering some more.
+/// Sleeps until an event. Draws a few frames after it: ImGui needs two to settle, hovering some more.
 void Desktop::wait() {
   constexpr int kFramesAfterEvent = 4;
   constexpr double kCaretBlink = 0.25;

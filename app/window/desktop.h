@@ -1,5 +1,5 @@
 #pragma once
-// The window on a screen: the App, GLFW's events, and frames drawn when there is something new to see.
+// The window on a screen: the App, GLFW's events, and frames drawn when the picture changes.
 
 #include <atomic>
 #include <chrono>
@@ -21,25 +21,25 @@
 
 namespace dmoscope::app {
 
-/// Throws Error, which names the subcommands that need no screen, when there is no display.
+/// Throws Error, which names the subcommands that need no screen, if there is no display.
 void require_display();
 
 class Desktop {
  public:
-  /// Opens the window. Throws Error when OpenGL is too old.
+  /// Opens the window. Throws Error if OpenGL is too old.
   explicit Desktop(const WindowOptions& options);
   ~Desktop();
   Desktop(const Desktop&) = delete;
   Desktop& operator=(const Desktop&) = delete;
 
-  /// The event loop. A person who closes the window is asked about what is in no file.
+  /// Runs the event loop. Before the user closes the window, asks about work that is not saved.
   void run_until_closed();
-  /// From any thread, of a signal: the loop ends, and what is in no file is there for the next start.
+  /// Ends the loop, on a signal, from any thread; unsaved work is kept for the next start.
   void end_soon();
-  /// Executes one line as a script does, then handles events until all has come to rest. Returns the first error that came of
-  /// it: of the line itself, of the session, of a screenshot, or that somebody closed the window.
+  /// Executes one line of a script, then handles events until all has settled. Returns the first error: of the line itself, of the session,
+  /// of a screenshot, or that the window was closed.
   [[nodiscard]] std::optional<Message> run(std::string_view line);
-  /// What was said while the last line ran, errors included.
+  /// Messages of the last line, errors included.
   [[nodiscard]] const std::vector<Message>& said() const noexcept { return said_; }
   [[nodiscard]] bool quit() const { return window_->should_close() || app_.state().requests.quit; }
 
@@ -54,7 +54,7 @@ class Desktop {
   void frame();
   void take_wishes(render::Extent size);
   void resize(std::pair<int, int> size);
-  /// Frames until input, session, scene and window have come to rest, or the window is closed.
+  /// Draws frames until input, session, scene and window have settled, or the window is closed.
   void settle();
   [[nodiscard]] bool has_wanted_size() const;
 
@@ -65,13 +65,13 @@ class Desktop {
   GlfwInput input_;
   ui::App app_;
   ui::SettingsKeeper settings_;
-  double settings_in_ = INFINITY;  // seconds until they may have to be written
+  double settings_in_ = INFINITY;  // seconds until they may have to be saved
   std::atomic<bool> ending_{false};
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::string title_;
   int frames_left_ = 4;
 
-  // Scripts
+  // State of scripts
   SimulatedInput simulated_;
   bool pause_ = false;  // before the next frame, so that two clicks are no double click
   std::optional<std::pair<int, int>> wanted_size_;

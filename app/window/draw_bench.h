@@ -1,5 +1,5 @@
 #pragma once
-// How fast a run is stepped and drawn, without a window.
+// Measurement of the speed of stepping and drawing a run, without a window.
 
 #include <cstdint>
 #include <string>
@@ -11,28 +11,28 @@
 namespace dmoscope::app {
 
 struct DrawSubject {
-  Session& session;  // with a mesh; its active run is stepped
+  Session& session;  // has a mesh; its active run is stepped
   Acceleration acceleration;
   std::uint64_t frames = 0;
   int width = 1280, height = 800;  // pixels
 };
 
-/// Seconds are sums over all frames.
+/// Results. Seconds are sums over all frames.
 struct DrawFigure {
   Backend backend = Backend::Cpu;
   std::string renderer;
   DrawingPath path;
   std::uint64_t frames = 0;
-  double seconds = 0.0;          // by the clock, from the first step to the last picture being there
-  double step_seconds = 0.0;     // an iteration
-  double publish_seconds = 0.0;  // making the frame: snapshot and statistics
-  double draw_seconds = 0.0;     // bringing it to OpenGL and drawing it, until OpenGL is done
-  /// Bytes of positions and qualities that came from the device to the host meanwhile; 0 on the CPU, where they are on the host anyway.
+  double seconds = 0.0;          // by the clock, from the first step to the end of the last picture
+  double step_seconds = 0.0;     // iterations
+  double publish_seconds = 0.0;  // making frames: snapshots and statistics
+  double draw_seconds = 0.0;     // uploading to OpenGL and drawing, until OpenGL is done
+  /// Bytes of positions and qualities that were copied from the device to the host; 0 on the CPU, where they are on the host anyway.
   std::uint64_t bytes_to_host = 0;
   [[nodiscard]] double frames_per_second() const noexcept { return static_cast<double>(frames) / seconds; }
 };
 
-/// An iteration, a frame, a picture at full detail; then the next. Throws Error (no OpenGL) and Cancelled.
+/// Repeats an iteration, a frame and a picture at full detail. Throws Error (no OpenGL) and Cancelled.
 [[nodiscard]] DrawFigure measure_drawing(const DrawSubject& subject, Progress& progress);
 
 }  // namespace dmoscope::app

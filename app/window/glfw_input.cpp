@@ -12,8 +12,8 @@ namespace {
 
 KeyQueue& keys() { return *static_cast<KeyQueue*>(ImGui::GetIO().UserData); }
 
-/// Keys by what is written on them: GLFW numbers them by where they are on an American keyboard, whose Z is elsewhere on a German one.
-/// Digits stay where they are, as some keyboards have them on Shift.
+/// Code of a key by its label: GLFW numbers keys by their places on an American keyboard, whose Z is elsewhere on a German one. Digits keep
+/// their places, as some keyboards have them on Shift.
 int code_of(int key, int scancode) {
   if (key < 0 || key >= IM_ARRAYSIZE(ImGuiIO::KeysDown)) return 0;
   if (key <= GLFW_KEY_SPACE || key >= GLFW_KEY_ESCAPE || (key >= GLFW_KEY_0 && key <= GLFW_KEY_9)) return key;

@@ -1,12 +1,12 @@
 #pragma once
-// GLFW's half of ImGui.
+// Input from GLFW for ImGui.
 
 #include "app/window/key_queue.h"
 #include "render/window.h"
 
 namespace dmoscope::app {
 
-/// Feeds ImGui with the window's mouse, and `keys` with its keyboard.
+/// Passes the window's mouse to ImGui, and its keyboard to `keys`.
 class GlfwInput {
  public:
   GlfwInput(GLFWwindow* window, KeyQueue& keys);
@@ -14,7 +14,8 @@ class GlfwInput {
   GlfwInput(const GlfwInput&) = delete;
   GlfwInput& operator=(const GlfwInput&) = delete;
 
-  /// Before ImGui::NewFrame. `size`: of the framebuffer, in whose pixels the interface is laid out and the mouse is told.
+  /// Passes the input of a frame; to be called before ImGui::NewFrame. `size`: of the framebuffer, whose pixels the interface and the mouse
+  /// use.
   void begin_frame(render::Extent size);
 };
 

@@ -122,7 +122,7 @@ void HeadlessWindow::settle() {
     frame();
     rest = quiet && !app_->engine().busy() ? rest + 1 : 0;
   }
-  // Detail comes back some time after the last movement.
+  // Full detail returns some time after the last movement.
   for (int k = 0; k < 600 && app_->redraw_in() < 1e9; ++k) frame();
 }
 
@@ -130,7 +130,7 @@ std::optional<Message> HeadlessWindow::run(std::string_view line) {
   said_.clear();
   failure_.reset();
   pause_ = true;
-  // A screenshot is of what was reached before it: the scene has settled after every line.
+  // A screenshot shows a settled scene, which every line leaves.
   try {
     if (app_->bring_to_sight(line)) settle();
     app_->execute(line);

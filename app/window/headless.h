@@ -15,7 +15,7 @@
 
 namespace dmoscope::app {
 
-/// One at a time (ImGui has one context).
+/// Window without a screen; only one at a time (ImGui has one context).
 class HeadlessWindow {
  public:
   struct Options {
@@ -24,32 +24,32 @@ class HeadlessWindow {
     unsigned threads = 0;
     Backend backend = Backend::Auto;
     std::optional<Acceleration> acceleration{};  // none: this machine's
-    std::optional<std::string> no_interop{};     // why that cannot write what is drawn; none: what this machine says
+    std::optional<std::string> no_interop{};     // why the accelerator cannot write what is drawn; none: detected
     bool native_dialogs = false;                 // see ui::App::Options
     bool sample_pictures = true;                 // see ui::App::Options
-    bool explains = true;                        // what holds the minimum is worked out after every line
-    bool as_on_screen = false;                   // nothing is waited for: neither the first frames nor a big mesh to be made ready
+    bool explains = true;                        // whether the hold of the minimum is found after every line
+    bool as_on_screen = false;                   // does not wait for the first frames, nor for a big mesh to be prepared
   };
-  /// Throws Error where no OpenGL without a screen can be had.
+  /// Makes the window. Throws Error if OpenGL is not available without a screen.
   explicit HeadlessWindow(const Options& options);
   ~HeadlessWindow();
 
   [[nodiscard]] ui::App& app() noexcept { return *app_; }
-  /// Draws one frame after playing at most one simulated input. The clock goes on by 1/60 s a frame, whatever it takes.
+  /// Draws one frame after playing at most one simulated input. The clock advances by 1/60 s a frame.
   void frame();
-  /// Draws the interface of the frame before as a screen would get it, and waits until it is there.
+  /// Draws the interface of the last frame as for a screen, and waits until that is done.
   void present();
-  /// Frames until input, session, scene and interface have come to rest.
+  /// Draws frames until input, session, scene and interface have settled.
   void settle();
-  /// Executes one line as a script does, then settles. Returns the first error that came of it: of the line itself (thrown
-  /// errors included), of the session, or of a screenshot.
+  /// Executes one line of a script, then settles. Returns the first error: of the line itself (thrown errors included), of the session, or
+  /// of a screenshot.
   [[nodiscard]] std::optional<Message> run(std::string_view line);
-  /// What was said while the last line ran, errors included.
+  /// Messages of the last line, errors included.
   [[nodiscard]] const std::vector<Message>& said() const noexcept { return said_; }
   /// The window's pixels as drawn last.
   [[nodiscard]] render::Image picture();
   [[nodiscard]] const std::string& clipboard() const noexcept { return clipboard_; }
-  /// What is typed into it comes with the next frames, as many keys between two as one likes.
+  /// Keyboard queue: keys that are put into it arrive with the next frames, any number between two.
   [[nodiscard]] KeyQueue& keys() noexcept { return keys_; }
   [[nodiscard]] bool quit() const { return app_->state().requests.quit; }
 
@@ -60,7 +60,7 @@ class HeadlessWindow {
   Acceleration acceleration_;
   std::unique_ptr<render::Context> context_;
   std::unique_ptr<Interface> interface_;
-  std::optional<render::Framebuffer> screen_;  // of present()
+  std::optional<render::Framebuffer> screen_;  // for present()
   std::unique_ptr<ui::App> app_;
   KeyQueue keys_;
   SimulatedInput simulated_;

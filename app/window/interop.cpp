@@ -6,7 +6,7 @@ namespace dmoscope::app {
 
 std::string no_interop(const Acceleration& acceleration, const render::Context& context) {
   if (!acceleration.accelerator) return {};
-  // Not asked of the driver, to which such a context is unknown.
+  // The driver is not asked: it does not know a context of software.
   if (context.is_software()) return "the processor draws: " + context.description();
   return gpu::gl_obstacle(acceleration.accelerator->number());
 }

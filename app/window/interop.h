@@ -1,5 +1,5 @@
 #pragma once
-// Whether the device that smooths can write what OpenGL draws.
+// Test whether the device that smooths can write OpenGL's buffers.
 
 #include <memory>
 #include <string>
@@ -9,10 +9,10 @@
 
 namespace dmoscope::app {
 
-/// Why an accelerator cannot write the buffers of this context, which is current; empty where it can, and where there is none.
+/// Returns why an accelerator cannot write the buffers of this context, which is current; empty if it can, or if there is none.
 [[nodiscard]] std::string no_interop(const Acceleration& acceleration, const render::Context& context);
 
-/// A context without a window, of the device that smooths where there is one.
+/// Makes a context without a window, on the device that smooths if there is one.
 [[nodiscard]] std::unique_ptr<render::Context> headless_context_for(const Acceleration& acceleration);
 
 }  // namespace dmoscope::app

@@ -11,7 +11,7 @@ namespace {
 
 namespace key = ui::key;
 
-/// Frames after which it shows in ImGuiIO who has the keyboard; of a dialog that opens, at most.
+/// Frames until ImGuiIO shows the owner of the keyboard; the most until a dialog opens.
 constexpr int kRest = 2, kRestForField = 8;
 constexpr int kKeypadFirst = 320, kKeypadLast = 334, kKeypadEnter = 335;
 
@@ -20,7 +20,7 @@ bool makes_text(int code) { return (code >= key::kSpace && code < key::kEscape) 
 bool is_enter(int code) { return code == key::kEnter || code == kKeypadEnter; }
 bool moves_focus(int code) { return is_enter(code) || code == key::kEscape || code == key::kSpace; }
 
-/// Keys that the control with the focus gets, where one is seen to have it.
+/// Whether a key goes to the control with the focus, if that is visible.
 bool is_for_focus(const ui::KeyChord& chord) {
   if (chord.ctrl || chord.alt) return false;
   const int code = chord.code;
@@ -81,8 +81,8 @@ KeyQueue::Owner KeyQueue::owner(const ImGuiIO& io, const ui::App& app) {
   return app.takes_commands() ? Owner::Commands : Owner::Widgets;
 }
 
-/// What came since the last frame was begun was typed while that frame was made, in sight of the one before it: it is for commands only
-/// where these had the keyboard in both.
+/// Marks the new events: they were typed while the last frame was made, in sight of the one before it, and are for commands only if these
+/// had the keyboard in both.
 void KeyQueue::judge(const ui::App& app) {
   const bool now = app.takes_commands();
   for (Event& event : events_) {
@@ -94,9 +94,9 @@ void KeyQueue::judge(const ui::App& app) {
 
 void KeyQueue::feed(ImGuiIO& io, ui::App& app) {
   judge(app);
-  if (io.WantTextInput && rest_ > kRest) rest_ = 0;  // the field that was waited for
+  if (io.WantTextInput && rest_ > kRest) rest_ = 0;  // the expected field has the focus
   Turn turn;
-  if (look_ > 0 && --look_ == 0 && !io.WantTextInput && !ImGui::IsAnyMouseDown()) ImGui::ClearActiveID();  // a slider: it has the ring
+  if (look_ > 0 && --look_ == 0 && !io.WantTextInput && !ImGui::IsAnyMouseDown()) ImGui::ClearActiveID();  // a slider keeps the focus ring
   turn.resting = rest_ > 0;
   if (turn.resting) --rest_;
   if (std::exchange(clear_keys_, false)) std::fill(std::begin(io.KeysDown), std::end(io.KeysDown), false);
@@ -104,7 +104,7 @@ void KeyQueue::feed(ImGuiIO& io, ui::App& app) {
     const Event event = events_.front();
     if (event.kind == Event::Kind::Release) {
       const int code = is_enter(event.chord.code) && enter_given_as_ >= 0 ? enter_given_as_ : event.chord.code;
-      if (code == turn.pressed) break;  // ImGui would never see it
+      if (code == turn.pressed) break;  // within one frame ImGui would not see it
       if (code != event.chord.code) enter_given_as_ = -1;
       if (io.KeysDown[code]) turn.released = code;
       io.KeysDown[code] = false;
@@ -160,19 +160,20 @@ void KeyQueue::play_press(const Event& event, ImGuiIO& io, ui::App& app, Turn& t
       if (event.repeated && !still_held(chord.code)) return;
       app.press(chord, event.repeated);
       if (app.takes_commands()) return;
-      rest_ = kRestForField;  // what follows is for the dialog that it opened
+      rest_ = kRestForField;  // later keys are for the dialog that it opened
       turn.over = true;
   }
 }
 
-/// Repeats that a slow window comes to late count once, and not at all when the key was let go since.
+/// Whether a repeated key is still held: late repeats in a slow window count once, and not at all after the key was released.
 bool KeyQueue::still_held(int code) const {
   return std::ranges::none_of(events_, [&](const Event& later) {
     return later.chord.code == code && (later.kind == Event::Kind::Release || (later.kind == Event::Kind::Press && later.repeated));
   });
 }
 
-/// Enter presses the control with the ring as Space does; ImGui keeps it for fields that take text.
+/// Code that ImGui gets for a key: Enter presses the control with the focus ring as Space does; ImGui keeps Enter for fields that take
+/// text.
 int KeyQueue::code_for(int code, const ui::App& app) {
   if (!is_enter(code)) return code;
   enter_given_as_ = ImGui::GetIO().NavVisible && !app.focus_takes_text() ? key::kSpace : -1;
@@ -181,7 +182,7 @@ int KeyQueue::code_for(int code, const ui::App& app) {
 
 void KeyQueue::give_key(const Event& event, ImGuiIO& io, const ui::App& app, Turn& turn) {
   const int code = code_for(event.chord.code, app);
-  if (code == turn.released) {  // down again: ImGui must see it up in between
+  if (code == turn.released) {  // pressed again: ImGui must see the release in between
     turn.over = true;
     return;
   }
@@ -196,13 +197,13 @@ void KeyQueue::give_key(const Event& event, ImGuiIO& io, const ui::App& app, Tur
 void KeyQueue::set_modifiers(ImGuiIO& io, const Turn& turn) {
   const ui::KeyChord held{0, ctrl_, shift_, alt_};
   const ui::KeyChord& now = turn.modifiers == nullptr ? held : *turn.modifiers;
-  // ImGui opens the menus of the window that has the keyboard, which is seldom the one that has them.
+  // Opens the menus here: ImGui opens those of the window that has the keyboard, which seldom has any.
   const ImGuiContext& g = *ImGui::GetCurrentContext();
   if (io.KeyAlt && !now.alt && g.NavWindowingToggleLayer && g.OpenPopupStack.empty()) ui::Items::focus_menus();
   io.KeyCtrl = now.ctrl;
   io.KeyShift = now.shift;
   io.KeyAlt = now.alt;
-  io.KeySuper = std::exchange(alt_used_, false);  // ImGui opens the menus when Alt was pressed alone; another modifier tells it otherwise
+  io.KeySuper = std::exchange(alt_used_, false);  // another modifier keeps ImGui from opening the menus, as it does for Alt alone
 }
 
 }  // namespace dmoscope::app

@@ -1,5 +1,5 @@
 #pragma once
-// The keyboard between the desktop and the window: presses in the order they came, each with its own modifiers.
+// Queue of the keyboard between the desktop and the window: presses in their order, each with its own modifiers.
 
 #include <deque>
 #include <string_view>
@@ -10,41 +10,41 @@
 
 namespace dmoscope::app {
 
-/// Keeps what is typed until a frame takes it, however slow the frames are. What a field or a dialog was to get is text or nothing, never
-/// a command, also when it is gone before its turn comes; what no field wants is a command with the modifiers of its press, once.
+/// Keeps keys until a frame takes them, however slow the frames are. Keys for a field or a dialog are text or nothing, never a command,
+/// even if it is gone before their turn; other keys are commands with the modifiers of their press, once.
 class KeyQueue {
  public:
-  /// `repeated`: by holding the key.
+  /// Adds a press. `repeated`: by holding the key.
   void press(const ui::KeyChord& chord, bool repeated = false);
   void release(int code);
-  /// A character: of the press before it, or of its own (an input method, a script).
+  /// Adds a character: of the press before it, or of its own (an input method, a script).
   void character(char32_t character);
   void text(std::string_view utf8);
-  /// The mouse was pressed: what is typed next is for what it was pressed on.
+  /// Adds a mouse click: later keys are for the control under it.
   void click();
-  /// The window lost the keyboard: nothing is held any more.
+  /// Releases all keys, since the window lost the keyboard.
   void lose_focus();
 
-  /// Before ImGui::NewFrame, once a frame: plays as much as one frame can tell apart.
+  /// Plays as many events as one frame can tell apart; to be called before ImGui::NewFrame, once a frame.
   void feed(ImGuiIO& io, ui::App& app);
-  /// True while something waits for another frame.
+  /// Whether events wait for another frame.
   [[nodiscard]] bool waiting() const noexcept { return !events_.empty() || rest_ > 0; }
 
  private:
   struct Event {
     enum class Kind { Press, Release, Text, Click };
     Kind kind = Kind::Press;
-    ui::KeyChord chord{};       // of Press; its code of Release
-    bool repeated = false;      // Press
-    char32_t character = 0;     // Text, and of a Press that makes one; 0: none
-    bool judged = false;        // whether it came while commands had the keyboard is known
-    bool for_commands = false;  // it did
+    ui::KeyChord chord{};       // of a Press; the code of a Release
+    bool repeated = false;      // of a Press
+    char32_t character = 0;     // of a Text, or of a Press that makes one; 0: none
+    bool judged = false;        // whether for_commands is known
+    bool for_commands = false;  // whether commands had the keyboard at the time
   };
   enum class Owner { Commands, Widgets, Text };
   /// One frame's share of the queue.
   struct Turn {
     bool over = false, resting = false;
-    int pressed = -1, released = -1;  // keys that ImGui saw change in this frame
+    int pressed = -1, released = -1;  // keys that changed for ImGui in this frame
     const ui::KeyChord* modifiers = nullptr;
     ui::KeyChord chord{};
   };
@@ -57,13 +57,13 @@ class KeyQueue {
   void set_modifiers(ImGuiIO& io, const Turn& turn);
 
   std::deque<Event> events_;
-  int rest_ = 0;                                     // frames until it is seen who has the keyboard now
-  int look_ = 0;                                     // frames until it is seen whether what got the focus is typed into
+  int rest_ = 0;                                     // frames until the keyboard's owner is known
+  int look_ = 0;                                     // frames until it is known whether the focused control takes text
   bool commands_before_ = true;                      // commands had the keyboard before the last frame
   bool ctrl_ = false, shift_ = false, alt_ = false;  // held now
   bool clear_keys_ = false;
-  int enter_given_as_ = -1;  // the key that ImGui got in place of Enter, which is held; -1: none
-  bool alt_used_ = false;    // with another key or the mouse: letting it go opens no menu
+  int enter_given_as_ = -1;  // the key that ImGui got in place of a held Enter; -1: none
+  bool alt_used_ = false;    // together with another key or the mouse, so that releasing it opens no menu
 };
 
 }  // namespace dmoscope::app

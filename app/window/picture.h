@@ -21,39 +21,39 @@ struct Image;
 }
 namespace dmoscope::app {
 
-/// How a picture of a mesh looks.
+/// Look of a mesh's picture.
 struct PictureLook {
   Metric metric = Metric::MeanRatio;
   int width = 1280, height = 800;  // pixels
   std::string colormap = "beacon";
-  /// Of quality, unless `range` is given. Inverted elements apart; all but Own rounded outwards.
+  /// Range of quality for the colours, unless `range` is given. Without inverted elements; all but Own are rounded outwards.
   enum class Spans { All, Own, Percentiles };
   Spans spans = Spans::All;
   std::pair<double, double> percent{2.0, 98.0};
   std::optional<std::pair<double, double>> range;
-  bool shading = false;    // volumes lit by a lamp, too
-  bool occlusion = true;   // volumes darker in corners and along edges
-  double zoom = 1.0;       // times as large as the whole mesh would be shown
-  std::optional<Vec3> at;  // what is in the middle; none: the middle of the mesh
+  bool shading = false;    // volumes are also lit by a lamp
+  bool occlusion = true;   // volumes are darker in corners and along edges
+  double zoom = 1.0;       // factor to the size at which the whole mesh fits
+  std::optional<Vec3> at;  // centre of the picture; none: the middle of the mesh
   bool transparent = false;
   bool wireframe = true;
   bool colour_bar = true;
-  int supersample = 2;  // 1 to 8: drawn that much larger and averaged
+  int supersample = 2;  // 1 to 8: the factor by which it is drawn larger and then averaged
 };
 
-/// The mesh with its vertices at `positions`. Throws Error (no usable EGL, a metric or a colour map that there is not, an inside asked for
-/// of a mesh that has none) and Cancelled.
+/// Draws the mesh with its vertices at `positions`. Throws Error (no usable EGL, an unknown metric or colour map, an inside of a mesh that
+/// has none) and Cancelled.
 [[nodiscard]] render::Image picture_of(const InputMesh& input, std::span<const Vec3> positions, const PictureLook& look,
                                        const InsideLook& inside, const Progress& progress);
-/// The same as a PNG file's bytes, of a volume its outside.
+/// Draws a mesh as a PNG file's bytes, a volume from outside. Throws the errors of picture_of().
 [[nodiscard]] std::string picture_png(const InputMesh& input, std::span<const Vec3> positions, const PictureLook& look,
                                       const Progress& progress);
 
 /// A colour map as the CSS of a background, from its low end on the left.
 [[nodiscard]] std::string css_gradient(std::string_view colormap);
 
-/// Reads, draws, writes (all or nothing). Throws Error (bad input, no usable EGL, unwritable target, an inside asked for of a mesh that has
-/// none) and Cancelled. Returns 0.
+/// Reads a mesh, draws it, writes the picture (all or nothing). Throws Error (bad input, no usable EGL, unwritable target, an inside of a
+/// mesh that has none) and Cancelled. Returns 0.
 int render_picture(const std::filesystem::path& input, const std::filesystem::path& output, const PictureLook& look,
                    const InsideLook& inside, const IoContext& context);
 

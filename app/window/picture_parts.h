@@ -1,5 +1,5 @@
 #pragma once
-// What pictures of planar and of volume meshes have in common. Only for their sources.
+// Common parts of pictures of planar and of volume meshes. Only for their sources.
 
 #include <span>
 #include <vector>
@@ -9,15 +9,15 @@
 
 namespace dmoscope::app {
 
-/// How good the elements of a mesh are.
+/// Qualities of a mesh's elements.
 struct JudgedElements {
   std::vector<float> quality;  // NaN: not defined
   std::vector<std::uint8_t> inverted;
   std::size_t inverted_count;
-  double minimum;  // infinity where no quality is defined
+  double minimum;  // infinity if no quality is defined
 };
 
-/// With the mesh's vertices at `positions`. Throws UsageError for a metric that there is not for such elements, and Cancelled.
+/// Judges the mesh with its vertices at `positions`. Throws UsageError for a metric that is not defined for its elements, and Cancelled.
 [[nodiscard]] JudgedElements judge(const InputMesh& input, std::span<const Vec3> positions, Metric metric, const Progress& progress);
 
 [[nodiscard]] render::Style style_of(const PictureLook& look, const JudgedElements& judged);

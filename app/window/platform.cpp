@@ -12,7 +12,7 @@
 
 namespace dmoscope::app {
 
-// ui numbers keys as GLFW does, without including it.
+// ui has GLFW's numbers of keys, without including it.
 static_assert(ui::key::kSpace == GLFW_KEY_SPACE && ui::key::kEscape == GLFW_KEY_ESCAPE && ui::key::kEnter == GLFW_KEY_ENTER);
 static_assert(ui::key::kTab == GLFW_KEY_TAB && ui::key::kBackspace == GLFW_KEY_BACKSPACE && ui::key::kInsert == GLFW_KEY_INSERT);
 static_assert(ui::key::kDelete == GLFW_KEY_DELETE && ui::key::kRight == GLFW_KEY_RIGHT && ui::key::kLeft == GLFW_KEY_LEFT);
@@ -48,7 +48,7 @@ render::Image Interface::picture(int width, int height) {
   target.clear({0, 0, 0, 255});
   draw();
   render::Image image = target.read_pixels();
-  // Blending leaves alpha below one where the interface is translucent; a window is opaque.
+  // Blending makes alpha less than one where the interface is translucent; a window is opaque.
   for (std::size_t k = 3; k < image.rgba.size(); k += 4) image.rgba[k] = 255;
   return image;
 }

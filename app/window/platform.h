@@ -20,22 +20,21 @@ class Interface {
   Interface(const Interface&) = delete;
   Interface& operator=(const Interface&) = delete;
 
-  /// After App::prepare said true.
+  /// Uploads the fonts; to be called after App::prepare returned true.
   void upload_fonts();
-  /// Draws the frame that ImGui::Render finished into the framebuffer that is bound.
+  /// Draws the frame of ImGui::Render into the framebuffer that is bound.
   void draw();
-  /// The same frame as a picture of `width` x `height` pixels.
+  /// Draws the frame as a picture of `width` x `height` pixels.
   [[nodiscard]] render::Image picture(int width, int height);
 
  private:
   ImGuiContext* context_ = nullptr;
 };
 
-/// Options for App that hold for this machine and for what draws, whose context is current.
+/// Options of App for this machine and the current OpenGL context.
 [[nodiscard]] ui::App::Options app_options(unsigned threads, Backend backend, Acceleration acceleration, const render::Context& context);
 
-/// Takes the screenshots that were asked for, of the frame just drawn; what goes wrong becomes a message.
-/// Returns the first error, if any, for scripts.
+/// Takes the requested screenshots of the last frame; an error becomes a message. Returns the first error, if any, for scripts.
 std::optional<Message> take_screenshots(ui::App& app, Interface& interface, int width, int height);
 
 }  // namespace dmoscope::app

@@ -24,13 +24,13 @@ void tell(const Message& message) {
   std::fflush(stdout);
 }
 
-/// True when some line needs the window: any command that is not the session's (an unknown one is then refused with all names).
+/// Whether some line needs the window: any command that is not the session's (an unknown one is then refused with all names).
 bool needs_window(const std::vector<std::string>& lines) {
   return std::any_of(lines.begin(), lines.end(),
                      [](const std::string& line) { return !split_words(line).empty() && !ui::is_session_command(line); });
 }
 
-/// Does the script end with this message? A cancelled line ends it as an error does, unless the script cancels its own work by a
+/// Whether the script ends with this message. A cancelled line ends it as an error does, unless the script cancels its own work by a
 /// command of the window.
 bool ends_script(const Message& message, const std::string& line) {
   return message.kind == Message::Kind::Error || (message.exit_code != 0 && ui::is_session_command(line));
@@ -42,7 +42,7 @@ int fail(const ScriptOptions& options, std::size_t line, const Message& message)
   return std::max(1, message.exit_code);
 }
 
-/// Tells what was said of a line, but for what ends the script: the first such message, or the failure that there was before.
+/// Prints the messages of a line, except one that ends the script, and returns that or the earlier failure.
 std::optional<Message> hear(const std::vector<Message>& messages, const std::string& line, std::optional<Message> failure = {}) {
   for (const Message& message : messages) {
     if (!failure && ends_script(message, line)) {
@@ -101,7 +101,7 @@ int run_on_screen(const ScriptOptions& options) {
 
 int run_script(const ScriptOptions& options) {
   ui::ViewState state;
-  const ui::CommandHost host;  // the subcommands are only looked up
+  const ui::CommandHost host;  // for looking up the subcommands alone
   const CommandTable view = ui::view_commands(state, host);
   for (std::size_t k = 0; k < options.lines.size(); ++k) {
     try {

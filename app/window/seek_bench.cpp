@@ -12,7 +12,7 @@
 namespace dmoscope::app {
 namespace {
 
-/// Posts and waits until the engine answers, as a window would; the view that shows it.
+/// Posts a seek, waits for the engine as a window would, and returns the view that shows it.
 std::shared_ptr<const SessionView> seek(Engine& engine, std::uint64_t iteration) {
   engine.post(fmt::format("seek {}", iteration));
   while (engine.busy()) std::this_thread::sleep_for(std::chrono::microseconds(20));

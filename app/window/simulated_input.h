@@ -1,5 +1,5 @@
 #pragma once
-// The mouse and keyboard of scripts, played through the same queue as a person's.
+// The mouse and keyboard of scripts, played through the same queue as the user's.
 
 #include <array>
 
@@ -14,7 +14,7 @@ class SimulatedInput {
  public:
   /// Plays one event; call hold afterwards.
   void play(const ui::SimulatedInput& input, ImGuiIO& io, KeyQueue& keys);
-  /// Puts the mouse where the script left it, whatever the platform says. Before every ImGui::NewFrame.
+  /// Keeps the mouse where the script left it, whatever the platform says; to be called before every ImGui::NewFrame.
   void hold(ImGuiIO& io) const;
 
  private:

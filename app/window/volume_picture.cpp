@@ -12,7 +12,7 @@
 namespace dmoscope::app {
 namespace {
 
-/// "120 of 5,000 elements", empty when all are seen.
+/// Share of visible elements: "120 of 5,000 elements"; empty if all are visible.
 std::string share_seen(std::size_t seen, std::size_t all) {
   if (seen == all) return {};
   return fmt::format("{} of {}", ui::count(seen), counted(all, "element", "elements"));

@@ -1,5 +1,5 @@
 #pragma once
-// A picture of a volume mesh, of its outside or of what is inside, without a window.
+// Pictures of volume meshes, from outside or of the inside, without a window.
 
 #include <span>
 #include <string>
@@ -9,20 +9,20 @@
 
 namespace dmoscope::app {
 
-/// What is seen of a volume mesh, and from where.
+/// The visible part of a volume mesh, and the view's direction.
 struct InsideLook {
   std::string clip;          // see parse_clip; empty: no plane
-  ClippingView view{};       // its plane: the mode alone
+  ClippingView view{};       // the mode alone; the plane is that of `clip`
   std::string from = "iso";  // see view_preset_table
   bool perspective = false;
-  /// Whether anything of it is not the default.
+  /// Whether any member differs from its default.
   [[nodiscard]] bool asked_for() const { return !clip.empty() || view != ClippingView{} || from != "iso" || perspective; }
 };
 
-/// Throws UsageError for words that mean nothing, before anything is read.
+/// Throws UsageError for words without meaning, before anything is read.
 void require_sense(const InsideLook& inside);
 
-/// picture_of() a mesh in space.
+/// Draws a mesh in space: see picture_of().
 [[nodiscard]] render::Image volume_picture(const InputMesh& input, std::span<const Vec3> positions, const PictureLook& look,
                                            const InsideLook& inside, const Progress& progress);
 

@@ -7,9 +7,9 @@ namespace dmoscope::app {
 
 int run_window(const WindowOptions& options) {
   require_display();
-  block_interrupts();  // before there is another thread
+  block_interrupts();  // before other threads start
   Desktop window(options);
-  const Watch watch([&window] { window.end_soon(); });  // a second signal ends it at once
+  const Watch watch([&window] { window.end_soon(); });  // a second signal ends the process at once
   window.run_until_closed();
   return 0;
 }

@@ -17,7 +17,7 @@
 namespace dmoscope::app {
 namespace {
 
-constexpr int kAnswers = 5;  // of each kind
+constexpr int kAnswers = 5;  // answers of each kind
 
 double processor_seconds() {
   rusage usage{};
@@ -26,7 +26,7 @@ double processor_seconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-/// The most memory that the program has had, bytes.
+/// Peak memory of the program, in bytes.
 std::size_t peak_memory() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -42,7 +42,7 @@ class Timer {
   double before_ = processor_seconds();
 };
 
-/// When the next frame of a window on a screen comes: see Desktop::wait().
+/// Times of the next frame, as in a window on a screen: see Desktop::wait().
 class Pace {
  public:
   void wake() {
@@ -52,9 +52,9 @@ class Pace {
     }
     changed_.notify_all();
   }
-  /// Something was pressed.
+  /// Takes note of a press.
   void input() { left_ = kFramesAfterEvent; }
-  /// Until the next frame, which the window wants after `redraw_in` seconds.
+  /// Waits until the next frame, which the window wants after `redraw_in` seconds.
   void wait(double redraw_in) {
     constexpr std::chrono::duration<double> kRefresh{1.0 / 60.0};
     constexpr double kMost = 1.0;
@@ -81,7 +81,7 @@ class Pace {
   std::chrono::steady_clock::time_point drawn_;
 };
 
-/// A window that is drawn as one on a screen is.
+/// A window that is drawn like one on a screen.
 class Subject {
  public:
   Subject(const WindowSubject& subject, Progress& progress)
@@ -106,17 +106,17 @@ class Subject {
     for (const Message& message : window_.said())
       if (message.kind == Message::Kind::Error) throw Error(message.text);
   }
-  /// Frames, as far apart as the window wants them, until `done()`.
+  /// Draws frames at the times that the window wants, until `done()`.
   template <class Done>
   void frames_until(const Done& done) {
     while (true) {
       frame();
       if (done()) return;
-      constexpr double kWoken = 0.02;  // the session wakes a window that sleeps
+      constexpr double kWoken = 0.02;  // the session wakes a sleeping window
       std::this_thread::sleep_for(std::chrono::duration<double>(std::min(app().redraw_in(), kWoken)));
     }
   }
-  /// Frames as a screen gets them, until `done()`; returns how many.
+  /// Draws frames at a screen's rate, until `done()`; returns their number.
   template <class Done>
   int frames_on_screen(const Done& done) {
     for (int count = 1;; ++count) {

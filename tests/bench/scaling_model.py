@@ -6,14 +6,14 @@ scaling_model.py [--plot FILE.svg]. The constants stand below with what they wer
 import argparse
 import math
 
-LATENCY = 2e-6  # seconds a message
-BANDWIDTH = 10e9  # bytes a second and rank's share of its node
+LATENCY = 2e-6  # seconds per message
+BANDWIDTH = 10e9  # bytes per second, a rank's share of its node
 LANES = 4  # sums of a stretch
 STRETCH, GROUP = 1024, 1024  # elements of a stretch, stretches of a group: see core/quality/tally.h
-# Measured (AMD EPYC, AVX2, one thread a rank): see docs/dev/performance.md.
+# Measured (AMD EPYC, AVX2, one thread per rank): see docs/dev/performance.md.
 KINDS = {
-    # seconds a visit and a judged element, elements a vertex, classes, neighbours, sent vertices = surface * (vertices of a rank)^power,
-    # imbalance
+    # seconds per visit and per judged element, elements per vertex, classes, neighbours, sent vertices = surface * (vertices of a
+    # rank)^power, imbalance
     "triangles": dict(visit=0.22e-6, judge=22e-9, elements=2, classes=8, neighbours=6, surface=2.5, power=1 / 2, imbalance=1.06),
     "tetrahedra": dict(visit=26e-6, judge=230e-9, elements=6, classes=12, neighbours=14, surface=2.4, power=2 / 3, imbalance=1.06),
 }

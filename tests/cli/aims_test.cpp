@@ -1,4 +1,4 @@
-// dmoscope smooth --combine and --then: what they reach on real meshes, and what they say.
+// dmoscope smooth --combine and --then: results on real meshes, and messages.
 
 #include <cmath>
 #include <tuple>

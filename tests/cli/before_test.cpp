@@ -1,4 +1,4 @@
-// Files of earlier versions still work: sessions, a checkpoint, scripts and command lines, in tests/data/before.
+// Compatibility with files of earlier versions: sessions, a checkpoint, scripts and command lines, in tests/data/before.
 
 #include <filesystem>
 #include <fstream>
@@ -13,7 +13,7 @@
 namespace dmoscope::test {
 namespace {
 
-/// Works on a copy of the files, whose scripts name it where they said FOLDER.
+/// Test on a copy of the files, whose path replaces FOLDER in their scripts.
 class FilesOfBefore : public ::testing::Test {
  protected:
   FilesOfBefore() {
@@ -28,7 +28,7 @@ class FilesOfBefore : public ::testing::Test {
   }
 
   [[nodiscard]] std::string path(const std::string& name) const { return (copy_ / name).string(); }
-  /// The program must do it.
+  /// Expects the program to succeed.
   static void done(const std::vector<std::string>& words, const std::string& input = {}) {
     Call call;
     call.arguments = words;
@@ -42,7 +42,7 @@ class FilesOfBefore : public ::testing::Test {
   std::filesystem::path copy_ = folder_ / "before";
 };
 
-/// values.csv has what the earlier program reported for every run, there and two iterations later.
+/// Sessions whose values.csv has the earlier program's report of every run, there and two iterations later.
 class SessionsOfBefore : public FilesOfBefore {
  protected:
   [[nodiscard]] std::vector<std::string> names() const {
@@ -51,7 +51,7 @@ class SessionsOfBefore : public FilesOfBefore {
       if (names.empty() || names.back() != row[0]) names.push_back(row[0]);
     return names;
   }
-  /// Lines of a script that look at every run of the session that is open.
+  /// Lines of a script that print every run of the session that is open.
   [[nodiscard]] std::string look(const std::string& name) const {
     std::string script;
     for (std::size_t row = 0; row < values_.rows.size(); ++row) {
@@ -63,7 +63,7 @@ class SessionsOfBefore : public FilesOfBefore {
     }
     return script;
   }
-  /// Lines of a script that go on with every run.
+  /// Lines of a script that continue every run.
   [[nodiscard]] std::string go_on(const std::string& name) const {
     std::string script;
     for (std::size_t row = 0; row < values_.rows.size(); ++row) {
@@ -128,7 +128,7 @@ TEST_F(FilesOfBefore, ACheckpointGoesOnToTheSameBits) {
         "--iterations", "9",
         "--guard",      "off",
         "--layers",     "free",
-        "--resume",     path("checkpoint.json")});  // what was usual then
+        "--resume",     path("checkpoint.json")});  // usual in that version
   EXPECT_TRUE(read_file(path("out.off")) == read_file(path("resumed.off")));
 }
 

@@ -1,4 +1,4 @@
-// What dmoscope bench measures, tells and refuses; how long anything took is nobody's business here.
+// dmoscope bench: its measurements, output and refusals, whatever the time.
 
 #include <algorithm>
 #include <set>
@@ -20,7 +20,7 @@ using ::testing::Not;
 using ::testing::StartsWith;
 using ::testing::UnorderedElementsAreArray;
 
-/// `dmoscope bench` with little to do; the options come after.
+/// Runs `dmoscope bench` with little work; `options` are added.
 Output bench(std::vector<std::string> options) {
   options.insert(options.begin(), "bench");
   for (const auto& [option, value] : {std::pair{"--repeats", "1"}, {"--iterations", "1"}, {"--backend", "cpu"}}) {
@@ -45,7 +45,7 @@ std::vector<std::string> names_of(const Json& bench) {
   return names;
 }
 
-/// Every number of a figure that follows from others does so; `reference` is the one before it that it is compared with.
+/// Expects that every number of a figure that follows from others does so; `reference`: the one before, which it is compared with.
 void expect_consistent(const Json& figure, const Json& reference) {
   const Json& seconds = figure["seconds"];
   EXPECT_GT(seconds["lowest"], 0.0);
@@ -207,7 +207,7 @@ TEST(Bench, TheReferenceOfALargeMeshIsMeasuredOnASmallerOne) {
   const Json& reference = large["figures"][0];
   EXPECT_EQ(reference["mesh"], "grid 10000");
   EXPECT_EQ(reference["free"], 98 * 98);
-  EXPECT_EQ(reference["iterations"], 2);  // of 9604 visits each: not more than 20000
+  EXPECT_EQ(reference["iterations"], 2);  // with 9604 visits each, at most 20000 in all
   EXPECT_EQ(large["figures"][1]["free"], 148 * 148);
   EXPECT_EQ(large["figures"][1]["iterations"], 3);
   expect_consistent(large["figures"][1], reference);
@@ -300,8 +300,7 @@ TEST(Bench, StopsAtCtrlC) {
   EXPECT_FALSE(exists(folder / "plot.svg"));
 }
 
-/// What stands between the tags of an element named `wanted`, for all of them; fails the test where the text is no well-formed XML of the
-/// plain sort that has neither comments nor CDATA.
+/// The texts between the tags of all elements named `wanted`; fails the test if the text is not well-formed XML without comments and CDATA.
 std::vector<std::string> texts_of(const std::string& xml, const std::string& wanted) {
   std::vector<std::string> open, texts;
   std::size_t at = 0, roots = 0;

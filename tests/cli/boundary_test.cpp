@@ -39,7 +39,7 @@ TEST(BoundaryOnTheCommandLine, SlidesAndIsSaid) {
   }
 }
 
-/// A can that was made coarse slides on a finer one, and `quality` says how near it stays.
+/// A coarse can slides on a finer one, and `quality` tells how near it stays.
 TEST(BoundaryOnTheCommandLine, SlidesOnTheSurfaceOfAnotherMesh) {
   const Folder folder;
   const std::string fine = folder / "fine.off", coarse = folder / "coarse.off", out = folder / "out.off";
@@ -52,7 +52,7 @@ TEST(BoundaryOnTheCommandLine, SlidesOnTheSurfaceOfAnotherMesh) {
   const auto before = json_of(run({"quality", coarse, "--surface", fine, "--json"}));
   const auto near = json_of(run({"quality", out, "--surface", fine, "--json"}));
   EXPECT_GT(near["surface"]["deviation"], 0.0);
-  EXPECT_LT(near["surface"]["share_of_size"], 0.03);  // a coarse can's chords
+  EXPECT_LT(near["surface"]["share_of_size"], 0.03);  // chords of a coarse can
   // Vertices on the rims that gain nothing by moving still stand on the circle, beyond the chords of the finer one.
   EXPECT_LT(near["surface"]["not_over_it"], before["surface"]["not_over_it"]);
   EXPECT_EQ(near["inverted"], 0);

@@ -1,4 +1,4 @@
-// dmoscope compare: its numbers against runs of dmoscope smooth, its files, and what it refuses.
+// dmoscope compare: its numbers against runs of dmoscope smooth, its files, and its refusals.
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-/// `dmoscope compare` on the CPU.
+/// Runs `dmoscope compare` on the CPU.
 Output compare(std::vector<std::string> options) {
   options.insert(options.begin(), "compare");
   options.insert(options.end(), {"--backend", "cpu"});
@@ -33,7 +33,7 @@ Json compare_json(std::vector<std::string> options) {
   return json_of(output);
 }
 
-/// The qualities of a smoothed mesh by a metric, ascending, as another process tells them.
+/// The qualities of a smoothed mesh by a metric, ascending, as another process reports them.
 std::vector<double> smoothed(const std::string& in, const std::vector<std::string>& how, const std::string& metric) {
   const Folder folder;
   std::vector<std::string> arguments{"smooth", in, "-o", folder / "out.vtk", "--backend", "cpu"};
@@ -261,13 +261,13 @@ TEST(Compare, TheReportStandsAlone) {
   std::sort(qualities.begin(), qualities.end());
   const auto hundredth = static_cast<std::size_t>(std::ceil(0.01 * static_cast<double>(qualities.size()))) - 1;
   EXPECT_THAT(page, HasSubstr(fmt::format("data-key=\"{}\"", qualities[hundredth])));
-  // The table has the figures that the CSV has.
+  // The table and the CSV have the same figures.
   ASSERT_EQ(compare({in, "--run", "dmo", "--run", "dmo:max-angle", "--iterations", "2", "--table", folder / "table.csv"}).code, 0);
   const Table table = read_table(folder / "table.csv");
   for (const auto& row : table.rows) EXPECT_THAT(page, HasSubstr("data-key=\"" + row.at(table.column("min_quality")) + "\""));
 }
 
-/// Where a picture has the first line of a colour.
+/// Place of the first line of a colour in a picture.
 std::size_t first_line(const std::string& svg, const std::string& colour) { return svg.find("stroke=\"" + colour + "\""); }
 
 TEST(Compare, ThePlotShowsTheMeanAndTheFirstRunOnTop) {
@@ -279,7 +279,7 @@ TEST(Compare, ThePlotShowsTheMeanAndTheFirstRunOnTop) {
   EXPECT_EQ(markup_fault(svg), "");
   EXPECT_THAT(svg, HasSubstr("annulus.off: the mean of all elements"));
   EXPECT_THAT(svg, HasSubstr("raised by dmo:mean-ratio, then mean from iteration "));
-  // Both start at the input and end near each other: what is drawn last is seen.
+  // Both start at the input and end near each other, so that the last one drawn is visible.
   const std::size_t first = first_line(svg, "#0072b2"), second = first_line(svg, "#d55e00");
   ASSERT_NE(first, std::string::npos);
   ASSERT_NE(second, std::string::npos);

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# completion.sh PROGRAM: what bash completes by the program's own script; and, where zsh is, that it takes its script.
+# completion.sh PROGRAM: checks completions of bash by the program's own script; and, if zsh is installed, that it loads its script.
 set -euo pipefail
 program=$1
 work=$(mktemp -d)
@@ -9,14 +9,14 @@ trap 'rm -rf "$work"' EXIT
 # shellcheck disable=SC1091
 source "$work/bash"
 
-# completed WORD...: what the last word, which is begun, can become.
+# completed WORD...: prints the completions of the last word.
 completed() {
   COMP_WORDS=(dmoscope "$@")
   COMP_CWORD=$#
   _dmoscope
   printf '%s ' "${COMPREPLY[@]}"
 }
-# expect "WORDS" "WORD...": each of these is among what is completed.
+# expect "WORDS" "WORD...": expects each of these among the completions.
 expect() {
   local found word
   # shellcheck disable=SC2086

@@ -14,7 +14,7 @@ using ::testing::HasSubstr;
 
 constexpr const char* kTriangles = "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n";
 
-/// Smoothing and judging `input` must fail with 3, tell where, and write nothing.
+/// Expects smoothing and judging `input` to fail with 3, to tell the place, and to write nothing.
 void expect_refused(const std::string& input, bool with_line) {
   const Folder folder;
   const std::string output = folder / "out.14";
@@ -64,7 +64,7 @@ TEST(BadInput, UnknownFormat) {
   expect_refused(folder.file("letter.txt", "Dear mesh,\n"), false);
 }
 
-/// Whoever keeps the extension has nothing to mend in the output.
+/// An input whose extension is kept is to blame, not the output.
 TEST(BadInput, UnknownFormatIsNotBlamedOnTheOutput) {
   const Folder folder;
   const std::string in = folder.file("a.unv", "    -1\n   164\n"), out = folder / "b.unv";

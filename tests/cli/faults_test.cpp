@@ -1,4 +1,4 @@
-// What a program must not do, whatever its files hold and however it ends.
+// Robustness of the program against any files, and any end of the process.
 
 #include <csignal>
 #include <cstdlib>
@@ -173,7 +173,7 @@ TEST(MaxMemory, NamesTheFileThatNeedsMore) {
 #endif
   const Folder folder;
   const std::string mesh = folder.file("mesh.off", kTwoTriangles), large = folder.file("large.off", kTwoTriangles);
-  fs::resize_file(large, std::uint64_t{3} << 30U);  // of which nothing is on the disk
+  fs::resize_file(large, std::uint64_t{3} << 30U);  // sparse: nothing is on the disk
   EXPECT_EQ(run({"quality", mesh, "--max-memory", "1G"}).code, 0);
   const Output output = run({"quality", large, "--max-memory", "16M"});
   EXPECT_EQ(output.code, 3);
@@ -192,7 +192,7 @@ pid_t start(std::vector<std::string> arguments) {
   _exit(127);
 }
 
-// DMOSCOPE_KILLS says how often the program is killed, where more certainty is wanted: DMOSCOPE_KILLS=60.
+// DMOSCOPE_KILLS, such as 60, is the number of kills, for more certainty.
 TEST(Kill, LeavesTheOldFileOrTheNewOneAndNoLitterAfterTheNextSave) {
   const char* const wanted = std::getenv("DMOSCOPE_KILLS");
   const int kills = wanted != nullptr ? std::atoi(wanted) : 20;
@@ -219,7 +219,7 @@ TEST(Kill, LeavesTheOldFileOrTheNewOneAndNoLitterAfterTheNextSave) {
   }
   RecordProperty("old", olds);
   RecordProperty("new", news);
-  // One that certainly was killed while it wrote.
+  // Litter of a process that certainly was killed while it wrote.
   std::ofstream(folder / ".dmoscope-999999-0.tmp", std::ios::binary) << "half";
   ASSERT_EQ(run({"convert", source, target}).code, 0);
   EXPECT_EQ(names_in(folder / ""), (std::vector<std::string>{"source.off", "target.obj"}));
@@ -230,7 +230,7 @@ TEST(Checkpoint, GoesOnToTheSameBits) {
   const std::string state = folder / "c.json";
   for (const std::vector<std::string>& goal :
        {std::vector<std::string>{"--iterations", "100"}, {"--until-converged", "--patience", "10", "--then", "mean"}}) {
-    fs::remove(folder / "broken.14");  // of a run that was not broken
+    fs::remove(folder / "broken.14");  // left by a run that was not interrupted
     std::vector<std::string> common{"smooth", sample("coast.14")};
     common.insert(common.end(), goal.begin(), goal.end());
     const auto with = [&](std::vector<std::string> more) {
@@ -243,10 +243,10 @@ TEST(Checkpoint, GoesOnToTheSameBits) {
     call.interrupt = std::chrono::milliseconds(250);
     call.signal = SIGTERM;
     const Output broken = run(call);
-    if (broken.code == 0) continue;  // a machine that is faster than that
+    if (broken.code == 0) continue;  // the machine was too fast
     EXPECT_EQ(broken.code, 1) << broken.err;
     EXPECT_FALSE(exists(folder / "broken.14"));
-    if (!exists(state)) continue;  // one so slow that it was still reading
+    if (!exists(state)) continue;  // the machine was so slow that it was still reading
     const Output resumed = run(with({"-o", folder / "resumed.14", "--resume", state, "--json"}));
     EXPECT_EQ(resumed.code, whole.code) << resumed.err;
     EXPECT_EQ(read_file(folder / "resumed.14"), read_file(folder / "whole.14"));

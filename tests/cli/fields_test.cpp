@@ -48,7 +48,7 @@ TEST(Fields, ADepthIsThatOfThePlace) {
   EXPECT_EQ(same.x, node.x);
   EXPECT_EQ(same.depth, 16.0);
   EXPECT_EQ(other["fields"]["carried"], nlohmann::json({"depth"}));
-  // Lines of vertices that have not moved are as they were.
+  // Lines of unmoved vertices are unchanged.
   const auto before = lines_of(ramp()), after = lines_of(read_file(out));
   ASSERT_EQ(before.size(), after.size());
   for (std::size_t i = 0; i < before.size(); ++i)

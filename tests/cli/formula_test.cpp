@@ -1,4 +1,4 @@
-// dmoscope with formulas and targets, from outside.
+// Formulas and targets on the command line.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -79,9 +79,9 @@ TEST(Targets, OfAMetricFieldBesideTheMesh) {
   EXPECT_EQ(smoothed["metric"], "mean-ratio@field");
   EXPECT_THAT(smoothed["warnings"].dump(), HasSubstr("The fields of a.sol were not written"));
   EXPECT_NEAR(smoothed["before"]["minimum"].get<double>(), judged["metrics"][0]["minimum"].get<double>(), 1e-12);
-  // The middle of the square that it is in the metric: all four alike.
-  EXPECT_NEAR(smoothed["after"]["minimum"].get<double>(), std::sqrt(3.0) / 2.0, 1e-3);  // as near as the finest grid
-  // What is wrong with it does not keep the mesh from being read.
+  // The optimum is the middle of the square in the metric, with four alike elements.
+  EXPECT_NEAR(smoothed["after"]["minimum"].get<double>(), std::sqrt(3.0) / 2.0, 1e-3);  // to the resolution of the finest grid
+  // Errors in the field do not keep the mesh from being read.
   (void)folder.file("a.sol", sol + "1 2\n");
   const Output cut = run({"quality", mesh, "--target", "field"});
   EXPECT_EQ(cut.code, 2);
@@ -98,7 +98,7 @@ TEST(Targets, KeepBoundaryLayers) {
   const Folder folder;
   const std::string su2 = shared_mesh("mixed2d/su2_NACA64A010_hybrid_inv.su2");
   if (su2.empty()) GTEST_SKIP() << "the shared meshes are not here";
-  // Its worst element stands on the airfoil, along which it may slide.
+  // The worst element stands on the airfoil, along which it may slide.
   const auto kept = smooth(su2, folder / "a.su2", {"--target", "layers:input", "--iterations", "20", "--boundary", "slide"});
   EXPECT_GT(kept["after"]["movable_minimum"].get<double>(), 1.3 * kept["before"]["movable_minimum"].get<double>());
   const Output info = run({"info", su2});

@@ -25,7 +25,7 @@ struct Sea {
   std::vector<std::array<std::size_t, 3>> triangles;
 };
 
-/// The mean ratio of the worst triangle, each taken flat with its own cosine of the latitude in its middle.
+/// The mean ratio of the worst triangle, each one flattened with the cosine of the latitude at its middle.
 double least_on_earth(const Sea& sea) {
   double least = 1.0;
   for (const auto& t : sea.triangles) {
@@ -102,11 +102,11 @@ TEST(GeographicOnTheCommandLine, IsJudgedAndSmoothedOnTheEarth) {
   const Sea moved = with_nodes_of(sea, out);
   EXPECT_NEAR(json["after"]["minimum"].get<double>(), least_on_earth(moved), 1e-3);
   EXPECT_GT(least_on_earth(moved), before + 0.1);
-  // Taken as they stand the triangles are stretched to about half their width.
+  // Without the projection the triangles are stretched to about half their width.
   const auto flat = smooth(in, folder / "flat.14", {"--iterations", "20", "--geographic", "off"});
   EXPECT_LT(flat["before"]["minimum"].get<double>(), before - 0.1);
   EXPECT_EQ(flat["geographic"], false);
-  // The depth is linear in degrees, and what has not moved has its own line.
+  // The depth is linear in degrees, and unmoved vertices keep their lines.
   const auto lines = lines_of(read_file(in)), after = lines_of(read_file(out));
   for (std::size_t v = 0; v < sea.nodes.size(); ++v) {
     EXPECT_NEAR(moved.nodes[v][2], 100.0 + 3.0 * moved.nodes[v][0] - 2.0 * moved.nodes[v][1], 1e-6);
@@ -139,7 +139,7 @@ TEST(GeographicOnTheCommandLine, ItIsSaidAndWhereInDoubtAsked) {
   EXPECT_THAT(solid.err, HasSubstr("it has volume elements"));
 }
 
-/// Words with places are of the file, and a session that is saved comes back the same.
+/// Words with places use the file's coordinates, and a session that is saved comes back the same.
 TEST(GeographicOnTheCommandLine, PlacesAreTheFilesAndSessionsComeBack) {
   const Folder folder;
   const Sea sea = northern_sea();

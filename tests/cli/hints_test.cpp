@@ -1,4 +1,4 @@
-// What smooth looks for once the mesh is written: it changes neither the mesh nor what comes of the call.
+// Hints of smooth after the mesh is written: they change neither the mesh nor the exit code.
 
 #include <array>
 #include <random>
@@ -68,7 +68,7 @@ TEST(Hints, ChangeNeitherTheMeshNorTheExitCodeOfAnyMix) {
   EXPECT_GT(ran, 12);
 }
 
-/// Whoever smooths what was written with the option added gets what was said of it.
+/// A run with the option that a hint names reaches the result that the hint tells.
 TEST(Hints, WhatWasTriedIsReachedByTheOption) {
   const Folder folder;
   int kept = 0;

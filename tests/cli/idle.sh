@@ -1,8 +1,7 @@
 #!/usr/bin/env bash
-# idle.sh PROGRAM MESH [SECONDS]: what a window costs that nobody touches. Opens MESH on a virtual display, once plainly and once with
-# inspection, plots and labels, waits for it to come to rest, and reads the processor time that the process uses. Says the share of one processor,
-# in percent, and fails above 5 (a machine may be busy with other things; an idle window uses under 1). Exits 77 (skipped) where there is no
-# Xvfb or no /proc.
+# idle.sh PROGRAM MESH [SECONDS]: measures an idle window. Opens MESH on a virtual display, once plainly and once with inspection, plots and
+# labels, waits until it has settled, and reads the processor time that the process uses. Prints the share of one processor, in percent, and
+# fails above 5 (a machine may be busy with other things; an idle window uses under 1). Exits 77 (skipped) without Xvfb or /proc.
 set -euo pipefail
 program=$1 mesh=$2 seconds=${3:-10}
 for tool in xvfb-run Xvfb xauth xdotool; do

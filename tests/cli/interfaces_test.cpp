@@ -1,4 +1,4 @@
-// Interfaces and --fix as the command line has them, and the lists of groups.
+// Interfaces and --fix on the command line, and the lists of groups.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

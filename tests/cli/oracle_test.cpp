@@ -12,17 +12,17 @@
 namespace dmoscope::test {
 namespace {
 
-/// How a metric of ours follows from a column of the exact values.
+/// Conversion of a column of the exact values to one of our metrics.
 struct Correspondence {
   const char* metric;
   const char* column;
   std::function<double(double)> convert = [](double value) { return value; };
-  const char* sign = nullptr;  // a column that has the sign which this one lacks
+  const char* sign = nullptr;  // a column with the sign that this one lacks
 };
 
 struct Oracle {
   const char* name;
-  bool signed_by_winding;  // the exact triangle values carry no sign; ours do in a plane
+  bool signed_by_winding;  // the exact triangle values have no sign; ours do in a plane
   std::vector<Correspondence> metrics;
 };
 
@@ -99,7 +99,7 @@ INSTANTIATE_TEST_SUITE_P(Exact, OracleTest,
                                            Oracle{"solids", false, of_wedges_and_pyramids()}),
                          [](const auto& test) { return std::string(test.param.name); });
 
-/// Condition and aspect ratio, which the exact files have not, against Verdict's inverse values where it gives one.
+/// Condition and aspect ratio, which the exact files lack, against Verdict's inverse values where it has them.
 TEST(Oracle, AgreesWithVerdictOnWhatTheExactFilesLack) {
   struct Inverse {
     const char* file;
@@ -116,7 +116,7 @@ TEST(Oracle, AgreesWithVerdictOnWhatTheExactFilesLack) {
     ASSERT_EQ(ours.rows.size(), verdict.rows.size());
     std::size_t compared = 0;
     for (std::size_t row = 0; row < verdict.rows.size(); ++row) {
-      // Its values of inverted elements are cut off, and it has no sign.
+      // Verdict's values of inverted elements are cut off and have no sign.
       const double theirs = verdict.number(row, check.column);
       if (!(ours.number(row, "mean-ratio") > 0.0) || !(theirs < 1e10)) continue;
       ++compared;

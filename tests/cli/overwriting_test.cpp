@@ -1,4 +1,4 @@
-// No output takes the place of a file that the mesh is read from, and no file is read without end.
+// No output replaces a file that the mesh is read from, and no file is read without end.
 
 #include <string>
 #include <vector>
@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 
 constexpr const char* kSquare = "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n";
 
-/// That no output of any subcommand, and no command of a script, can be `file`, from which `mesh` is read.
+/// Expects that no output of any subcommand, and no command of a script, can be `file`, from which `mesh` is read.
 void expect_kept(const Folder& folder, const std::string& mesh, const std::string& file) {
   std::vector<std::vector<std::string>> calls{{"smooth", mesh, "-o", folder / "o.off", "--iterations", "1", "--stats", file},
                                               {"smooth", mesh, "-o", folder / "o.off", "--iterations", "1", "--checkpoint", file},
@@ -29,7 +29,7 @@ void expect_kept(const Folder& folder, const std::string& mesh, const std::strin
                                               {"compare", mesh, "--run", "dmo", "--iterations", "1", "--table", file}};
   for (const std::string command : {"stats", "elements", "save-state", "export", "save-report"})
     calls.push_back({"script", folder.file(command + ".txt", "open \"" + mesh + "\"\n" + command + " \"" + file + "\"\n")});
-  // Not seen before the script runs: the mesh is there only then.
+  // Unknown before the script runs: the mesh exists only then.
   const std::string copy = folder / "late.off";
   calls.push_back({"script", folder.file("late.txt", "open-beside \"" + mesh + "\"\nexport \"" + copy + "\"\nstats \"" + file + "\"\n")});
   const std::string before = read_file(file);
@@ -116,7 +116,7 @@ TEST(MetricField, ThatIsNoneNamesItsFileLineAndVertex) {
   }
 }
 
-/// The word is the first number of the vertex, and occurs nowhere else.
+/// A word in the place of the first number of a vertex, found nowhere else.
 TEST(MetricField, ThatIsNoneNamesItsLineInEveryText) {
   const Folder folder;
   const std::string mesh = folder.file(
@@ -143,7 +143,7 @@ TEST(MetricField, ThatIsNoneNamesItsLineInEveryText) {
   }
 }
 
-/// Numbers in the XML, those of nodes in another order, and those of a second piece.
+/// Errors in numbers of an XML file, of nodes in another order, and of a second piece.
 TEST(MetricField, ThatIsNoneNamesItsLineWhereNumbersAreElsewhereThanInOrder) {
   const Folder folder;
   const std::string xdmf = folder.file(

@@ -1,4 +1,4 @@
-// dmoscope paper: its table against runs of dmoscope smooth, what it says of what is missing, its files, what it refuses.
+// dmoscope paper: its table against runs of dmoscope smooth, its rows about missing meshes, its files, and its refusals.
 
 #include <algorithm>
 #include <cmath>
@@ -63,7 +63,7 @@ TEST(Paper, ARowIsWhatSmoothSays) {
     return smooth(input, folder / "s.vtk",
                   {"--method", method, "--iterations", iterations, "--backend", "cpu", "--write", "last"})["after"];
   };
-  // On a mesh that is read and on one that is made; the first is not the paper's, so that what is claimed of it need not hold.
+  // One mesh that is read and one that is generated; the first is not the paper's, so that its claims need not hold.
   ASSERT_LE(paper(folder, {"--only", "methods", "--only", "mean", "--meshes", folder / "meshes"}).code, 1);
   std::size_t compared = 0;
   for (const Row& row : rows_of(folder / "out/table.csv")) {
@@ -97,7 +97,7 @@ TEST(Paper, MeshesAreFoundByNameBelowTheFolder) {
   const Folder folder;
   std::filesystem::create_directories(folder / "meshes/deep/er");
   std::filesystem::copy_file(sample("coast.14"), folder / "meshes/deep/er/east.14");
-  // Another mesh of that name: what is claimed of the paper's does not hold, and that is told and the exit code.
+  // Another mesh of that name, for which the paper's claims do not hold: the output and the exit code tell so.
   const Output output = paper(folder, {"--only", "4a", "--meshes", folder / "meshes"});
   EXPECT_EQ(output.code, 1);
   EXPECT_THAT(output.err, HasSubstr("figure 4a"));
@@ -141,7 +141,7 @@ TEST(Paper, VerdictsFollowFromTheirTolerances) {
   EXPECT_GT(seen["told"], 0);
 }
 
-/// The lines of a plot's CSV by their names, in the order of x.
+/// The lines of a plot's CSV, by name, in the order of x.
 std::map<std::string, std::vector<double>> courses_of(const std::string& path) {
   std::map<std::string, std::vector<double>> courses;
   for (const std::string& line : lines_of(read_file(path))) {
@@ -174,7 +174,7 @@ TEST(Paper, WhatIsSaidOfCoursesFollowsFromTheirPlots) {
   EXPECT_GT(sooner, 1.0);
   EXPECT_DOUBLE_EQ(ours(rows, "iterations of dvr over those of dmo"), first(dvr, goal) / sooner);
   EXPECT_DOUBLE_EQ(ours(rows, "over dmo's"), dvr.back() / dmo.back());
-  // A minimum has converged where it stays near its last; minima of dmo do not fall.
+  // The iteration at which a minimum has converged is the first near its last value; minima of dmo do not fall.
   const std::vector<double> east = courses_of(folder / "out/4a/convergence.csv")["dmo"];
   ASSERT_EQ(east.size(), 21U);
   EXPECT_DOUBLE_EQ(ours(rows, "dmo: iterations until converged"), first(east, east.back() - 1e-3));
@@ -205,7 +205,7 @@ TEST(Paper, AVolumeIsAnExperiment) {
   const Folder folder;
   std::filesystem::create_directories(folder / "meshes");
   ASSERT_EQ(run({"generate", "tetrahedra", "--size", "216", "--seed", "1", "-o", folder / "meshes/tire.vtk"}).code, 0);
-  // Not the paper's: what is claimed of it need not hold.
+  // Not the paper's mesh, so that the claims need not hold.
   ASSERT_LE(paper(folder, {"--only", "8", "--meshes", folder / "meshes"}).code, 1);
   std::size_t compared = 0;
   for (const Row& row : rows_of(folder / "out/table.csv")) {
@@ -233,7 +233,7 @@ TEST(Paper, FilesAreWhole) {
   EXPECT_EQ(plot.rows.size(), 2U * 51U) << "two metrics, the input and 50 iterations";
   const bool pictures = exists(folder / "out/7/picture-1.png");
   EXPECT_EQ(pictures, page.find("data:image/png;base64,iVBOR") != std::string::npos);
-  // As many rows on the page as in the table.
+  // The page and the table have the same number of rows.
   std::size_t rows = 0;
   for (std::size_t at = page.find("<tr>"); at != std::string::npos; at = page.find("<tr>", at + 1)) ++rows;
   EXPECT_EQ(rows, rows_of(folder / "out/table.csv").size() + 1);

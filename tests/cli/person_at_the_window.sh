@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# person_at_the_window.sh PROGRAM MESH: a window opened on a mesh takes true key presses, asks before it is closed over what is in no
-# file, keeps settings and recent files at once, and is as large the next time. Run by real_window.sh on a display of its own, with
+# person_at_the_window.sh PROGRAM MESH: a window opened on a mesh takes real key presses, asks before it is closed with unsaved work, saves
+# settings and recent files at once, and has the same size the next time. Run by real_window.sh on a display of its own, with
 # XDG_CONFIG_HOME and XDG_STATE_HOME in an empty folder. A display without a window manager may lose a key, and a busy machine is slow:
-# so everything is waited for, and keys are pressed again where nothing came of them.
+# every result is waited for, and keys are pressed again if it does not come.
 set -u
 program=$1 mesh=$2 tests=$(dirname "$(realpath "$0")")
 id=0 window=""
@@ -14,13 +14,13 @@ fail() {
 }
 alive() { kill -0 "$id" 2>/dev/null; }
 title() { xdotool getwindowname "$window"; }
-# until_it WHAT [KEY ...]: until WHAT holds, patiently, pressing the keys again after some seconds in which it did not.
+# until_it WHAT [KEY ...]: waits until WHAT holds, pressing the keys again after some seconds in which it did not.
 until_it() {
   local what=$1 key
   shift
   for _ in 1 2 3 4 5; do
     for key in "$@"; do
-      xdotool windowfocus "$window" key --window 0 "$key" || true  # it may be gone by now
+      xdotool windowfocus "$window" key --window 0 "$key" || true  # the window may be gone by now
       sleep 0.1
     done
     for _ in $(seq 30); do
@@ -55,7 +55,7 @@ until_it no_wireframe_is_kept w || fail "settings wait for the window's end"
 until_it mesh_is_recent || fail "the mesh is not among the recent files yet"
 xdotool key --window 0 ctrl+q
 stays "the window closed over an iteration that is in no file, without a question"
-xdotool key --window 0 Escape  # the answer: no
+xdotool key --window 0 Escape  # answers no
 sleep 0.5
 python3 "$tests/ask_to_close.py" "$window"
 stays "the button of its frame closed the window without a question"

@@ -49,7 +49,7 @@ struct Pipe {
     if (output < 0) _exit(126);
     dup2(output, STDOUT_FILENO);
   }
-  for (const int signal : {SIGHUP, SIGINT, SIGQUIT, SIGTERM}) std::signal(signal, SIG_DFL);  // whatever started the tests ignores
+  for (const int signal : {SIGHUP, SIGINT, SIGQUIT, SIGTERM}) std::signal(signal, SIG_DFL);  // the tests' parent may ignore them
   if (call.file_limit > 0) {
     const rlimit limit{call.file_limit, call.file_limit};
     setrlimit(RLIMIT_FSIZE, &limit);
@@ -65,7 +65,7 @@ struct Pipe {
   _exit(127);
 }
 
-/// Reads what there is; closes the end at its end.
+/// Reads all available bytes; closes the descriptor at the end of the stream.
 void drain(int& end, std::string& text) {
   char buffer[65536];
   const ssize_t count = read(end, buffer, sizeof buffer);

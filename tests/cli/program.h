@@ -1,5 +1,5 @@
 #pragma once
-// Runs the program as a person would and keeps what it says.
+// Runs of the program as a user would start it, and their output.
 
 #include <chrono>
 #include <cstdint>
@@ -12,32 +12,32 @@
 namespace dmoscope::test {
 
 struct Output {
-  int code = -1;  // exit code; 128 + signal when a signal ended it, -1 when it ran past its time
+  int code = -1;  // exit code; 128 + signal if a signal ended it, -1 if it exceeded its time
   std::string out, err;
 };
 
 struct Call {
   std::vector<std::string> arguments;
   std::string input;                       // standard input
-  std::string output{};                    // where standard output goes instead of Output::out, "/dev/full"
-  bool display = false;                    // keep DISPLAY and WAYLAND_DISPLAY?
+  std::string output{};                    // target of standard output in place of Output::out, such as "/dev/full"
+  bool display = false;                    // whether to keep DISPLAY and WAYLAND_DISPLAY
   std::chrono::milliseconds interrupt{0};  // > 0: send the signal after that long
-  std::string interrupt_when{};            // ... counted from when standard output holds this
+  std::string interrupt_when{};            // text of standard output from which the delay counts
   int signal = 2;                          // SIGINT
-  std::uint64_t file_limit = 0;            // > 0: bytes that a file may have, as by ulimit -f
+  std::uint64_t file_limit = 0;            // > 0: greatest size of a file in bytes, as by ulimit -f
   std::chrono::seconds limit{300};
 };
-/// Never throws for what the program does; the program is killed at the limit.
+/// Runs the program, which is killed at the limit. Never throws for its failures.
 Output run(const Call& call);
 Output run(std::vector<std::string> arguments);
 
-/// True when the program says that it cannot draw: built without OpenGL, or on a machine without EGL.
+/// Whether the program reports that it cannot draw: built without OpenGL, or on a machine without EGL.
 bool cannot_draw(const Output& output);
 
-/// Standard output as JSON; fails the test (and returns null) when it is not exactly one object.
+/// Standard output as JSON; fails the test (and returns null) if it is not exactly one object.
 nlohmann::json json_of(const Output& output);
 
-/// What `dmoscope smooth --json` tells of one mesh; fails the test when it does not succeed.
+/// The report of `dmoscope smooth --json` about one mesh; fails the test if it does not succeed.
 nlohmann::json smooth(const std::string& input, const std::string& output, std::vector<std::string> more);
 
 /// A folder of its own for one test, removed with it.
@@ -62,7 +62,7 @@ bool exists(const std::string& path);
 
 /// Path of a bundled sample.
 std::string sample(const std::string& name);
-/// Path below the shared meshes; empty where they are absent.
+/// Path below the shared meshes; empty if they are missing.
 std::string shared_mesh(const std::string& name);
 
 /// Rows of a CSV with a header: column name -> cells.
@@ -70,7 +70,7 @@ struct Table {
   std::vector<std::string> header;
   std::vector<std::vector<std::string>> rows;
   [[nodiscard]] std::size_t column(const std::string& name) const;
-  /// The cell as a number; NaN where it is empty.
+  /// The cell as a number; NaN if it is empty.
   [[nodiscard]] double number(std::size_t row, const std::string& name) const;
 };
 Table read_table(const std::string& path);

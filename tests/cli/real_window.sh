@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# real_window.sh PROGRAM MESH: the true program on a virtual display. A script steps by command, key and click, takes pictures of the
-# window and lets it close itself; one that fails ends with the failing line's exit code; and, where xdotool is, a window opened on a
-# mesh takes true key presses, asks before it is closed, and is as large the next time. Exits 77 (skipped) where there is no Xvfb.
+# real_window.sh PROGRAM MESH: tests the program on a virtual display. A script steps by command, key and click, takes pictures of the
+# window and lets it close itself; one that fails ends with the failing line's exit code; and, with xdotool, a window opened on a mesh takes
+# real key presses, asks before it is closed, and has the same size the next time. Exits 77 (skipped) without Xvfb.
 set -euo pipefail
 program=$1 mesh=$2 tests=$(dirname "$(realpath "$0")")
 for tool in xvfb-run Xvfb xauth; do

@@ -1,4 +1,4 @@
-// Pictures by the command line: what of a mesh they show.
+// Pictures by the command line: the visible part of a mesh.
 
 #include <iterator>
 #include <map>
@@ -66,7 +66,7 @@ TEST(Render, ShowsAPartLargerInThePlaneAndInSpace) {
 
 TEST(Render, TakesEveryWordOfTheWindowsRanges) {
   const Folder folder;
-  const std::string mesh = folder / "globe.14";  // whose least quality is far above 0
+  const std::string mesh = folder / "globe.14";  // its least quality is far above 0
   ASSERT_EQ(run({"generate", "globe", "-o", mesh}).code, 0);
   std::map<std::string, std::string> pictures;
   for (const std::string range : {"", "input", "fixed", "auto", "expanding", "percentile", "percentile:2:98", "percentile:20:60", "0:1"}) {

@@ -1,5 +1,5 @@
 // Meshes so small or so large that squares, cubes and products of edges leave the range of doubles: the same figures as at size 1, or a
-// refusal that names the file and the sizes that can be.
+// refusal that names the file and the possible sizes.
 
 #include <algorithm>
 #include <array>
@@ -67,8 +67,8 @@ std::vector<double> numbers_in(const std::string& text) {
 struct Kind {
   std::string name;
   std::string (*bytes)(int exponent);
-  std::array<int, 3> fine;     // by which the mesh is still computed with: its limits, and one between
-  std::array<int, 2> refused;  // one beyond either limit
+  std::array<int, 3> fine;     // exponents with results: the limits, and one between
+  std::array<int, 2> refused;  // exponents beyond either limit
 };
 // Lengths of 45 (or 42) units: planar meshes from 1e-75 on and, to be smoothed, up to 1e74, volumes from 1e-36 to 1e35.
 const std::array<Kind, 2> kKinds{Kind{"a.off", planar_mesh, {-254, -120, 240}, {-255, 241}},
@@ -102,7 +102,7 @@ TEST(Sizes, BeyondThemFileAndSizeAreNamed) {
       const std::string in = folder.file(kind.name, kind.bytes(exponent)), out = folder / ("out_" + kind.name);
       std::vector<std::vector<std::string>> calls{{"smooth", in, "-o", out, "--iterations", "1"},
                                                   {"compare", in, "--run", "dmo", "--iterations", "1"}};
-      const bool also_judged = exponent == kind.refused[1];  // what is smoothed has room to grow
+      const bool also_judged = exponent == kind.refused[1];  // smoothed meshes have room to grow
       if (!also_judged) calls.insert(calls.end(), {{"quality", in}, {"info", in}, {"convert", in, out}});
       for (const auto& call : calls) {
         const Output output = run(call);

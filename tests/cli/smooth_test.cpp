@@ -1,4 +1,4 @@
-// dmoscope smooth on real meshes and on the samples: what it reaches, what it leaves alone, and what it says.
+// dmoscope smooth on real meshes and on the samples: its results, the content that it keeps, and its messages.
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// A fort.14 as this test reads it: the words of its lines, and which vertices lie on no boundary edge.
+/// Content of a fort.14, read by this test: the words of its lines, and the vertices on no boundary edge.
 struct Fort14 {
   std::vector<std::string> lines;
   std::size_t elements = 0, vertices = 0;
@@ -47,7 +47,7 @@ struct Fort14 {
   }
 };
 
-/// The line with its second and third word taken out, blanks kept.
+/// The line without its second and third word, with its blanks.
 std::string without_coordinates(const std::string& line) {
   std::string kept;
   std::size_t word = 0;
@@ -61,7 +61,7 @@ std::string without_coordinates(const std::string& line) {
   return kept;
 }
 
-/// The output must be the input but for x and y of free vertices; returns how many lines differ.
+/// Expects the output to equal the input but for x and y of free vertices; returns how many lines differ.
 std::size_t expect_only_free_coordinates_differ(const std::string& input, const std::string& output) {
   const Fort14 before(input), after(output);
   EXPECT_EQ(before.lines.size(), after.lines.size());
@@ -76,7 +76,7 @@ std::size_t expect_only_free_coordinates_differ(const std::string& input, const 
   return differing;
 }
 
-/// Statistics must have a row an iteration, and the minimum must never fall.
+/// Expects one row of statistics per iteration, and a minimum that never falls.
 void expect_rising(const std::string& stats, std::size_t iterations) {
   const Table table = read_table(stats);
   const std::vector<std::string> documented{"run", "iteration", "min_quality", "mean_quality", "inverted", "moved", "seconds"};
@@ -137,7 +137,7 @@ TEST(Smooth, JsonHasTheDocumentedKeys) {
   EXPECT_EQ(smooth(sample("coast.14"), folder / "d.14", {"--iterations", "1", "--precision", "double"})["simd"], "scalar");
   EXPECT_EQ(json["iterations"], 2);
   EXPECT_GE(json["after"]["minimum"], json["before"]["minimum"]);
-  // What it says of its output holds when that is judged anew.
+  // The report about the output holds when the output is judged anew.
   const auto judged = json_of(run({"quality", folder / "out.14", "--metric", "mean-ratio", "--json"}));
   EXPECT_EQ(judged["metrics"][0]["minimum"], json["after"]["minimum"]);
 }
@@ -157,7 +157,7 @@ TEST(Smooth, AcrossTheMeridianElementsAreJudgedUnwrappedAndReadAgainTheSame) {
       EXPECT_EQ(judged["inverted"], 0) << kind;
       EXPECT_EQ(judged["metrics"][0]["minimum"], json["after"]["minimum"]) << kind;
       EXPECT_NEAR(judged["metrics"][0]["mean"].get<double>(), json["after"]["mean"].get<double>(), 1e-12) << kind;
-      // The middles of its elements lie where they are: none of the piece's near 0.
+      // All elements near 0 are the piece's: others have their middles elsewhere.
       const auto all = json_of(run({"quality", in, "--metric", metric, "--worst", "10000", "--json"}))["metrics"][0]["worst"];
       for (const auto& element : all) {
         const double x = element["centroid"][0];
@@ -229,7 +229,7 @@ TEST(Smooth, SaysWhyItDidNotConverge) {
   EXPECT_THAT(output.err, HasSubstr("not converged"));
 }
 
-/// The minimum rises no more, and the mean falls: what is written is where it was greatest.
+/// The minimum rises no more, and the mean falls: the iteration with the greatest mean is written.
 TEST(Smooth, UntilConvergedWritesTheBestByMinimumThenMean) {
   const Folder folder;
   const auto best = smooth(sample("random.off"), folder / "best.off", {"--until-converged", "--stats", folder / "s.csv"});
@@ -243,7 +243,7 @@ TEST(Smooth, UntilConvergedWritesTheBestByMinimumThenMean) {
   for (std::size_t i = best["last_rise"]; i < table.rows.size(); ++i)
     EXPECT_LE(table.number(i, "mean_quality"), best["after"]["mean"].get<double>()) << i;
   EXPECT_NE(read_file(folder / "best.off"), read_file(folder / "last.off"));
-  // A number that is asked for is done; and those iterations are the same.
+  // A given number of iterations is done; and those iterations are the same.
   const auto counted = smooth(sample("random.off"), folder / "counted.off", {"--iterations", std::to_string(written)});
   EXPECT_EQ(read_file(folder / "counted.off"), read_file(folder / "best.off"));
   smooth(sample("random.off"), folder / "all.off", {"--iterations", std::to_string(ended)});
@@ -252,21 +252,21 @@ TEST(Smooth, UntilConvergedWritesTheBestByMinimumThenMean) {
 
 TEST(Smooth, CurvedSurfaces) {
   const Folder folder;
-  // Four squares around the origin, bent along the x axis; the middle is not where it should be.
+  // Four squares around the origin, bent along the x axis, with a misplaced middle.
   const std::string bent = folder.file("bent.off",
                                        "OFF\n9 4 0\n-1 -1 0.2\n0 -1 0.2\n1 -1 0.2\n-1 0 0\n0.4 0 0\n1 0 0\n-1 1 0.2\n0 1 0.2\n1 1 0.2\n"
                                        "4 0 1 4 3\n4 1 2 5 4\n4 3 4 7 6\n4 4 5 8 7\n");
   const auto json = smooth(bent, folder / "out.off", {"--iterations", "5"});
   EXPECT_EQ(json["sliding"], 1);
   EXPECT_GT(json["after"]["minimum"], json["before"]["minimum"]);
-  // Only along the fold is there a place as near to the surface: dvr takes it by the axes.
+  // Places as near to the surface exist along the fold alone: dvr moves by the axes.
   for (const char* method : {"active-set", "dvr", "pattern-search"}) {
     const auto other = smooth(bent, folder / "other.off", {"--iterations", "5", "--method", method, "--directions", "axes"});
     EXPECT_GT(other["after"]["minimum"], other["before"]["minimum"]) << method;
   }
 }
 
-/// Taken as it stands, as in the paper.
+/// Without a projection, as in the paper.
 TEST(Smooth, EastCoast) {
   REQUIRE_SHARED(east, "ocean/east.14");
   const Folder folder;

@@ -1,4 +1,4 @@
-// Every verb once, and what is wrong usage.
+// Every verb once, and wrong usage.
 
 #include <cmath>
 #include <iterator>
@@ -153,7 +153,7 @@ TEST(Usage, CountsAreWholeNumbersInTheirRange) {
     EXPECT_FALSE(exists(out));
   }
   EXPECT_EQ(run({"generate", "grid", "-o", out, "--size", "100", "--seed", "18446744073709551615"}).code, 0);
-  // Leading zeros do not make another number of it.
+  // Leading zeros do not change a number.
   EXPECT_EQ(json_of(run({"smooth", in, "-o", out, "--iterations", "010", "--json"}))["iterations"], 10);
 }
 
@@ -397,7 +397,7 @@ TEST(Window, AFileThatIsNotThereIsToldBeforeTheDisplay) {
                                 HasSubstr("paper"), ::testing::Not(HasSubstr("DISPLAY"))));
 }
 
-/// Two triangles far from the origin, where floats lie 1/16 apart: a tip 1/64 beside the middle of its base is above it for them.
+/// Two triangles far from the origin, where floats lie 1/16 apart: a tip 1/64 beside the middle of its base is above it in floats.
 TEST(Quality, TextThatDeclaresFloatsIsJudgedAsThoseWhoTakeTheWordSeeIt) {
   const Folder folder;
   const auto bytes = [](const char* type) {

@@ -1,4 +1,4 @@
-// What converged runs write, with and without a second phase: judged by dmoscope quality on the files, over all kinds of meshes.
+// Output of converged runs, with and without a second phase, judged by dmoscope quality on the files, over all kinds of meshes.
 
 #include <algorithm>
 #include <tuple>
@@ -20,7 +20,7 @@ constexpr const char* kTwoIslands =
     "OFF\n8 6 0\n0 0 0\n4 0 0\n0 4 0\n0.5 0.6 0\n100 0 0\n104 0 0\n100 4 0\n102.5 0.3 0\n"
     "3 0 1 3\n3 1 2 3\n3 2 0 3\n3 4 5 7\n3 5 6 7\n3 6 4 7\n";
 
-/// A mesh by the name of its kind, as `dmoscope generate` makes it.
+/// A mesh of a kind, made by `dmoscope generate`.
 std::string made(const Folder& folder, const std::string& kind) {
   if (kind == "islands") return folder.file("islands.off", kTwoIslands);
   const std::string file = folder / (kind + ".vtk");
@@ -81,7 +81,7 @@ TEST_P(ThenMean, HasTheSameBytesWithOtherThreads) {
   EXPECT_EQ(read_file(folder / "one.vtk"), read_file(folder / "three.vtk"));
 }
 
-/// The rows of a comparison are what smooth writes; what the plain runs' last iterations are, they do not say.
+/// The rows of a comparison are those of smooth's output, not of the plain runs' last iterations.
 TEST_P(ThenMean, ComparedTheRunsStandAtTheirBest) {
   const Folder folder;
   const std::string in = made(folder, GetParam());
@@ -140,7 +140,7 @@ TEST(Recipe, BestIsNoLowerThanDmoAloneAndSaysWhatHoldsIt) {
     EXPECT_EQ(told["then"], "joint,mean");
     EXPECT_FALSE(told["joint_over"].is_null());
     ASSERT_TRUE(told["held_by"]["certificate"].is_object()) << kind;
-    // Of the mixed mesh a quadrilateral is held by a corner that no vertex moves: the certificate is that of the next.
+    // A quadrilateral of the mixed mesh is held by a corner that no vertex moves: the certificate is that of the next.
     const bool of_another = told["held_by"]["certificate"]["reaches"].get<double>() > told["held_by"]["quality"].get<double>() * 1.01;
     EXPECT_EQ(of_another, kind == "mixed") << kind;
   }

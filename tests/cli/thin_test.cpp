@@ -1,4 +1,4 @@
-// Meshes one cell thick are smoothed as the 2-D meshes that they are, and written with their cells.
+// Meshes one cell thick are smoothed as 2-D meshes, and written with their cells.
 
 #include <algorithm>
 #include <array>
@@ -74,7 +74,7 @@ Place behind_by(double thickness) {
   return [thickness](Vec3 p) { return Vec3{p.x, p.y, p.z + thickness}; };
 }
 
-/// The numbers behind a line that begins so.
+/// The numbers after a line that begins with `line`.
 std::vector<double> numbers_behind(const std::string& file, const std::string& line, std::size_t count) {
   const std::string text = read_file(file);
   std::size_t at = text.find(line);
@@ -93,7 +93,7 @@ std::vector<Vec3> points_of(const std::string& file, std::size_t count) {
   return points;
 }
 
-/// The file without its points and the numbers at them.
+/// The file without its points and the data at them.
 std::string but_for_points(const std::string& file) {
   const std::string text = read_file(file);
   const std::size_t cells = text.find("CELLS");
@@ -206,7 +206,7 @@ TEST(ThinOnTheCommandLine, TheBackOfAShellStaysOnItself) {
   for (std::size_t v = 0; v < 2 * n; ++v) {
     if (after[v] == before[v]) continue;
     ++moved;
-    double nearest = 1.0;  // to a triangle of its own side that it lies over
+    double nearest = 1.0;  // distance to the nearest triangle of its own side above which it lies
     for (Index e = 0; e < sheet.elements.size(); ++e) {
       const auto c = sheet.elements.corners(e);
       const auto at = [&](std::size_t i) { return before[2 * c[i] + v % 2]; };
@@ -221,7 +221,7 @@ TEST(ThinOnTheCommandLine, TheBackOfAShellStaysOnItself) {
   EXPECT_GT(moved, n / 2);
 }
 
-/// As axisymmetric cases are: the sides are 5 degrees apart, and on the axis, which both have in common, cells are wedges that lie.
+/// An axisymmetric case: the sides are 5 degrees apart, and on the axis, which both share, cells are wedges on their sides.
 std::string turned_vtk(std::size_t n) {
   const auto place = [n](std::size_t i, std::size_t j, double side) {
     const bool inside = i > 0 && j > 0 && i < n && j < n;

@@ -1,4 +1,4 @@
-// Volumes from outside: smoothed, judged, and written as they came.
+// Volume meshes on the command line: smoothed, judged, and written with their other content.
 
 #include <algorithm>
 
@@ -16,7 +16,7 @@ using ::testing::HasSubstr;
 
 double minimum(const Json& report, const char* when) { return report[when]["minimum"].get<double>(); }
 
-/// The lines of a file that are no positions: from the first that has one of the words on, to the end.
+/// The lines of a file after its positions: from the first that has one of the words on, to the end.
 std::vector<std::string> lines_from(const std::string& path, const std::string& word) {
   const auto lines = lines_of(read_file(path));
   const auto first = std::ranges::find_if(lines, [&](const std::string& line) { return line.find(word) != std::string::npos; });
@@ -81,7 +81,7 @@ TEST(Volumes, ElementsAreWrittenAsTheyWereWound) {
 TEST(Volumes, RealMixedMeshesKeepAllButTheirPositions) {
   struct Real {
     const char* file;
-    const char* elements;  // the word after which no positions come
+    const char* elements;  // the word after which there are no positions
   };
   for (const Real& real : {Real{"mixed3d/mixed-hex-pyr-tet.vtk", "CELLS"}}) {
     const std::string in = shared_mesh(real.file);

@@ -1,4 +1,4 @@
-// What is seen of a volume mesh, against looking at every face of every cell, and against what is known of skins: they are closed.
+// The visible part of a volume mesh, against a search over every face of every cell, and against closed skins.
 #include <algorithm>
 #include <map>
 #include <random>
@@ -24,7 +24,7 @@ std::vector<float> random_quality(std::size_t count, unsigned seed) {
   return quality;
 }
 
-/// A mesh with all that is needed to look inside.
+/// A mesh with all that looking inside needs.
 struct Block {
   explicit Block(Mesh m, unsigned seed = 1)
       : mesh(std::move(m)), neighbours(mesh), quality(random_quality(mesh.elements.size(), seed)), inverted(mesh.elements.size(), 0) {
@@ -48,7 +48,7 @@ std::set<Index> vertex_set(const Mesh& mesh, ElementFace face) {
   return vertices;
 }
 
-/// Layers by looking at all pairs of faces again and again.
+/// Layers, found by comparing all pairs of faces again and again.
 std::vector<Index> slow_layers(const Mesh& mesh) {
   std::map<std::set<Index>, std::vector<Index>> owners;
   const auto for_faces = [&](auto&& visit) {
@@ -79,7 +79,7 @@ std::vector<Index> slow_layers(const Mesh& mesh) {
 std::vector<bool> slow_visible(const Block& block, const ClippingView& view) {
   const Mesh& mesh = block.mesh;
   const std::vector<Index> layers = slow_layers(mesh);
-  std::vector<std::pair<double, Index>> ranks;  // no quality is above 10
+  std::vector<std::pair<double, Index>> ranks;  // all qualities are at most 10
   for (Index e = 0; e < mesh.elements.size(); ++e) {
     if (block.inverted[e] != 0)
       ranks.emplace_back(std::isnan(block.quality[e]) ? -1e9 : block.quality[e] - 1e6, e);
@@ -150,7 +150,7 @@ INSTANTIATE_TEST_SUITE_P(Clipping, OfEachFill, testing::Values(Fill::Hexahedra, 
   return std::string(tested.param == Fill::Hexahedra ? "Hexahedra" : tested.param == Fill::Tetrahedra ? "Tetrahedra" : "Mixed");
 });
 
-/// Many settings one after the other in the same object, so that what is kept between them is tried as well.
+/// Many settings one after the other in the same object, which keeps state between them.
 TEST_P(OfEachFill, IsWhatLookingAtEveryFaceFinds) {
   Block block(volume_grid(5, GetParam(), 0.2));
   Clipping inside(block.mesh.elements, block.neighbours);
@@ -177,7 +177,7 @@ TEST_P(OfEachFill, IsWhatLookingAtEveryFaceFinds) {
   }
 }
 
-/// A plane that moves on in small steps, where only what changed is looked at.
+/// A plane that moves in small steps, with an update of the changes alone.
 TEST_P(OfEachFill, ADraggedPlaneLeavesNothingBehind) {
   const Block block(volume_grid(6, GetParam(), 0.2));
   Clipping inside(block.mesh.elements, block.neighbours);
@@ -268,13 +268,13 @@ TEST(Clipping, TheWorstAreTheInvertedThenTheLowest) {
   };
   EXPECT_THAT(seen(1), testing::ElementsAre(13));
   EXPECT_THAT(seen(2), testing::ElementsAre(13, 20));
-  EXPECT_THAT(seen(4), testing::ElementsAre(0, 4, 13, 20));  // of equals the first
-  EXPECT_EQ(seen(1000).size(), 27U);                         // none is undefined
+  EXPECT_THAT(seen(4), testing::ElementsAre(0, 4, 13, 20));  // the first among equals
+  EXPECT_EQ(seen(1000).size(), 27U);                         // all are defined
   block.inverted[25] = 1;
   block.quality[25] = -0.5F;
-  EXPECT_THAT(seen(1), testing::ElementsAre(25));  // of the inverted the lowest
+  EXPECT_THAT(seen(1), testing::ElementsAre(25));  // the lowest of the inverted ones
   EXPECT_THAT(seen(3), testing::ElementsAre(13, 20, 25));
-  block.quality[13] = std::nanf("");  // inverted, whatever a metric makes of it
+  block.quality[13] = std::nanf("");  // inverted, whatever its metric
   EXPECT_THAT(seen(1), testing::ElementsAre(13));
 }
 

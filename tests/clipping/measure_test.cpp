@@ -1,4 +1,4 @@
-// How long it takes to see anew what is inside a mesh of a million cells. Disabled: it tells figures, and fails for none of them.
+// Time of an update of the visible part of a mesh with a million cells. Disabled: it prints figures, and fails for none of them.
 //   test_clipping --gtest_also_run_disabled_tests --gtest_filter='*Milliseconds*'
 #include <algorithm>
 #include <cstdio>

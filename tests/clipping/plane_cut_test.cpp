@@ -1,4 +1,4 @@
-// Cuts through solids against closed forms: areas of cuts of a cube, and the divergence theorem over what is left.
+// Cuts through solids against closed forms: areas of cuts of a cube, and the divergence theorem over the remaining part.
 #include "core/clipping/plane_cut.h"
 
 #include <cmath>
@@ -36,7 +36,7 @@ INSTANTIATE_TEST_SUITE_P(PlaneCut, CutOfEachFill, testing::Values(Fill::Hexahedr
   return std::string(tested.param == Fill::Hexahedra ? "Hexahedra" : tested.param == Fill::Tetrahedra ? "Tetrahedra" : "Mixed");
 });
 
-/// Tilted, flipped or not: the area of the unit cube's section, facing what was taken away.
+/// The area of the unit cube's section, tilted, flipped or not, facing the part that was cut away.
 TEST_P(CutOfEachFill, AreaOfACubesSections) {
   const Mesh mesh = volume_grid(4, GetParam());
   struct Case {

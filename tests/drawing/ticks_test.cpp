@@ -105,7 +105,7 @@ TEST(Decimation, KeepsEveryPeakAndFewPoints) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> noise(-1, 1);
   for (double& value : y) value = noise(random);
-  y[123456] = 50;  // a peak and a pit that no sampling may lose
+  y[123456] = 50;  // a peak and a pit that sampling must not lose
   y[98765] = -60;
   const auto strokes = decimate(x, y, 0, kSize - 1.0, kColumns);
   ASSERT_EQ(strokes.size(), 1U);

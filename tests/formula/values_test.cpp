@@ -1,4 +1,4 @@
-// What formulas say of elements, against the built-in metrics and against numbers worked out by hand.
+// Values of formulas for elements, against the built-in metrics and against numbers worked out by hand.
 
 #include <cmath>
 #include <cstring>
@@ -28,7 +28,7 @@ std::shared_ptr<const InputMesh> generated(const std::string& words) {
   return generate_input(words, progress);
 }
 
-/// With vertices thrown about: flat, inverted and sharp elements among the others.
+/// Meshes with vertices moved at random: some elements are flat, inverted or sharp.
 Mesh thrown(Mesh mesh, double reach, std::uint64_t seed) {
   Random random(seed);
   for (std::size_t v = 0; v < mesh.positions.size(); v += 2) {
@@ -92,7 +92,7 @@ TEST(FormulaValues, AreThoseOfTheBuiltInMetricsOnSharedMeshes) {
     } catch (const Error&) {
       continue;
     }
-    if (mesh->is_surface()) continue;  // whose quadrilaterals a formula sees in their own plane
+    if (mesh->is_surface()) continue;  // a formula sees a surface's quadrilaterals in their own plane
     ++meshes;
     for (const MetricInfo& metric : metric_table())
       if (is_defined_for(metric.metric, *mesh)) expect_same_values(metric.metric, *mesh);
@@ -104,9 +104,10 @@ TEST(FormulaValues, ArePartOfTheTableOfKinds) {
   for (const MetricInfo& entry : metric_table()) {
     KindSet expected = entry.kinds;
     const Metric formula = parse_metric(fmt::format("formula:{}", formula_of(entry.metric)));
-    // What can be said of more kinds than the metric is meant for may be: the condition's text is of those alone.
+    // A condition may hold for more kinds than the metric is meant for: its text is about those alone.
     EXPECT_EQ(info(formula).kinds, expected) << entry.name;
-    // Its ideal triangle is another one; a pyramid's upright corners are beyond the ideal ones; a concave corner is not seen.
+    // Conditions that differ: the ideal triangle is another one; a pyramid's upright corners are beyond the ideal ones; a concave corner is
+    // not seen.
     const bool own_ways =
         entry.metric == Metric::Rectangularity || entry.metric == Metric::ScaledJacobian || entry.metric == Metric::MeanRatioArea;
     EXPECT_TRUE(defined(formula).facts.warnings.empty() || own_ways) << entry.name << ": " << defined(formula).facts.warnings.front();
@@ -114,12 +115,12 @@ TEST(FormulaValues, ArePartOfTheTableOfKinds) {
   }
   for (const NamedFormula& named : named_formulas()) {
     EXPECT_TRUE(defined(parse_metric(named.name)).formula->scale_free()) << named.name;
-    if (named.name == "scaled-jacobian-inside") continue;  // a pyramid's upright corners, likewise
+    if (named.name == "scaled-jacobian-inside") continue;  // a pyramid's upright corners are beyond the ideal ones
     EXPECT_EQ(defined(parse_metric(named.name)).facts.warnings, std::vector<std::string>{}) << named.name;
   }
 }
 
-/// Of the triangle (1, 1), (5, 1), (1, 4), whose edges are 4, 5 and 3 long, or of another element.
+/// Value of a formula for the triangle (1, 1), (5, 1), (1, 4), whose edges are 4, 5 and 3 long, or for another element.
 double value_of(const std::string& text, ElementKind kind = ElementKind::Triangle,
                 std::vector<Vec3> corners = {{1, 1, 0}, {5, 1, 0}, {1, 4, 0}}) {
   Mesh mesh;
@@ -300,7 +301,7 @@ TEST(FormulaValues, AreTheSameInEveryNotation) {
   }
 }
 
-/// All operations, with numbers that vary and such that do not.
+/// A formula with all operations, on numbers that vary and on constants.
 const char* const kEverything =
     "a = J/(1 + l2sum); b = sin(3*a) + cos(a*l12) + exp(a - 1) + log(abs(a) + 0.1) + pow(abs(a) + 0.5, a); "
     "c = atan2(a, b) + cbrt(b) + sqrt(abs(b)); d = if(a < b && b >= c || a == c, min(a, b, c), max(a, b, c)); d + angle + smin/(1 + smax) "
@@ -352,7 +353,7 @@ TEST(FormulaValues, NoPlaceIsAboveTheCeiling) {
   const Formula triangles("2*det/norm^2"), mean("mean_corner(det)");
   EXPECT_FALSE(triangles.program(ElementKind::Triangle, FormulaSpace::Plain, FormulaUse::Places, 0).ceiling);
   EXPECT_FALSE(mean.program(ElementKind::Quadrilateral, FormulaSpace::Plain, FormulaUse::Places, 0).ceiling);
-  // It is what the corner says that does not touch the one that moves.
+  // The condition depends on the corner that does not touch the moving one.
   constexpr double kCorners[4][2] = {{0.1, -0.2}, {1.2, 0.1}, {0.9, 1.3}, {-0.2, 0.8}};
   for (const auto& [text, most] : {std::pair{"2*det/norm^2", 1.0}, std::pair{"min(0.7, 2*det/norm^2)", 0.7}})
     for (Index moving = 0; moving < 4; ++moving) {
@@ -425,7 +426,7 @@ TEST(FormulaFacts, SayWhatAFormulaDoesNotKeep) {
   EXPECT_EQ(info(parse_metric("formula:\"Mine\"; lmin/lmax")).title, "Mine");
 }
 
-/// What overflowed is no number or infinite; least and greatest of it are one for packs and for plain numbers.
+/// Overflowed values are infinite or no numbers; packs and plain numbers agree on their least and greatest.
 template <class Real>
 void expect_one_order_of_all_numbers() {
   constexpr Real kInfinity = std::numeric_limits<Real>::infinity(), kNone = std::numeric_limits<Real>::quiet_NaN();

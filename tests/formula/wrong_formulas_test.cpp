@@ -1,4 +1,4 @@
-// What is wrong with a formula is said with the place and the cause.
+// Errors in formulas are reported with their place and cause.
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #pragma once
-// What must hold for whatever a formula or a target says: it is refused with an Error that has a place in the text, or it means the same
-// when it is read again, and has values for every element.
+// Properties of any formula or target: it is refused with an Error that has a place in the text, or it means the same when it is read
+// again, and has values for every element.
 
 #include <cmath>
 #include <stdexcept>

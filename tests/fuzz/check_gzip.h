@@ -1,6 +1,6 @@
 #pragma once
-// What must hold for whatever bytes are taken for a file packed by gzip: they are refused with an InputError, or what they unpack to is
-// no more than was said to be fine, packs again, and unpacks to the same.
+// Properties of any bytes as a file packed by gzip: they are refused with an InputError, or they unpack to no more than the given limit,
+// which packs again, and unpacks to the same.
 
 #include <string>
 
@@ -10,7 +10,7 @@
 
 namespace dmoscope::testing {
 
-/// True if the bytes were unpacked, false if they were refused. Throws std::logic_error when something does not hold that must.
+/// Returns true if the bytes were unpacked, false if they were refused. Throws std::logic_error if a property is violated.
 inline bool check_gzip(const std::string& bytes) {
   constexpr std::uint64_t kFine = 1U << 20U;
   Progress progress;

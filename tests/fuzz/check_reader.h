@@ -1,6 +1,5 @@
 #pragma once
-// What must hold for whatever bytes a reader is given: it refuses them with an InputError, or the mesh is sound and survives being
-// written and read again.
+// Properties of any bytes for a reader: it refuses them with an InputError, or the mesh is sound and survives being written and read again.
 
 #include <algorithm>
 #include <bit>
@@ -51,7 +50,7 @@ inline void check_sound(const Mesh& mesh) {
   }
 }
 
-/// What a format of limited width gives back for a coordinate.
+/// The coordinate that a format of limited width gives back.
 inline double narrowed(std::string_view format, double value) {
   if (format == "abaqus") return number_in_field(value, 20, ExponentStyle::Letter).value;
   if (format == "nastran") return number_in_field(value, 16, ExponentStyle::Sign).value;
@@ -62,7 +61,7 @@ inline std::vector<Vec3> narrowed(std::string_view format, std::vector<Vec3> pos
   return positions;
 }
 
-/// The same elements with corners at the same positions; the same vertices too, unless the format has none of its own (STL).
+/// Checks that the elements have corners at the same positions; and the same vertices, unless the format has none of its own (STL).
 inline void check_same(const Mesh& mesh, const std::vector<Vec3>& positions, const Mesh& other, bool vertices, bool with_z) {
   require(other.elements.size() == mesh.elements.size(), "number of elements after writing");
   if (vertices) require(other.positions.size() == positions.size(), "number of vertices after writing");
@@ -102,7 +101,7 @@ inline void check_same_data(const Mesh& mesh, const Mesh& other) {
   }
 }
 
-/// The same file with every vertex moved; all else stays.
+/// Checks the same file with every vertex moved; all else stays.
 inline void check_patch(std::string_view format, const Mesh& mesh) {
   const CoordinateLayout& layout = mesh.source->layout();
   std::vector<Vec3> moved = mesh.positions;
@@ -121,7 +120,7 @@ inline void check_patch(std::string_view format, const Mesh& mesh) {
   if (format != "stl") check_same_data(mesh, again);
 }
 
-/// A new file of the same format.
+/// Checks a new file of the same format.
 inline void check_new_file(std::string_view format, const Mesh& mesh) {
   std::string bytes;
   try {
@@ -134,7 +133,7 @@ inline void check_new_file(std::string_view format, const Mesh& mesh) {
   check_same(mesh, narrowed(format, mesh.positions), again, format != "stl", again.source->layout().components == 3);
 }
 
-/// True if the bytes were read, false if they were refused. Throws std::logic_error when something does not hold that must.
+/// Returns true if the bytes were read, false if they were refused. Throws std::logic_error if a property is violated.
 inline bool check_reader(std::string_view format, const std::string& bytes) {
   Mesh mesh;
   try {

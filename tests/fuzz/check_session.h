@@ -1,6 +1,5 @@
 #pragma once
-// What must hold for whatever a saved session or a script says: it is refused with an Error, or the session is sound and can be saved and
-// opened again.
+// Properties of any saved session or script: it is refused with an Error, or the session is sound and can be saved and opened again.
 
 #include <cmath>
 #include <cstring>
@@ -42,7 +41,7 @@ inline void check_sound_session(Session& session) {
   }
 }
 
-/// Damage that the checksums would find first must not do harm either: bytes that are JSON are also tried without them.
+/// Removes the checksums of bytes that are JSON: damage that these would find first must not do harm either.
 inline std::string without_checksums(const std::string& bytes) {
   auto json = nlohmann::ordered_json::parse(bytes, nullptr, false);
   if (!json.is_object()) return {};
@@ -54,7 +53,7 @@ inline std::string without_checksums(const std::string& bytes) {
   return json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
-/// True if the bytes were opened. Throws std::logic_error when something does not hold that must.
+/// Returns true if the bytes were opened. Throws std::logic_error if a property is violated.
 inline bool open_bytes(const std::string& bytes, bool save_again) {
   write_file_atomically(scratch_path(), bytes);
   Session session(1);
@@ -70,7 +69,7 @@ inline bool open_bytes(const std::string& bytes, bool save_again) {
   if (!save_again) return true;
   try {
     save_state(scratch_path(), session, {}, progress);
-  } catch (const Error&) {  // without checksums other parameters are not noticed before the run is computed again
+  } catch (const Error&) {  // without checksums other parameters are only noticed when the run is computed again
     if (bytes.find("\"checksums\"") == std::string::npos) return true;
     throw std::logic_error("a session that was opened cannot be saved");
   }
@@ -109,8 +108,8 @@ inline constexpr std::string_view kSampleScript =
     "0.5\ngrid 4\nselect-run 1\nundo\nredo\nthen mean 3\nuntil-converged 2 3\ncompare methods 1\neach run 1\nexpect inverted == 0\nfix 3 "
     "4-6\norder shuffle:7\ncombine mean-ratio:0.3:density h1:0,0\nsay \"it is \\\"done\\\"\"\nremove-run 2\nhistory 0\npercentiles on\n";
 
-/// Every line is carried out, but for those that touch files, make other meshes or use other threads; what takes long is cancelled.
-/// Throws std::logic_error when something does not hold that must, and whatever is no Error.
+/// Carries out every line, but for those that touch files, make other meshes or use other threads; long work is cancelled. Throws
+/// std::logic_error if a property is violated, and all that is not an Error.
 inline void check_script(std::string_view text) {
   Session session(1);
   session.set_history_budget(std::size_t{1} << 20U);

@@ -1,4 +1,4 @@
-// Formulas and targets against whatever libFuzzer thinks of.
+// Formulas and targets against the inputs of libFuzzer.
 
 #include <cstddef>
 #include <cstdint>

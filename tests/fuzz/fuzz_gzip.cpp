@@ -1,5 +1,5 @@
-// The unpacking of gzip's files against whatever libFuzzer thinks of. zlib is the fuzzer's ground, not ours: what is tried is the joining
-// of files, what follows them, and the bounds.
+// The unpacking of gzip's files against the inputs of libFuzzer. Not zlib, which has fuzzers of its own: the joining of files, the bytes
+// after them, and the limits.
 
 #include <cstddef>
 #include <cstdint>

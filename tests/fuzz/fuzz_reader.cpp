@@ -1,4 +1,4 @@
-// The reader of the format that the environment names (DMOSCOPE_FUZZ_FORMAT) against whatever libFuzzer thinks of.
+// The reader of the format that the environment names (DMOSCOPE_FUZZ_FORMAT) against the inputs of libFuzzer.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Saved sessions, or scripts (DMOSCOPE_FUZZ_SCRIPT), against whatever libFuzzer thinks of.
+// Saved sessions, or scripts (DMOSCOPE_FUZZ_SCRIPT), against the inputs of libFuzzer.
 
 #include <cstddef>
 #include <cstdint>

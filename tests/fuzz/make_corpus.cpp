@@ -1,4 +1,4 @@
-// Writes the samples of every format to FOLDER/<format>/: what the fuzzers start from.
+// Writes the samples of every format to FOLDER/<format>/, from which the fuzzers start.
 
 #include <cstdio>
 #include <exception>
@@ -27,7 +27,7 @@ int main(int argc, char** argv) {
     for (const char* target : {"layers:input:2:5%+wing:aspect:4:30+field:m", "aspect:2:0:0:1", "input:3"})
       samples.push_back({std::string("target-") + target[0], "formula", target});
     for (const dmoscope::testing::Sample& sample : samples) {
-      if (sample.bytes.starts_with("\x89HDF")) continue;  // damage in their structure is left to the library
+      if (sample.bytes.starts_with("\x89HDF")) continue;  // damage in their structure is left to the library's tests
       const auto folder = std::filesystem::path(argv[1]) / sample.format;
       std::filesystem::create_directories(folder);
       dmoscope::write_file_atomically(folder / sample.name, sample.bytes);

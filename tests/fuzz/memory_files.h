@@ -26,7 +26,7 @@ inline const FormatHandler& handler_of(std::string_view format) {
   throw std::logic_error("no such format");
 }
 
-/// Between the two files of a format that has two.
+/// Separator of the two files of a format that has two.
 inline constexpr char kBetweenFiles = '\x1e';
 
 /// Reads bytes as a format. Throws InputError.
@@ -49,10 +49,10 @@ struct Written {
   Notes notes;
 };
 
-/// A file of this process alone, removed at the end of the program.
+/// Path of a file of this process alone, removed at the end of the program.
 inline const std::filesystem::path& scratch_path() {
   struct Scratch {
-    // In memory where there is such a folder: what is written there is on no disk that would have to be waited for.
+    // In memory if there is such a folder, so that no write waits for a disk.
     std::filesystem::path path = (std::filesystem::is_directory("/dev/shm") ? "/dev/shm" : std::filesystem::temp_directory_path()) /
                                  std::filesystem::path("dmoscope-test-" + std::to_string(::getpid()));
     Scratch() = default;
@@ -80,7 +80,7 @@ Written written_by(Write&& write) {
   return result;
 }
 
-/// A new file of a format. Throws OutputError.
+/// Writes a new file of a format. Throws OutputError.
 inline Written write_anew(std::string_view format, const Mesh& mesh, std::span<const Vec3> positions) {
   const FormatHandler& handler = handler_of(format);
   Written result = written_by([&](AtomicFile& file, Progress& progress) {
@@ -96,14 +96,14 @@ inline Written write_anew(std::string_view format, const Mesh& mesh, std::span<c
   return result;
 }
 
-/// All that a mesh was read from, as read_bytes() took it.
+/// All bytes that a mesh was read from, in the form of read_bytes().
 inline std::string source_bytes(const SourceFile& source) {
   std::string bytes(source.bytes());
   if (source.companion() != nullptr) bytes.append(1, kBetweenFiles).append(source.companion()->bytes());
   return bytes;
 }
 
-/// The mesh's own file with moved coordinates. Throws OutputError.
+/// Writes the mesh's own file with moved coordinates. Throws OutputError.
 inline Written write_again(const Mesh& mesh, std::span<const Vec3> positions) {
   const FormatHandler& handler = handler_of(mesh.source->format());
   Written result = written_by([&](AtomicFile& file, Progress& progress) {

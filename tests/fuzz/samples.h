@@ -1,5 +1,5 @@
 #pragma once
-// Small valid files of every format: what mutation tests start from and what the fuzzers' corpus is made of.
+// Small valid files of every format, from which mutation tests and the fuzzers start.
 
 #include <cstdint>
 #include <string>
@@ -166,10 +166,10 @@ inline std::string medit_ascii() {
          "Corners\n1\n4\nRidges\n1\n2\nNormals\n1\n0 0 1\nEnd\n";
 }
 
-/// The same as medit_ascii() as one of the four binary versions.
+/// The mesh of medit_ascii() as one of the four binary versions.
 inline std::string medit_binary(int version, bool big) {
   std::string s;
-  std::size_t link = 0;  // where the place of the next keyword stands
+  std::size_t link = 0;  // place of the link to the next keyword
   const auto whole = [&](std::initializer_list<std::int64_t> numbers) {
     for (const std::int64_t n : numbers)
       version == 4 ? put<std::int64_t>(s, big, {n}) : put<std::int32_t>(s, big, {static_cast<std::int32_t>(n)});
@@ -310,7 +310,7 @@ inline std::string abaqus_planar() {
          "*SURFACE, NAME=edge\r\n1, S1\r\nright, S2\r\n*SURFACE, NAME=n, TYPE=NODE\r\n5, 1.\r\n";
 }
 
-// One of each way to write a card: free, free and large, small, large, tabs, with a line that goes on.
+// One card of each form: free, free and large, small, large, tabs, with a continuation line.
 inline std::string nastran_volume() {
   return "$ a comment\nSOL 101\nCEND\nTITLE = two solids\nBEGIN BULK\n$HMNAME PROP                   7\"rock\"2\n"
          "GRID,1,,0.,0.,0.\nGRID,2,0,1.,0.,0.,0,123\nGRID           3              1.    1.50      0.\n"
@@ -355,7 +355,7 @@ inline std::string xdmf_planar() {
          "1.50\n</DataItem></Geometry></Grid></Grid></Domain></Xdmf>";
 }
 
-/// VTK XML's grids whose cells are not listed, `kind` and `grid` being its dataset: two squares side by side. `where`: what holds the
+/// VTK XML's grids without a list of cells, `kind` and `grid` being its dataset: two squares side by side. `where`: the element with the
 /// points.
 inline std::string vtk_xml_grid(const std::string& kind, const std::string& grid, const std::string& where) {
   return "<?xml version=\"1.0\"?>\n<VTKFile type=\"" + kind + "\" version=\"0.1\" byte_order=\"LittleEndian\">\n<" + kind +
@@ -395,7 +395,7 @@ inline std::string gzip_off(bool joined) {
   return joined ? std::string(kHalf) + std::string(kRest) + std::string(20, '\0') : std::string(kNamed);
 }
 
-/// At least one file of each format that format_table() names; of a format of two files, both, the byte 0x1e between them.
+/// At least one file of each format of format_table(); of a format of two files, both, with the byte 0x1e between them.
 inline std::vector<Sample> samples() {
   std::vector<Sample> all{
       {"ascii", "off", "OFF\n# a comment\n5 2 0\n0 0 0\n1 0 0 # here\n1 1 0\n0 1.50 0\n2 0 0\n3 0 1 2\n4 0 2 3 4\n"},

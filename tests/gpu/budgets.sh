@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# budgets.sh [--write] PTX_FOLDER [ARCHITECTURE...]: what ptxas makes of every kernel, against the committed table (budgets.txt): registers,
-# stack and spills. Fails where a figure is worse by more than a tenth (a stack by 16 bytes at least, a spill where there was none by any),
-# or a kernel is in one of the two alone. PTX_FOLDER has one folder for each compute capability whose PTX it is (75, 120); architectures are
-# 75, 90 and 120 unless given, and those below 100 are made of the PTX of 75, for nvcc has one code generator up to 90 and another from 100
-# on. --write writes the table anew, of all three. No GPU is needed. It takes minutes: ptxas's answers stay in PTX_FOLDER/ptxas, and are
-# asked for again where the PTX is another. JOBS: how many ptxas run at once (all processors).
+# budgets.sh [--write] PTX_FOLDER [ARCHITECTURE...]: compares ptxas's figures for every kernel with the committed table (budgets.txt):
+# registers, stack and spills. Fails if a figure is worse by more than a tenth (a stack by 16 bytes at least, any new spill), or if a kernel
+# is in one of the two alone. PTX_FOLDER has one folder for each compute capability whose PTX it is (75, 120); architectures are 75, 90 and
+# 120 unless given, and those below 100 are made of the PTX of 75, for nvcc has one code generator up to 90 and another from 100 on. --write
+# writes the table anew, for all three. Needs no GPU, but minutes: ptxas's answers stay in PTX_FOLDER/ptxas, and are asked for again if the
+# PTX is another. JOBS: number of ptxas at once (all processors).
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 table=$here/budgets.txt write=false
@@ -17,7 +17,7 @@ PATH=$PATH:/usr/local/cuda/bin
 command -v ptxas >/dev/null || { echo "budgets: no ptxas; it comes with the CUDA toolkit" >&2; exit 2; }
 release=$(ptxas --version | sed -n 's/.*, \(V[0-9.]*\).*/\1/p')
 
-# ask ARCHITECTURE PTX ANSWER: with the flags that nvcc passes on.
+# ask ARCHITECTURE PTX ANSWER: calls ptxas with the flags that nvcc passes on.
 ask() {
   local asked
   asked="ptxas $release sm_$1 of $(sha256sum <"$2" | cut -d ' ' -f 1)"
@@ -43,7 +43,7 @@ done | xargs -0 -r -n 3 -P "${JOBS:-$(nproc)}" bash -c 'set -euo pipefail; ask "
 metrics=$(sed -n '/^enum class Metric /,/^}/p' "$here/../../core/quality/metric.h" | sed -n 's/^ *\([A-Z][A-Za-z]*\),\{0,1\}$/\1/p' |
   sed 's/\([a-z]\)\([A-Z]\)/\1-\2/g' | tr '[:upper:]' '[:lower:]' | awk '{ printf "%d=%s ", NR - 1, $0 }')
 
-# figures ARCHITECTURE: "ARCHITECTURE REGISTERS STACK STORED LOADED KERNEL", a line a kernel.
+# figures ARCHITECTURE: prints "ARCHITECTURE REGISTERS STACK STORED LOADED KERNEL", a line a kernel.
 figures() {
   local answers=() ptx of=75
   if [[ $1 -ge 100 ]]; then of=120; fi
@@ -60,7 +60,7 @@ figures() {
         name = name ~ /Stars\)0/ ? "VisitSmallFans" : name ~ /Stars\)1/ ? "VisitLargeFans" : name ~ /Stars\)2/ ? "VisitOthers" : "VisitInTeam"
       else if (name ~ /bodies::VisitComposite</)
         name = name ~ /dmoscope::Space/ ? "VisitVolumeComposite" : "VisitComposite"
-      else if (name ~ /bodies::[A-Za-z]*(Defined|Targets)</) {  # of which frame and number, or of what targets
+      else if (name ~ /bodies::[A-Za-z]*(Defined|Targets)</) {  # with their frame and numbers, or the form of their targets
         form = name ~ /Targets</ ? (name ~ /<true>|<\(bool\)1>/ ? "crossed" : "plain") : (name ~ /dmoscope::Space/ ? "space" : "plane")
         if (name ~ /double>/) form = form "-double"
         team = name ~ /VisitTargets/ && name ~ /CudaTeam/ ? "InTeam" : ""

@@ -1,4 +1,4 @@
-// DMO on a CUDA device beside the processor's lanes. These need a device, and say so where there is none.
+// DMO on a CUDA device compared with the processor's lanes. These tests need a device, and are skipped without one.
 
 #include <cstdlib>
 

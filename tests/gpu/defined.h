@@ -1,5 +1,5 @@
 #pragma once
-// Formulas and targets that devices are tried with, and meshes for them.
+// Formulas and targets for tests of devices, and meshes for them.
 
 #include <string>
 #include <string_view>
@@ -14,19 +14,19 @@
 
 namespace dmoscope::gpu::testing {
 
-/// Between them they have every operation that programs are made of, every number that these are given, and targets of every form.
+/// Metrics that together have every operation of programs, every number that these are given, and targets of every form.
 inline constexpr std::string_view kDefinedMetrics[] = {
     "formula:if(measure > 0, lmin/lmax, measure/lmax^2)",
-    "formula:lmin/lmax",  // sees no inversion
+    "formula:lmin/lmax",  // does not depend on inversion
     "formula:smin/smax",
     "formula:3*cbrt(det)*abs(cbrt(det))/norm^2 - 0.2*lsum/cbrt(mean_measure)",  // changes with the unit of length
     "formula:exp(-3*(smax/smin - 1))*sign(det)*(1 - 0.1*sin(7*lmin/lmax)^2)",
     "formula:if(det > 0, cos(log(smax/smin)), -1) * pow(0.5 + lmin/(2*lmax), 1.3)",
     "formula:amin/amax * if(measure <= 0 || lmax == 0, -1, 1)",
     "formula:q = min_corner(det/norm^3 + length(p1 - p2)/lmax); q",
-    "formula:if(det > 0, smin/smax, det/norm^2) * (1 - 0.3*min(1, max(0, x(p1)/(1 + abs(x(p1))))))",  // hangs on the place
+    "formula:if(det > 0, smin/smax, det/norm^2) * (1 - 0.3*min(1, max(0, x(p1)/(1 + abs(x(p1))))))",  // depends on the place
     "formula:s = lmax/field(\"h\"); min(s, 1/s)*smin/smax",
-    "formula:t = exp(60*smax/smin); if(det > 0, 1 - 0.5*(t - 1)/(t + 1), -1)",  // no number where floats overflow
+    "formula:t = exp(60*smax/smin); if(det > 0, 1 - 0.5*(t - 1)/(t + 1), -1)",  // not a number if floats overflow
     "shape-size",
     "relative-size",
     "aspect@input:1",
@@ -36,7 +36,7 @@ inline constexpr std::string_view kDefinedMetrics[] = {
     "shape-size@aspect:3:30",
     "scaled-jacobian@aspect:2:1:2:3",
     "shape-size@field:m",
-    // By searches of their own:
+    // Metrics with searches of their own:
     "mean-ratio@input",
     "mean-ratio@input:1:20%",
     "mean-ratio@aspect:3:30",
@@ -44,7 +44,7 @@ inline constexpr std::string_view kDefinedMetrics[] = {
     "mean-ratio@field:m",
 };
 
-/// With a field "h" of sizes and one "m" of metric tensors.
+/// Adds a field "h" of sizes and one "m" of metric tensors.
 [[nodiscard]] inline Mesh with_fields(Mesh mesh) {
   const bool volume = classify(mesh).shape == Shape::Volume;
   Field size, tensor;
@@ -64,7 +64,7 @@ inline constexpr std::string_view kDefinedMetrics[] = {
   return mesh;
 }
 
-/// Can a device search the mesh by the metric?
+/// Whether a device can search the mesh by the metric.
 [[nodiscard]] inline bool is_for(std::string_view metric, const InputMesh& mesh) {
   try {
     require_defined(parse_metric(metric), mesh);

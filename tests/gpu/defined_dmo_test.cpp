@@ -1,4 +1,4 @@
-// DMO by formulas and targets on a device, with the host in the device's place: the very bits of the processor's.
+// DMO by formulas and targets on a device, with the host in the device's place: the processor's bits.
 
 #include "core/smooth/execution/executor.h"
 #include "gpu/host_queue.h"

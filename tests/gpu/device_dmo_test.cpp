@@ -1,4 +1,4 @@
-// DMO on a device, with the host in the device's place: the very bits of the processor's own lanes.
+// DMO on a device, with the host in the device's place: the bits of the processor's own lanes.
 
 #include "gpu/bodies.h"
 #include "gpu/host_queue.h"
@@ -66,7 +66,7 @@ Subject jittered(Index size, double jitter = 0.35, std::uint64_t seed = 51) {
 /// All elements are alike, so that the worst is the first in every part and in their total.
 TEST(DeviceDmoStatistics, TheFirstOfTheWorstIsTheWorst) { expect_same_visits(host(), jittered(40, 0.0), Metric::MeanRatio, {}, 1); }
 
-/// A visit that was left to be judged exactly moves its vertex only where that gains.
+/// A visit that was left to be judged exactly moves its vertex only if that gains.
 TEST(DeviceDmoVisits, AnExactVisitRefusesWhatDoesNotGain) {
   const Subject subject = jittered(6);
   const StarTable table = build_star_table(subject.input->mesh, subject.input->topology, *subject.colouring, nullptr);
@@ -95,7 +95,7 @@ TEST(DeviceDmoVisits, AnExactVisitRefusesWhatDoesNotGain) {
   EXPECT_EQ(moved, 1U);
 }
 
-/// However many lanes work at once, and however an iteration is cut into calls.
+/// Neither the number of lanes nor the division of an iteration into calls matters.
 TEST(DeviceDmoVisits, NeitherThreadsNorCutsChangeTheResult) {
   const Subject subject = jittered(30);
   ThreadPool pool(4);

@@ -31,7 +31,7 @@ TEST(Device, AnErrorSaysWhereWhatAndWhy) {
   }
 }
 
-// Every device of the machine runs what was built, and computes what the processor does.
+// Every device of the machine runs the kernels that were built, and computes as the processor does.
 TEST(CudaDevice, ComputesAsTheProcessorDoes) {
   const Availability found = availability();
   if (found.devices.empty()) GTEST_SKIP() << "needs a CUDA device: " << found.reason;

@@ -19,7 +19,7 @@ std::optional<std::string> source_of(const InputMesh& mesh, const std::string& w
   return formula_source(ProgramTable(mesh, *judge), {.is_volume = mesh.is_volume()});
 }
 
-/// So many parts of a hundred terms, all of which differ.
+/// A formula of so many parts of a hundred terms, all of which differ.
 std::string long_formula(int parts) {
   std::string text = "formula:", sum = "smin/smax";
   for (int part = 0; part < parts; ++part) {
@@ -32,7 +32,7 @@ std::string long_formula(int parts) {
   return text + sum;
 }
 
-/// What is too long to be compiled is run step by step, with the processor's bits.
+/// Programs too long to be compiled are run step by step, with the processor's bits.
 TEST(FormulaSource, IsNoneForLongPrograms) {
   const auto mesh = volume_input_of(dmoscope::testing::lattice(4, 0.3, 231));
   EXPECT_TRUE(source_of(*mesh, long_formula(1)).has_value());
@@ -40,7 +40,7 @@ TEST(FormulaSource, IsNoneForLongPrograms) {
   expect_same_visits(make_host_queue({}), Subject(mesh), parse_metric(long_formula(13)), {}, 1);
 }
 
-/// Constants are the doubles that they are, to the last bit.
+/// Constants are exact doubles, to the last bit.
 TEST(FormulaSource, SaysConstantsExactly) {
   const auto mesh = volume_input_of(dmoscope::testing::lattice(4, 0.3, 231));
   EXPECT_THAT(*source_of(*mesh, "formula:smin/smax*0.1"), HasSubstr("Real(0x1.999999999999ap-4)"));
@@ -63,7 +63,7 @@ TEST_F(NvrtcTest, SaysWhatIsWrongWithASource) {
   }
 }
 
-/// A GPU that is newer than the compiler runs what is made for the newest that this knows.
+/// A GPU that is newer than the compiler runs code for the newest that the compiler knows.
 TEST_F(NvrtcTest, CompilesForGpusThatItDoesNotKnow) {
   const std::string ptx = Nvrtc::find()->compile("extern \"C\" __global__ void kernel() {}", {}, 999);
   EXPECT_THAT(ptx, HasSubstr(".entry kernel"));

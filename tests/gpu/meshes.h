@@ -1,5 +1,5 @@
 #pragma once
-// The meshes that a device is tried on.
+// Meshes for tests of devices.
 
 #include <algorithm>
 #include <filesystem>
@@ -14,7 +14,7 @@
 
 namespace dmoscope::gpu::testing {
 
-/// Those of a folder that can be smoothed, planar ones or volumes, in the order of their names.
+/// The meshes of a folder that can be smoothed, planar ones or volumes, in the order of their names.
 inline std::vector<std::shared_ptr<const InputMesh>> meshes_below(const std::filesystem::path& folder, std::size_t most_vertices,
                                                                   bool volumes = false) {
   std::vector<std::filesystem::path> files;
@@ -30,7 +30,7 @@ inline std::vector<std::shared_ptr<const InputMesh>> meshes_below(const std::fil
       if (mesh.vertex_count() > most_vertices || classify(mesh).shape != (volumes ? Shape::Volume : Shape::Planar)) continue;
       meshes.push_back(prepare_input(std::move(mesh), file, Need::Smoothing, progress));
     } catch (const Error&) {
-      continue;  // a text
+      continue;  // not a mesh
     }
   }
   return meshes;

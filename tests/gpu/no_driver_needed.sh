@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# no_driver_needed.sh PROGRAM: the program needs no library of CUDA's to start, and where there is no driver, info says why cuda is not used.
+# no_driver_needed.sh PROGRAM: checks that the program needs no library of CUDA's to start, and that without a driver info tells why cuda is
+# not used.
 set -euo pipefail
 program=$1
 
@@ -9,7 +10,7 @@ if grep -E 'libcuda|libcudart|libnv' <<<"$libraries"; then
   exit 1
 fi
 
-# No device is what a machine without one looks like, and what this variable makes of one that has some.
+# A machine without a device, which this variable simulates on one that has some.
 told=$(CUDA_VISIBLE_DEVICES='' "$program" info)
 grep -i 'cuda' <<<"$told"
 if ! grep -qE 'cuda .*(built without a CUDA toolkit|no usable CUDA device: .+|no CUDA device found)' <<<"$told"; then

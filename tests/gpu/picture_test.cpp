@@ -29,7 +29,7 @@ struct Stepped {
     return prepare_input(std::move(mesh), {}, Need::Smoothing, progress);
   }
   void step() { smoother->visit(0, subject.visits(), positions, nullptr); }
-  /// The run's positions, through the host.
+  /// The run's positions, read through the host.
   const std::vector<Vec3>& stored() {
     smoother->store(positions, nullptr);
     return positions;
@@ -77,7 +77,7 @@ TEST(DevicePicture, ShowsTheMoment) {
   }
 }
 
-/// It stays as it was while the run goes on, and when the run is gone; its memory is used again afterwards.
+/// A picture stays the same while the run goes on, and when the run is gone; its memory is used again afterwards.
 TEST(DevicePicture, IsASnapshot) {
   Stepped run(dmoscope::testing::lattice(12, 0.35, 72));
   auto picture = run.smoother->picture(Metric::MeanRatio);
@@ -86,7 +86,7 @@ TEST(DevicePicture, IsASnapshot) {
   run.step();
   const auto later = run.smoother->picture(Metric::MeanRatio);
   EXPECT_GE(later->summary().statistics.minimum, picture->summary().statistics.minimum);
-  const auto statistics = run.smoother->statistics();  // not what the picture's metric left behind
+  const auto statistics = run.smoother->statistics();  // not the values of the picture's metric
   EXPECT_TRUE(same(statistics->mean, later->summary().statistics.mean));
   run.smoother.reset();
   std::vector<Index> all(then.size());
@@ -121,7 +121,7 @@ TEST(DevicePicture, NothingWasVisitedNothingIsShown) {
   EXPECT_EQ(run.smoother->picture(Metric::MeanRatio), nullptr);
 }
 
-/// A lost device: an error, and what is left can be thrown away.
+/// A lost device causes an error, and its objects can be destroyed.
 TEST(DevicePicture, ALostDevice) {
   Stepped run(dmoscope::testing::lattice(12, 0.35, 76));
   const auto picture = run.smoother->picture(Metric::MeanRatio);

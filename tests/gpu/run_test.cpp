@@ -1,4 +1,4 @@
-// Runs on a device, with the host in the device's place: what a person steps, goes back in and compares is the same as on the processor.
+// Runs on a device, with the host in the device's place: steps, seeks and comparisons are the same as on the processor.
 
 #include "core/run/run.h"
 
@@ -33,7 +33,7 @@ struct Pair {
     RunParameters parameters;
     parameters.search = search;
     parameters.metric = metric;
-    parameters.guard = std::nullopt;  // which the processor alone keeps
+    parameters.guard = std::nullopt;  // the processor alone keeps it
     return parameters;
   }
   static std::shared_ptr<const InputMesh> prepare(Mesh mesh) {
@@ -80,7 +80,7 @@ TEST(DeviceRun, StepsGoBackAndSeekAlike) {
   }
 }
 
-/// By a formula and by targets: vertex by vertex, class by class, back, and from anywhere.
+/// Steps by a formula and by targets: vertex by vertex, class by class, back, and from anywhere.
 TEST(DeviceRun, StepsByFormulasAndTargetsAlike) {
   for (const char* words :
        {"formula:if(det > 0, smin/smax, det/norm^2)", "formula:min(1, area*60)*lmin/lmax", "mean-ratio@input:1", "aspect@aspect:2:20"}) {
@@ -101,7 +101,7 @@ TEST(DeviceRun, StepsByFormulasAndTargetsAlike) {
   }
 }
 
-/// What devices do not do is said, and done by the processor where it may be.
+/// Work that devices cannot do is reported, and done by the processor if that is allowed.
 TEST(DeviceRun, FormulasBesideAnotherAimAreTheProcessors) {
   RunParameters parameters;
   parameters.metric = parse_metric("formula:smin/smax");
@@ -122,7 +122,7 @@ TEST(DeviceRun, FormulasBesideAnotherAimAreTheProcessors) {
   EXPECT_EQ(run_on(Backend::Auto).backend(), Backend::Cpu);
 }
 
-/// A run that gave its device's memory back goes on from where it stood, not from the input.
+/// A run that released its device's memory continues at its present iteration, not from the input.
 TEST(DeviceRun, GoesOnAfterARest) {
   for (const Moment& place : {Moment{0, 0}, Moment{2, 0}, Moment{1, 7}}) {
     Pair pair(dmoscope::testing::lattice(12, 0.35, 98));
@@ -154,11 +154,11 @@ void expect_alike_until_converged(Pair& pair) {
   pair.expect_same_place();
 }
 
-/// The second phase too, whose start is the best of the first, out of the history.
+/// The second phase is the same, too; it starts at the best of the first, from the history.
 TEST(DeviceRun, RaisesTheMeanAlike) {
   RunParameters parameters;
   parameters.then_mean = PhaseBegin{};
-  for (const double jitter : {0.35, 0.9}) {  // with inverted elements, the latter
+  for (const double jitter : {0.35, 0.9}) {  // the latter with inverted elements
     Pair pair(dmoscope::testing::lattice(10, jitter, 99, dmoscope::testing::Cells::Mixed), parameters);
     expect_alike_until_converged(pair);
     const auto& records = pair.device.history().records();

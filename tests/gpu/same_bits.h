@@ -1,5 +1,5 @@
 #pragma once
-// The smoother on a device beside the processor's: both make the same visits.
+// The smoother on a device compared with the processor's: both make the same visits.
 
 #include <algorithm>
 #include <bit>
@@ -41,14 +41,14 @@ struct Subject {
   [[nodiscard]] std::uint64_t visits() const { return colouring->order.size(); }
 };
 
-/// For suites whose tests hold for every metric that has a kernel for planar meshes; Condition is the mean ratio there.
+/// Values for suites whose tests hold for every metric that has a kernel for planar meshes; Condition is the mean ratio there.
 [[nodiscard]] inline auto every_metric() {
   std::vector<Metric> all;
   for (const MetricInfo& entry : metric_table())
     if (entry.metric != Metric::Condition) all.push_back(entry.metric);
   return ::testing::ValuesIn(all);
 }
-/// For those of volumes.
+/// Values for suites of volumes.
 [[nodiscard]] inline auto every_volume_metric() {
   std::vector<Metric> all;
   for (const MetricInfo& entry : metric_table())
@@ -64,7 +64,7 @@ struct Subject {
 inline bool same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 inline bool same(Vec3 a, Vec3 b) { return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z); }
 
-/// The statistics after all visits so far, which led to `positions`, are those of the host, bit for bit.
+/// Expects the statistics after all visits so far, which led to `positions`, to be the host's, bit for bit.
 inline void expect_same_statistics(Smoother& device, const Subject& subject, Metric metric, std::span<const Vec3> positions) {
   const auto there = device.statistics();
   ASSERT_TRUE(there.has_value());
@@ -77,7 +77,7 @@ inline void expect_same_statistics(Smoother& device, const Subject& subject, Met
   EXPECT_EQ(there->worst_element, here.worst_element);
 }
 
-/// An iteration a sweep on both, compared after each, bit for bit, with their statistics. `task`: of the subject.
+/// Does an iteration per sweep on both, and compares positions and statistics after each, bit for bit. `task`: of the subject.
 inline void expect_same_sweeps(const std::shared_ptr<Queue>& queue, const Subject& subject, const SmoothingTask& task,
                                std::span<const Sweep> sweeps) {
   const auto cpu = make_smoother(task), device = make_device_dmo(queue, task);
@@ -101,7 +101,8 @@ inline void expect_same_visits(const std::shared_ptr<Queue>& queue, const Subjec
   expect_same_sweeps(queue, subject, subject.task(metric, parameters), std::vector<Sweep>(static_cast<std::size_t>(iterations), sweep));
 }
 
-/// An iteration a sweep by both, in one call and in calls of `part` visits: the same moves, and the same places at the end.
+/// Does an iteration per sweep by both, in one call and in calls of `part` visits, and expects the same moves, and the same places at the
+/// end.
 inline void expect_cuts_change_nothing(Smoother& whole, Smoother& cut, const Subject& subject, std::uint64_t part,
                                        std::span<const Sweep> sweeps) {
   std::vector<Vec3> one = subject.input->mesh.positions, other = one;

@@ -1,6 +1,6 @@
 # shellcheck shell=bash
-# The steps of run_all.sh, which sources this and sets out, home, program, tests: how one is run, judged and told, and the file that says
-# so, written anew after each.
+# The steps of run_all.sh, which sources this file and sets out, home, program, tests: running, judging and reporting a step, and the file
+# of results, written anew after each.
 results=() remarks=() shown=() broken=0 status=0 all_seconds=0 watcher=''
 
 # told NAME RESULT: notes how a step ended.
@@ -9,19 +9,19 @@ told() {
   printf '    %s: %s\n' "$1" "$2"
   write_results
 }
-# remark SENTENCE: what whoever reads the figures has to know of the machine.
+# remark SENTENCE: notes a fact about the machine for readers of the figures.
 remark() {
   remarks+=("$1")
   printf '%s.\n' "$1"
 }
 
-# limit_of SECONDS: that, or what is left of the whole, or nothing where too little is left to begin anything.
+# limit_of SECONDS: prints that, or the remaining time, or nothing if too little remains.
 limit_of() {
   local left=$((all_seconds - SECONDS))
   if [[ $all_seconds -eq 0 || $1 -lt $left ]]; then echo "$1"; elif [[ $left -gt 3 ]]; then echo "$left"; fi
 }
 
-# step NAME SECONDS COMMAND...: runs it with a limit, its output in $out/NAME.log; sets `status`. Shows the log's end when it fails.
+# step NAME SECONDS COMMAND...: runs it with a limit, its output in $out/NAME.log; sets `status`. Shows the log's end if it fails.
 step() {
   local name=$1 limit
   limit=$(limit_of "$2")
@@ -40,7 +40,7 @@ step() {
   fi
 }
 
-# outcome: how the last step ended, in words.
+# outcome: prints how the last step ended, in words.
 outcome() {
   case $status in
     0) echo "done" ;;
@@ -49,7 +49,7 @@ outcome() {
   esac
 }
 
-# measure NAME SECONDS TITLE ARGUMENT...: `dmoscope bench` with these arguments; what it prints is shown in the file.
+# measure NAME SECONDS TITLE ARGUMENT...: runs `dmoscope bench` with these arguments; its output is shown in the file.
 measure() {
   local name=$1 seconds=$2 title=$3
   shift 3
@@ -58,8 +58,9 @@ measure() {
   told "$title" "$(outcome)"
 }
 
-# test_each TITLE NAME SECONDS PROGRAM FILTER: every one of its tests in a process of its own, eight at a time: one that loses the device
-# spoils no other. All that is not passed is in the file; that none passed is a failure, for here there should be a GPU.
+# test_each TITLE NAME SECONDS PROGRAM FILTER: runs each of its tests in a process of its own, eight at a time, so that one that loses the
+# device spoils no other. Tests that did not pass are listed in the file; no passed test at all is a failure, for here there should be a
+# GPU.
 test_each() {
   local title=$1 name=$2 seconds=$3 test=$tests/$4 list passed failed skipped
   list=$(env -C "$home" "$test" --gtest_list_tests --gtest_filter="$5" 2>/dev/null | awk '/^[^ ]/ { suite = $1 } /^  / { print suite $1 }')
@@ -70,11 +71,11 @@ test_each() {
     echo "$word $1"; [[ $word == passed ]] || tail -n 15 <<<"$said" | sed "s/^/    /"; [[ $word != FAILED ]]' "$test" {}
   passed=$(grep -c '^passed' "$out/$name.log") failed=$(grep -c '^FAILED' "$out/$name.log") skipped=$(grep -c '^skipped' "$out/$name.log")
   [[ $passed -gt 0 || $status -ne 0 ]] || { broken=$((broken + 1)); status=1; }
-  # What timeout ends leaves no line of its own.
+  # Tests that timeout ended print no line of their own.
   told "$title" "$passed passed, $failed failed, $skipped skipped of $(wc -l <<<"$list")$([[ $status -eq 0 ]] || echo "; $(outcome)")$(sed -n 's/^FAILED \(.*\)/; \1/p' "$out/$name.log" | head -20 | tr -d '\n')"
 }
 
-# tests_of LOG: "12 passed, 1 failed, 3 skipped", of ctest's or GoogleTest's output.
+# tests_of LOG: prints "12 passed, 1 failed, 3 skipped", from ctest's or GoogleTest's output.
 tests_of() {
   local all failed skipped
   if grep -q 'tests passed,' "$1"; then
@@ -86,7 +87,7 @@ tests_of() {
   fi
 }
 
-# told_tests NAME STEP: notes how a step's tests ended; that all were skipped is a failure.
+# told_tests NAME STEP: notes how a step's tests ended; it is a failure if all were skipped.
 told_tests() {
   local found
   found=$(tests_of "$out/$2.log")
@@ -97,7 +98,7 @@ told_tests() {
   told "$1" "$found$([[ $status -eq 0 ]] || echo "; $(outcome)")"
 }
 
-# use_bundled_libraries BUNDLE: OpenGL's and EGL's loaders where the machine has none of its own, and NVRTC where it is not on the loader's
+# use_bundled_libraries BUNDLE: adds OpenGL's and EGL's loaders if the machine has none of its own, and NVRTC if it is not on the loader's
 # path.
 use_bundled_libraries() {
   local folder vendor=/usr/local/nvidia/share/glvnd/egl_vendor.d/10_nvidia.json
@@ -114,7 +115,7 @@ use_bundled_libraries() {
   fi
 }
 
-# watch_gpu, unwatch_gpu: twice a second, the GPUs' clocks, power, temperature and use; once, the other processes on them.
+# watch_gpu, unwatch_gpu: log, twice a second, the GPUs' clocks, power, temperature and use; once, the other processes on them.
 watch_gpu() {
   command -v nvidia-smi >/dev/null || return 0
   nvidia-smi --query-compute-apps=pid,name,used_memory --format=csv >"$out/others.log" 2>&1
@@ -130,8 +131,8 @@ unwatch_gpu() {
   watcher=''
 }
 
-# draw_in_window NAME VARIABLE OTHER: a window on the display that VARIABLE names steps and draws on the GPU, where there is one. It says how
-# what is smoothed reaches the screen: by interop, or why not. A display whose OpenGL is another GPU's or the processor's is no failure.
+# draw_in_window NAME VARIABLE OTHER: lets a window on the display that VARIABLE names step and draw on the GPU, if there is one. It reports
+# how the mesh reaches the screen: by interop, or why not. A display whose OpenGL is another GPU's or the processor's is no failure.
 draw_in_window() {
   if [[ -z ${!2:-} ]]; then
     told "a window ($1)" "not run: $2 is not set"
@@ -148,7 +149,7 @@ SCRIPT
   told "a window ($1)" "$(if [[ $status -eq 0 ]]; then grep -E '^(cuda|cpu)' "$out/window-$1.log" | tail -1; else outcome; fi)"
 }
 
-# profile_search: what the GPU's counters say of one launch of the search, where ncu is installed. It leaves the clocks alone.
+# profile_search: reads the GPU's counters for one launch of the search, if ncu is installed. It leaves the clocks alone.
 profile_search() {
   command -v ncu >/dev/null || { told "ncu" "not run: it is not installed"; return; }
   step ncu 120 ncu --clock-control none --set full --kernel-name-base demangled -k 'regex:Visit<.*Stars\)0' --launch-skip 1 --launch-count 1 \
@@ -159,8 +160,8 @@ profile_search() {
   told "ncu" "$(outcome)"
 }
 
-# sanitize: NVIDIA's compute-sanitizer over tests of small meshes, of all metrics for memory, of two for the rest; side by side, for nothing
-# is measured.
+# sanitize: runs NVIDIA's compute-sanitizer over tests of small meshes, of all metrics for memory, of two for the rest; side by side, for
+# nothing is measured.
 sanitize() {
   local tools=(memcheck racecheck synccheck initcheck) small='*Cuda*.SameBitsOnTheZoo' sanitizer tool pids=() i log found summary limit
   declare -A subset=([memcheck]="$small/*:*Cuda*.GivesItsMemoryBack*:CudaDevice.*")
@@ -193,14 +194,14 @@ sanitize() {
   done
 }
 
-# figures STEP COMMAND: what a step printed, below the command.
+# figures STEP COMMAND: prints a step's output, below the command.
 figures() {
   [[ -s $out/$1.log ]] || return 0
   printf '\n`%s`\n\n```\n' "$2"
   cut -c1-250 "$out/$1.log"
   printf '```\n'
 }
-# clocks: first, middle and last line while it was measured, of the first GPU.
+# clocks: prints the first, middle and last line of the log during the measurement, of the first GPU.
 clocks() {
   [[ -s $out/clocks.log ]] || return 0
   printf '\nClocks, power and temperature of GPU 0 while it was measured: first line, middle line, last line of %d\n\n```\n' "$(wc -l <"$out/clocks.log")"
@@ -209,7 +210,7 @@ clocks() {
   printf '```\n'
 }
 
-# write_results: gpu-results.md, of what is known so far.
+# write_results: writes gpu-results.md, from the results so far.
 write_results() {
   local each
   {

@@ -1,4 +1,4 @@
-// Lanes that search a star together find, bit for bit, what one lane alone finds. A thread stands for each lane of a team.
+// Searches by the lanes of a team find the bits of one lane alone. A thread stands for each lane of a team.
 
 #include <array>
 #include <barrier>
@@ -16,7 +16,7 @@ using namespace testing;
 
 constexpr unsigned kSize = 8;
 
-/// What the lanes of a team pass to each other.
+/// Values that the lanes of a team exchange.
 struct Board {
   std::barrier<> barrier{kSize};
   std::array<std::array<unsigned char, 64>, kSize> values;
@@ -68,7 +68,7 @@ bool same_step(const Displacement& a, const Displacement& b) {
   return true;
 }
 
-/// Runs search(lane's team) on a thread a lane; what lane 0 returns.
+/// Runs search(lane's team) on a thread per lane; returns the result of lane 0.
 template <class Search>
 auto with_team(Search search) {
   Board board;
@@ -111,7 +111,7 @@ void expect_team_finds_the_same(const HostTask& host, const SearchParameters& pa
   EXPECT_GT(moving, count / 4) << "most of these meshes' vertices have somewhere to go";
 }
 
-/// The exact visit, too: its target for every vertex.
+/// The exact visit's target, for every vertex.
 template <Metric M>
 void expect_team_settles_the_same(const HostTask& host) {
   const PositionView positions = positions_of(host.task);
@@ -147,7 +147,7 @@ TEST(Team, FindsWhatOneLaneFinds) {
   expect_team_finds_the_same<Metric::Rectangularity>(prepared(dmoscope::testing::lattice(6, 0.35, 66)), {});
 }
 
-/// Candidates of equal quality, of which the one of lowest index must win: symmetric stars.
+/// Symmetric stars with candidates of equal quality, of which the one of lowest index must win.
 TEST(Team, BreaksTiesAsOneLaneDoes) {
   const HostTask regular = prepared(dmoscope::testing::lattice(6, 0.0, 67));
   expect_team_settles_the_same<Metric::MeanRatio>(regular);
@@ -161,7 +161,7 @@ TEST(Team, SettlesInvertedStarsAsOneLaneDoes) {
   expect_team_settles_the_same<Metric::ScaledJacobian>(prepared(dmoscope::testing::mixed_stars()));
 }
 
-/// Every lane has found as much, in another order than theirs: the lowest index wins, and what no lane bettered stays.
+/// Every lane has found an equal value, in another order: the lowest index wins, and an old best that none improves stays.
 TEST(Team, TheLowestIndexWinsAmongEquals) {
   const auto best_of = [](int found_by) {
     return with_team([found_by](const ThreadTeam& team) {

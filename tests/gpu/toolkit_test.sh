@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# toolkit_test.sh: what the build does with CUDA toolkits and GPUs that are not here. Stand-ins for nvcc and nvidia-smi say what those would;
+# toolkit_test.sh: tests the build's choices with simulated CUDA toolkits and GPUs: stand-ins for nvcc and nvidia-smi;
 # cmake/cuda_toolkit.cmake decides.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -16,8 +16,8 @@ same() {
   failed=$((failed + 1))
 }
 
-# toolkit VERSION ARCHITECTURES [REFUSED...]: a stand-in for nvcc in $folder/VERSION that compiles with no compiler whose name is REFUSED;
-# `default` is a call without -ccbin.
+# toolkit VERSION ARCHITECTURES [REFUSED...]: makes a stand-in for nvcc in $folder/VERSION that compiles with no compiler whose name is
+# REFUSED; `default` is a call without -ccbin.
 toolkit() {
   local bin=$folder/$1/bin
   mkdir -p "$bin"
@@ -40,7 +40,7 @@ echo "\$compiler" >>"$folder/compiled-with"
 END
   chmod +x "$bin/nvcc"
 }
-# gpus CAPABILITY...: a stand-in for nvidia-smi; with none, one that finds no driver.
+# gpus CAPABILITY...: makes a stand-in for nvidia-smi; without arguments one that finds no driver.
 gpus() {
   mkdir -p "$folder/smi"
   if [[ $# -eq 0 ]]; then
@@ -50,7 +50,7 @@ gpus() {
   fi
   chmod +x "$folder/smi/nvidia-smi"
 }
-# asked COMMANDS: what they put into `answer`, CMake's code after the functions.
+# asked COMMANDS: prints the variable `answer` after these commands, CMake code after the functions.
 asked() {
   printf 'cmake_minimum_required(VERSION 3.25)\ninclude(%s/cmake/cuda_toolkit.cmake)\n%s\nfile(WRITE %s/answer "${answer}")\n' "$root" "$1" "$folder" >"$folder/ask.cmake"
   env -u CUDACXX -u CUDA_HOME -u CUDA_PATH -u CUDAHOSTCXX PATH="$folder/smi:$PATH" "${@:2}" "$cmake" -P "$folder/ask.cmake" >"$folder/log" 2>&1 ||
@@ -64,7 +64,7 @@ toolkit 13.0 "75 80 86 87 88 89 90 100 110 103 120 121"
 toolkit 12.0 "75 80 86 89 90" /usr/bin/c++ default
 gpus
 
-# Which toolkit.
+# Choice of the toolkit.
 find='dmoscope_cuda_find(NVCC version)
 string(APPEND answer "${NVCC} ${version}")'
 same "CUDA_HOME" "$folder/12.4/bin/nvcc 12.4" "$(asked "$find" CUDA_HOME="$folder/12.4")"
@@ -80,7 +80,7 @@ printf '#!/bin/sh\nexit 3\n' >"$folder/silent/bin/nvcc"
 chmod +x "$folder/silent/bin/nvcc"
 same "one that says nothing" "$folder/silent/bin/nvcc 0" "$(asked "$find" CUDA_HOME="$folder/silent")"
 
-# For which GPUs.
+# Choice of the GPUs.
 native='dmoscope_cuda_native(NVCC-HERE answer remark)
 string(APPEND answer "${remark}")'
 native_of() { asked "${native/NVCC-HERE/$folder/$1/bin/nvcc}"; }
@@ -103,7 +103,7 @@ same "all, toolkit 12.4" "75-real;80-real;86-real;89-real;90-real;90-virtual" "$
 same "all, toolkit 13.0" "75-real;80-real;86-real;89-real;90-real;100-real;103-real;120-real;120-virtual" "$(all_of 13.0 x86_64)"
 same "all, on an ARM" "75-real;80-real;86-real;87-real;88-real;89-real;90-real;100-real;103-real;110-real;120-real;120-virtual" "$(all_of 13.0 aarch64)"
 
-# With which compiler.
+# Choice of the compiler.
 compiler='dmoscope_cuda_candidates(candidates)
 dmoscope_cuda_host_compiler(NVCC-HERE FOLDER answer reason ${candidates})
 string(APPEND answer "|${reason}")'

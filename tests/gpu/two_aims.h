@@ -1,5 +1,5 @@
 #pragma once
-// Two aims on a device beside the processor's: combined metrics, sizes, and the phase that raises the mean.
+// Two aims on a device compared with the processor: combined metrics, sizes, and the phase that raises the mean.
 
 #include <algorithm>
 #include <memory>
@@ -13,14 +13,14 @@
 
 namespace dmoscope::gpu::testing {
 
-/// The least metric of what can move, where that is positive: what a phase that raises the mean holds.
+/// The least metric of elements that can move, if it is positive: the floor of a phase that raises the mean.
 [[nodiscard]] inline double floor_of(const Subject& subject, Metric metric) {
   const Statistics now =
       compute_statistics(subject.input->quality_context(), subject.input->mesh.positions, metric, subject.immovable, nullptr);
   return std::max(now.movable_minimum, 0.1);
 }
 
-/// The mean is raised after an iteration of its own, with one floor and another, and an iteration of the metric alone comes again.
+/// Raises the mean after an iteration of its own, with one floor and another, and then does another iteration of the metric alone.
 inline void expect_same_mean(const std::shared_ptr<Queue>& queue, const Subject& subject, Metric metric, const SearchParameters& search) {
   SCOPED_TRACE("mean");
   SmoothingTask task = subject.task(metric, search);
@@ -30,7 +30,7 @@ inline void expect_same_mean(const std::shared_ptr<Queue>& queue, const Subject&
   expect_same_sweeps(queue, subject, task, sweeps);
 }
 
-/// `every`: of the second metrics, one in so many.
+/// `every`: uses one in so many of the second metrics.
 inline void expect_same_combinations(const std::shared_ptr<Queue>& queue, const Subject& subject, Metric metric,
                                      const SearchParameters& search, std::size_t every = 1, std::size_t turn = 0) {
   using dmoscope::testing::defined_for_all;
@@ -38,7 +38,7 @@ inline void expect_same_combinations(const std::shared_ptr<Queue>& queue, const 
   const std::vector<Sweep> sweeps{{}, {}, {.untangling = {.attempt = false}}};
   for (const MetricInfo& second : metric_table()) {
     if (second.metric == metric || !defined_for_all(second.metric, subject.input->mesh) || turn++ % every != 0) continue;
-    if (!subject.input->is_volume() && second.metric == Metric::Condition) continue;  // the mean ratio
+    if (!subject.input->is_volume() && second.metric == Metric::Condition) continue;  // equals the mean ratio
     SCOPED_TRACE(second.name);
     task.combination = {0.3, second.metric};
     expect_same_sweeps(queue, subject, task, sweeps);

@@ -1,4 +1,4 @@
-// Two aims on a device, with the host in the device's place: the very bits of the processor.
+// Two aims on a device, with the host in the device's place: the processor's bits.
 
 #include "tests/gpu/two_aims.h"
 
@@ -67,7 +67,7 @@ TEST_P(VolumeDeviceTwoAims, HaveTheSameBits) {
 
 INSTANTIATE_TEST_SUITE_P(Metrics, VolumeDeviceTwoAims, every_volume_metric(), name_of_metric);
 
-/// A mean over a star's elements depends on their order: as StarView has them, whatever the mesh's. Bits of positions hardly ever show it.
+/// The order of a mean over a star's elements is that of StarView, whatever the mesh's order. Bits of positions hardly ever show it.
 TEST(DeviceTwoAimsScore, SumsAsTheProcessorDoes) {
   const auto input = dmoscope::testing::input(dmoscope::testing::lattice(12, 0.4, 53, dmoscope::testing::Cells::Mixed));
   const PositionView positions(input->mesh.positions);
@@ -89,7 +89,7 @@ TEST(DeviceTwoAimsScore, SumsAsTheProcessorDoes) {
   EXPECT_GT(otherwise, 0U) << "the order matters";
 }
 
-/// A floor of a sweep that comes in the midst, and one that is lower, wake who slept by the one before.
+/// A floor that starts in the midst of a run, and a lower one, wake the vertices that slept by the one before.
 TEST(DeviceTwoAimsVisits, ThreadsCutsAndRecordingsChangeNothing) {
   Progress progress;
   const Subject subject(prepare_input(dmoscope::testing::lattice(24, 0.35, 52), {}, Need::Smoothing, progress));

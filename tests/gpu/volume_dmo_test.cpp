@@ -1,4 +1,4 @@
-// DMO of volumes on a device, with the host in the device's place: the very bits of the processor, in either precision.
+// DMO of volumes on a device, with the host in the device's place: the processor's bits, in either precision.
 
 #include "gpu/host_queue.h"
 #include "gpu/listed_star.h"
@@ -30,7 +30,7 @@ class VolumeDeviceDmo : public ::testing::TestWithParam<Metric> {
   }
 };
 
-/// 27 vertices that may move, or eight.
+/// 27 free vertices, or eight.
 TEST_P(VolumeDeviceDmo, SameBitsInFloat) { expect_same({}, kSanitized ? 64 : 125, 3); }
 TEST_P(VolumeDeviceDmo, SameBitsInDouble) { expect_same({.precision = Precision::Double}, 64, kSanitized ? 1 : 2); }
 TEST_P(VolumeDeviceDmo, SameBitsInRepairs) {
@@ -40,7 +40,7 @@ TEST_P(VolumeDeviceDmo, SameBitsInRepairs) {
     expect_same_visits(volume_host(), Subject(sample.input), GetParam(), {}, 1, {.untangling = {.repair = true}});
   }
 }
-/// 7 and 2 candidates per axis are not a whole number of what a lane ranks at a time.
+/// Grids of 7 and 2 candidates per axis, not multiples of the number that a lane ranks at a time.
 TEST_P(VolumeDeviceDmo, SameBitsWithOtherGrids) {
   for (const Precision precision : {Precision::Float, Precision::Double}) {
     expect_same({.grid_points = 7, .levels = 2, .omega = 1.25, .precision = precision}, 64, 2);
@@ -48,7 +48,7 @@ TEST_P(VolumeDeviceDmo, SameBitsWithOtherGrids) {
   }
 }
 
-/// Small ones: the host is slow in a device's place.
+/// Small meshes: the host is slow in a device's place.
 TEST_P(VolumeDeviceDmo, SameBitsOnSharedMeshes) {
   const auto meshes = shared_volumes(kSanitized ? 400 : 1000);
   if (meshes.empty()) GTEST_SKIP() << "no shared meshes here";
@@ -61,9 +61,9 @@ TEST_P(VolumeDeviceDmo, SameBitsOnSharedMeshes) {
 
 INSTANTIATE_TEST_SUITE_P(Metrics, VolumeDeviceDmo, every_volume_metric(), name_of_metric);
 
-/// A mean over a star's elements depends on their order: list after list, as VolumeStarView has them, whatever the mesh's.
+/// The order of a mean over a star's elements is list after list, as in VolumeStarView, whatever the mesh's order.
 TEST(VolumeDeviceStar, HasItsElementsListAfterList) {
-  const auto input = volume_samples(216)[9].input;  // "solids, tangled": they have all lists
+  const auto input = volume_samples(216)[9].input;  // "solids, tangled": it has all lists
   std::size_t mixed = 0;
   for (Index vertex = 0; vertex < input->mesh.vertex_count(); ++vertex) {
     if (input->topology.star(vertex).empty()) continue;
@@ -87,7 +87,7 @@ Subject jittered_volumes() {
   return Subject(volume_input_of(tangled(generate_mesh("solids", 216, 7, progress), 0.4)));
 }
 
-/// However many lanes work at once, and however an iteration is cut into calls.
+/// Neither the number of lanes nor the division of an iteration into calls matters.
 TEST(VolumeDeviceVisits, NeitherThreadsNorCutsChangeTheResult) {
   const Subject subject = jittered_volumes();
   ThreadPool pool(4);
@@ -96,7 +96,7 @@ TEST(VolumeDeviceVisits, NeitherThreadsNorCutsChangeTheResult) {
   expect_cuts_change_nothing(*whole, *cut, subject, 37, std::vector<Sweep>(3));
 }
 
-/// Who draws takes a volume's positions from the host.
+/// Pictures of a volume use positions from the host.
 TEST(VolumeDeviceVisits, HasNoPicture) {
   const Subject subject = jittered_volumes();
   const auto smoother = make_device_dmo(volume_host(), subject.task(Metric::MeanRatio));

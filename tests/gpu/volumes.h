@@ -1,5 +1,5 @@
 #pragma once
-// Volumes whose stars have every form that a device's lanes treat in a way of their own.
+// Volumes whose stars have every form that a device's lanes treat differently.
 
 #include <cmath>
 #include <memory>
@@ -23,7 +23,7 @@ struct VolumeSample {
   return prepare_input(std::move(mesh), {}, Need::Smoothing, progress);
 }
 
-/// Vertices that may move, some of them, thrown far out of place.
+/// Moves some of the free vertices far out of place.
 [[nodiscard]] inline Mesh tangled(Mesh mesh, double throw_by) {
   const auto input = volume_input_of(mesh);
   dmoscope::Random random(6);
@@ -50,7 +50,7 @@ struct VolumeSample {
   return mesh;
 }
 
-/// About `size` vertices each.
+/// Samples of about `size` vertices each.
 [[nodiscard]] inline std::vector<VolumeSample> volume_samples(std::size_t size) {
   std::vector<VolumeSample> all;
   Progress progress;

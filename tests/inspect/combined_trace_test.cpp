@@ -1,4 +1,4 @@
-// Looks into visits that have two aims: they show what the smoother does, bit for bit, and what its objective is worth.
+// Traces of visits that have two aims: they show the smoother's result, bit for bit, and values of its objective.
 
 #include <bit>
 #include <cmath>
@@ -31,7 +31,7 @@ std::pair<double, double> star_at(const InputMesh& input, std::vector<Vec3> posi
   return {least, static_cast<double>(input.topology.star(vertex).size()) / sum};
 }
 
-/// Follows an iteration vertex by vertex; `worth`: of a place, by its least first metric and where it is.
+/// Follows an iteration vertex by vertex; `worth`: value of a place, by its least first metric and the position.
 template <class Worth>
 void follow(dmoscope::Run& run, const Worth& worth) {
   Progress progress;

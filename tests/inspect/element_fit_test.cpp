@@ -16,7 +16,7 @@ namespace {
 
 using testing::input;
 
-constexpr double kHigh = 0.1;  // of a roof over x = 0 to 2, with its ridge at x = 1
+constexpr double kHigh = 0.1;  // height of a roof over x = 0 to 2, with its ridge at x = 1
 double roof(double x) { return kHigh * (1.0 - std::abs(x - 1.0)); }
 StandingRule all_slide() {
   StandingRule rule;
@@ -79,7 +79,7 @@ TEST(ElementFit, OfFacesAcrossARidge) {
               const double x = p.x + t * normal.x;
               if (side > 0 ? x > 1.0 : x < 1.0) continue;
               most = std::max(most, std::abs(t));
-              if (side > 0 ? x > 0.99 : x < 1.01) continue;  // a point alone is not beneath
+              if (side > 0 ? x > 0.99 : x < 1.01) continue;  // skips elements with a point alone beneath
               const Vec3 beneath = testing::unit({-side * kHigh, 0, 1});
               tilt = std::max(tilt, std::acos(std::min(1.0, std::abs(dot(normal, beneath)))) * 180 / 3.14159265358979);
             }
@@ -135,13 +135,13 @@ TEST(ElementFit, OfAVolumeWithinTheBoundAndAboveWhatSamplesFind) {
   EXPECT_LE(most, parameters.max_deviation * all->geometry.size * (1 + 1e-6));
 }
 
-/// Two blocks of which the interface slides: elements on either side have its values, and none on the boundary.
+/// Two blocks with a sliding interface: elements on either side have its values, and none on the boundary.
 TEST(ElementFit, OfAnInterfaceOnBothSides) {
   Mesh mesh = test::volume_grid(4, test::Fill::Hexahedra, 0.2, 3);
   for (const bool upper : {false, true}) {
     Group group;
     group.name = upper ? "upper" : "lower";
-    group.dimension = 2;  // of elements
+    group.dimension = 2;  // dimension of elements
     for (Index e = 0; e < mesh.elements.size(); ++e)
       if ((e >= mesh.elements.size() / 2) == upper) group.members.push_back(e);
     mesh.groups.push_back(std::move(group));

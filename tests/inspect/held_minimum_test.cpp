@@ -1,4 +1,4 @@
-// What holds a minimum: on meshes made so that it can be nothing else, and against whole runs with the switch that is named.
+// Hold of a minimum: on meshes with one possible cause, and against whole runs with the switch that is named.
 
 #include "core/inspect/held_minimum.h"
 
@@ -50,7 +50,7 @@ Holding holding_of(const HeldMinimum& held, Index vertex) {
 /// The minimum of a whole run with other parameters, from the input on.
 double minimum_with(Mesh mesh, const RunParameters& parameters) { return run_of(std::move(mesh), parameters, 60).statistics().minimum; }
 
-/// All around a trial stays, so that it comes near to what a whole run reaches, and not above.
+/// Expects a trial, in which all around stays, to come near the minimum of a whole run, and not above.
 void expect_estimates(double trial, double whole) {
   EXPECT_LE(trial, whole + 0.01);
   EXPECT_GT(trial, whole - 0.15);
@@ -142,14 +142,14 @@ TEST(WhatHolds, TheBoundOfDeviation) {
   expect_estimates(held.changed, minimum_with(mesh, parameters));
 }
 
-/// The same, where the spoiled vertices are corners by their angles: neither switch gains alone.
+/// The spoiled vertices are corners by their angles: neither switch gains alone.
 TEST(WhatHolds, TwoThingsAtOnce) {
   const Mesh mesh = spoiled_and_jagged();
   RunParameters parameters;
   parameters.boundary = BoundaryRule::Slide;
   parameters.corner_angle = 20.0;
   parameters.max_deviation = 1e-3;
-  parameters.fixed = {vertex_at(1, 0), vertex_at(4, 0)};  // so that nothing else gives way
+  parameters.fixed = {vertex_at(1, 0), vertex_at(4, 0)};  // so that nothing else moves
   const HeldMinimum held = held_of(run_of(mesh, parameters));
   EXPECT_EQ(held.by, Holding::Corner) << held.sentence();
   ASSERT_TRUE(held.change && held.also) << held.sentence();
@@ -163,8 +163,8 @@ TEST(WhatHolds, TwoThingsAtOnce) {
   EXPECT_LT(minimum_with(mesh, parameters), held.quality + 0.02) << "the bound alone";
 }
 
-/// A quadrilateral with a corner of nearly 180 degrees between three vertices that stay: its fourth gains nothing, and what joint moves say
-/// is said of the next.
+/// A quadrilateral with a corner of nearly 180 degrees between three vertices that stay: its fourth gains nothing, and the certificate of
+/// joint moves is that of the next element.
 TEST(WhatHolds, ACornerThatStaysAndACertificateOfTheNext) {
   Mesh mesh = lattice(kCells, 0.0, 1, testing::Cells::Quadrilaterals);
   mesh.positions[vertex_at(0, 0)] = {0.48 / kCells, 0.48 / kCells, 0.0};
@@ -191,7 +191,7 @@ TEST(WhatHolds, NothingAtAnOptimumOrOnTheWay) {
   EXPECT_FALSE(there.rises());
 }
 
-/// A corner of the square cut off by one triangle: none of its vertices moves, whatever slides.
+/// A corner of the square cut off by one triangle, none of whose vertices moves, whatever slides.
 TEST(WhatHolds, WhatNoSwitchFreesIsSaidOfTheNext) {
   Mesh mesh = spoiled(3, 0);
   const auto first = static_cast<Index>(mesh.positions.size());
@@ -207,7 +207,7 @@ TEST(WhatHolds, WhatNoSwitchFreesIsSaidOfTheNext) {
 
 TEST(WhatHolds, TheSurfaceOfAVolume) {
   Mesh mesh = test::volume_grid(4, test::Fill::Hexahedra);
-  const Index middle = 2 * 25 + 0 * 5 + 2;  // of a side
+  const Index middle = 2 * 25 + 0 * 5 + 2;  // the middle of a side
   mesh.positions[middle].x -= 0.22;
   const HeldMinimum held = held_of(run_of(mesh));
   EXPECT_EQ(held.by, Holding::Boundary);

@@ -1,4 +1,4 @@
-// What is looked for once a run is done: of any mix of mesh, method and aims, ended at any moment, and no more promised than was tried.
+// Hints after a run: for any mix of mesh, method and aims, ended at any moment, without promising more than was tried.
 
 #include "core/run/hints.h"
 
@@ -47,7 +47,7 @@ HeldMinimum held_of(const dmoscope::Run& run, const std::function<bool()>& go_on
   return *held;
 }
 
-/// Says yes so many times.
+/// A function that returns true so many times.
 std::function<bool()> yes(int times) {
   return [times]() mutable { return times-- > 0; };
 }
@@ -183,7 +183,7 @@ TEST(HintsAfterARun, TheThresholdOfTwoAimsIsNamed) {
   EXPECT_GT(run_of(mesh, raised, 300).statistics().minimum, held.quality + 0.02) << held.change->command();
 }
 
-/// Two elements at the boundary, nearly as bad: a person fixed the vertices of the second.
+/// Two elements at the boundary, nearly equally bad: the user fixed the vertices of the second.
 TEST(HintsAfterARun, WhatGainsInOnePlaceIsNoPromiseForTheMesh) {
   const Index other = vertex_at(3, kCells);
   for (const bool two : {false, true}) {

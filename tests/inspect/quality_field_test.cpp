@@ -1,4 +1,4 @@
-// The quality around a vertex against the judges of whole meshes, and its best place against a search that knows nothing of discs.
+// The quality around a vertex against the judges of whole meshes, and its best place against an independent search without discs.
 
 #include "core/inspect/quality_field.h"
 
@@ -20,7 +20,7 @@ namespace {
 
 using V = Vec2<double>;
 
-/// A hub and the ring around it, counter-clockwise; triangles.
+/// A fan of triangles around a hub, counter-clockwise.
 std::shared_ptr<const InputMesh> fan(Vec3 hub, const std::vector<V>& ring) {
   Mesh mesh;
   mesh.positions.push_back(hub);
@@ -42,7 +42,7 @@ double mean_ratio(const std::vector<V>& ring, V p) {
   return least;
 }
 
-/// A ring around the origin that it sees all of, so that there is a place without inverted elements.
+/// A ring that is visible from the origin, so that there is a place without inverted elements.
 std::vector<V> random_ring(testing::Random& random, std::size_t n) {
   std::vector<V> ring;
   for (std::size_t i = 0; i < n; ++i) {
@@ -52,7 +52,7 @@ std::vector<V> random_ring(testing::Random& random, std::size_t n) {
   return ring;
 }
 
-/// The largest place of a function whose higher places lie in convex regions: a comb of directions around the best so far, finer and finer.
+/// The maximum of a function with convex upper level sets, by a search along directions around the best so far, finer and finer.
 V climb(const std::function<double(V)>& value, V start, double step) {
   V best = start;
   double highest = value(best);
@@ -81,7 +81,7 @@ TEST(LocalOptimum, OfARegularHexagonIsItsMiddle) {
   }
 }
 
-/// Two mirrored pairs decide: in a rhombus the middle, where all four triangles are alike.
+/// Two mirrored pairs decide: the optimum of a rhombus is the middle, with four equal triangles.
 TEST(LocalOptimum, OfARhombusIsItsMiddle) {
   const double a = 1.0, b = 0.4;
   const auto input = fan({0.1, 0.05, 0}, {{a, 0}, {0, b}, {-a, 0}, {0, -b}});
@@ -99,7 +99,7 @@ TEST(LocalOptimum, IsWhereAPatternSearchEnds) {
     const Vec3 hub{random(-0.2, 0.2), random(-0.2, 0.2), 0.0};
     const auto input = fan(hub, ring);
     const auto best = local_optimum(*input, input->mesh.positions, Metric::MeanRatio, 0);
-    if (!(mean_ratio(ring, {0, 0}) > 0.0)) continue;  // a sector of three wide as a half-plane
+    if (!(mean_ratio(ring, {0, 0}) > 0.0)) continue;  // a sector as wide as a half-plane
     ASSERT_TRUE(best) << round;
     const V at{hub.x + best->at.x, hub.y + best->at.y};
     EXPECT_NEAR(mean_ratio(ring, at), best->quality, 1e-12);
@@ -107,7 +107,7 @@ TEST(LocalOptimum, IsWhereAPatternSearchEnds) {
     const V climbed = climb(quality, {0, 0}, 0.5);
     EXPECT_GE(best->quality, quality(climbed) - 1e-13) << round;
     EXPECT_NEAR(best->quality, quality(climbed), 1e-5) << round << ": sharp ridges stop it early";
-    const V again = climb(quality, at, 1e-4);  // nothing near it is higher
+    const V again = climb(quality, at, 1e-4);  // no higher value nearby
     EXPECT_LE(quality(again), best->quality + 1e-13) << round;
     EXPECT_NEAR(std::hypot(again.x - at.x, again.y - at.y), 0.0, 1e-9) << round;
   }
@@ -229,7 +229,7 @@ TEST(QualityField, NothingIsInvertedExactlyInTheKernel) {
   }
 }
 
-/// Samples a slice of a volume mesh; the offset along its axis is the same everywhere.
+/// A slice of a volume mesh is sampled; the offset along its axis is constant.
 TEST(QualityField, OfASliceHasAtEachSampleWhatTheJudgesOfMeshesSay) {
   Progress progress;
   for (const char* kind : {"tetrahedra", "hexahedra", "solids"}) {

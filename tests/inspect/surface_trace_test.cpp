@@ -1,4 +1,4 @@
-// The look into visits on a surface: it ends as the run does, candidates lie on the input, and none counts beyond a feature edge.
+// Traces of visits on a surface: they end as the run does, candidates lie on the input, and none counts beyond a feature edge.
 
 #include "core/inspect/surface_trace.h"
 
@@ -89,7 +89,7 @@ TEST(SurfaceTrace, EndsAsTheRunDoesAndLiesOnTheInput) {
   }
 }
 
-/// On a side of the cube: a candidate counts where its place is on the side, and nowhere else.
+/// Candidates of a vertex on a side of the cube count if they are on the side, and nowhere else.
 TEST(SurfaceTrace, OfAFlatSideCountsWhatIsOnIt) {
   RunParameters parameters;
   parameters.boundary = BoundaryRule::Slide;
@@ -115,8 +115,7 @@ TEST(SurfaceTrace, OfAFlatSideCountsWhatIsOnIt) {
   EXPECT_THROW((void)trace_surface_visit(task, run.positions(), 0, {}), UsageError) << "a corner";
 }
 
-/// A floor and a steep slope, and no feature between them: a vertex of the floor that would go up the slope takes faces along that stand on
-/// the floor.
+/// A floor and a steep slope, without a feature edge between them: a vertex that would go up the slope would tilt faces of the floor.
 TEST(SurfaceTrace, FacesThatWouldLeanAreTold) {
   Mesh mesh = testing::lattice(6, 0.2, 3);
   const double slope = 75.0 * 3.14159265358979 / 180.0;

@@ -1,4 +1,4 @@
-// A look into a visit shows what the smoother then does, bit for bit, and its values hold against formulas of their own.
+// A trace of a visit shows the smoother's result, bit for bit, and its values hold against separate formulas.
 
 #include "core/inspect/visit_trace.h"
 
@@ -27,7 +27,7 @@ std::shared_ptr<const InputMesh> generated(std::string_view kind, std::size_t si
   return testing::input(generate_mesh(kind, size, 3, progress));
 }
 
-/// Quality of the star of `vertex`, standing at `place`, by the judges of whole meshes.
+/// Quality of the star of `vertex` at `place`, by the judges of whole meshes.
 double quality_at(const InputMesh& input, std::vector<Vec3>& positions, Metric metric, Index vertex, Vec3 place) {
   const Vec3 before = std::exchange(positions[vertex], place);
   double quality = 1e300, jacobian = 1e300;
@@ -39,7 +39,7 @@ double quality_at(const InputMesh& input, std::vector<Vec3>& positions, Metric m
   return jacobian > 0.0 ? quality : jacobian;
 }
 
-/// The bounding box of the other vertices of the star, in the plane; and where in space an offset in the plane leads.
+/// The bounding box of the other vertices of the star, in the plane; and the place in space of an offset in the plane.
 Vec2<double> plane_box_of(const InputMesh& input, const std::vector<Vec3>& positions, Index vertex) {
   const Plane& plane = input.geometry.plane;
   Vec2<double> low{1e300, 1e300}, high{-1e300, -1e300};
@@ -53,7 +53,7 @@ Vec2<double> plane_box_of(const InputMesh& input, const std::vector<Vec3>& posit
   return high - low;
 }
 
-/// The mean of the star's other corners, each as often as it is one.
+/// The mean of the star's other corners, counted as often as they occur.
 Vec2<double> middle_of(const InputMesh& input, const std::vector<Vec3>& positions, Index vertex) {
   Vec3 sum{};
   double count = 0.0;
@@ -66,7 +66,7 @@ Vec2<double> middle_of(const InputMesh& input, const std::vector<Vec3>& position
   return input.geometry.plane.project(1.0 / count * sum);
 }
 
-/// Follows a run vertex by vertex, and looks into one visit of `stride` before it is made.
+/// Follows a run vertex by vertex, and traces one visit of `stride` before it is made.
 class Follower {
  public:
   Follower(std::shared_ptr<const InputMesh> input, Metric metric, SearchParameters search, std::size_t stride = 1)
@@ -96,7 +96,7 @@ class Follower {
           ADD_FAILURE() << info(metric()).name << ", vertex " << vertex << ", iteration " << i << ": " << trace.sentence();
           return;
         }
-        if (repair) continue;  // most stars wait
+        if (repair) continue;  // most stars are left alone
         ++visits_;
         moved_ += moved;
         fast_ += trace.fast ? 1U : 0U;
@@ -113,7 +113,7 @@ class Follower {
  private:
   [[nodiscard]] Metric metric() const { return run_.parameters().metric; }
   [[nodiscard]] const SearchParameters& search() const { return run_.parameters().search; }
-  /// Threshold rounds find the winner without the others' values.
+  /// Whether threshold rounds find the winner without the others' values.
   [[nodiscard]] bool by_rounds(const VisitTrace& trace) const {
     return trace.fast && search().grid_points == 8 && (metric() == Metric::MeanRatio || metric() == Metric::MeanRatioArea);
   }
@@ -131,7 +131,7 @@ class Follower {
   void expect_true_levels(const VisitTrace& trace, std::vector<Vec3>& positions) {
     const SearchParameters& s = search();
     const Vec2<double> box = plane_box_of(run_.input(), positions, trace.vertex);
-    // What a float rounds of the largest number around.
+    // Rounding of a float, relative to the largest number.
     const double rounding = (trace.fast ? 1e-6 : 1e-14) * (std::fabs(box.x) + std::fabs(box.y));
     const auto close = [rounding](Vec2<double> a, Vec2<double> b) {
       return std::fabs(a.x - b.x) <= rounding && std::fabs(a.y - b.y) <= rounding;
@@ -188,7 +188,7 @@ class Follower {
     }
   }
 
-  /// Where the vertex would be stored by an offset in the plane.
+  /// The stored place of the vertex for an offset in the plane.
   [[nodiscard]] Vec3 place_of(const VisitTrace& trace, Vec2<double> offset) const {
     const Plane& plane = run_.input().geometry.plane;
     const auto sum = [&](double at, double u, double v) {
@@ -281,8 +281,8 @@ TEST_P(EveryMetric, OfEast14) {
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "no shared meshes here";
   Progress progress;
   const auto input = load_input(file, Need::Smoothing, progress);
-  // It has 10147 vertices, and a look into a visit costs a hundred times the visit; those between are of the same kinds. The second
-  // iteration's are the vertices next to the first's.
+  // Only some visits are traced: the mesh has 10147 vertices, and a trace costs a hundred times the visit. The second iteration's are the
+  // vertices next to the first's.
   constexpr std::size_t kStride = testing::kSanitized ? 509 : 37;
   for (const Precision precision : {Precision::Float, Precision::Double}) {
     SCOPED_TRACE(precision == Precision::Float ? "float" : "double");

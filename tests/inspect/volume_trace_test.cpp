@@ -1,4 +1,4 @@
-// A look into a visit of a volume shows what the smoother then does, bit for bit, and its values hold against the judges of whole meshes.
+// A trace of a visit of a volume shows the smoother's result, bit for bit, and its values hold against the judges of whole meshes.
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +24,7 @@
 namespace dmoscope {
 namespace {
 
-/// With the vertex at `place`: the least quality of what it changes, and by the judges of whole meshes whether an element is inverted.
+/// The least quality of the changed elements with the vertex at `place`; and whether an element is inverted by the judges of whole meshes.
 std::pair<double, bool> judged(const InputMesh& input, std::vector<Vec3>& positions, Metric metric, Index vertex, Vec3 place) {
   const Vec3 before = std::exchange(positions[vertex], place);
   const double quality = testing::moving_quality(input, positions, metric, vertex);
@@ -47,7 +47,7 @@ Vec3 box_of(const InputMesh& input, const std::vector<Vec3>& positions, Index ve
   return high - low;
 }
 
-/// To floats.
+/// Rounds to floats.
 Vec3 rounded(Vec3 p) {
   for (double* x : {&p.x, &p.y, &p.z}) {
     const volatile auto single = static_cast<float>(*x);
@@ -59,13 +59,13 @@ Vec3 rounded(Vec3 p) {
 struct Wish {
   Metric metric = Metric::MeanRatio;
   SearchParameters search{};
-  std::optional<Metric> second{};  // of a combination
+  std::optional<Metric> second{};  // second metric of a combination
 };
 
-/// Looks into a cube of candidates cost most of all that is done with a sanitizer: there every third visit is looked into.
+/// Stride of the traced visits: traces of a cube of candidates cost most of the time with a sanitizer.
 constexpr std::size_t kEvery = testing::kSanitized ? 3 : 1;
 
-/// Follows a run vertex by vertex, and looks into visits before they are made.
+/// Follows a run vertex by vertex, and traces visits before they are made.
 class VolumeFollower {
  public:
   VolumeFollower(std::shared_ptr<const InputMesh> input, const Wish& wish)
@@ -97,7 +97,7 @@ class VolumeFollower {
         positions[vertex] = run_.positions()[vertex];
         untangling += trace.untangling ? 1U : 0U;
         halved += trace.halvings > 0 && trace.end == VisitEnd::Moved ? 1U : 0U;
-        if (repair) continue;  // most stars wait
+        if (repair) continue;  // most stars are left alone
         ++visits;
         moved += steps;
         fast += trace.fast ? 1U : 0U;
@@ -165,7 +165,7 @@ class VolumeFollower {
     const auto [quality, inverted] = judged(run_.input(), positions, wish_.metric, trace.vertex, place);
     if (level.quality[slot] > 0.0) {
       EXPECT_NEAR(level.quality[slot], quality, 1e-12) << index;
-      // What is compared is the same but for the rounding to where the vertex may stand, and below 0 where it is inverted inside.
+      // The compared value is the same but for rounding of the place, and below 0 if the star is inverted inside.
       if (!trace.combined && !(trace.untangling && level.values[slot] < 0.0)) {
         EXPECT_NEAR(level.values[slot], quality, run_.input().mesh.single_precision ? 1e-4 : 1e-7) << index;
       }
@@ -174,7 +174,7 @@ class VolumeFollower {
     }
   }
 
-  /// The largest value; by the fast search up to a float's rounding.
+  /// Expects the largest value to be chosen; by the fast search up to a float's rounding.
   void expect_true_choice(const VolumeTrace& trace, const VolumeLevel& level, Vec3& reached, double& worth) const {
     const double rounding = trace.fast ? 1e-4 : 0.0;
     const auto largest = std::ranges::max_element(level.values);
@@ -281,7 +281,7 @@ TEST_P(VolumeTraces, OfTwoAims) {
   EXPECT_EQ(follower.fast, 0U);
 }
 
-/// Where the best candidate would invert one of four hexahedra inside: the free vertex is the last.
+/// The best candidate would invert one of four hexahedra inside: the free vertex is the last.
 TEST(VolumeTrace, OfAWayThatIsHalved) {
   Mesh mesh;
   mesh.positions = {{0.8514, 0.8539, 1.1988},   {1.2936, -0.8836, -0.7547}, {-0.7375, 1.0251, -0.9698}, {-1.1629, -1.2739, 1.0896},

@@ -73,7 +73,7 @@ def values(kind, p):
 
 def solids():
     draw = random.Random(20180405)
-    as_read = lambda p: [tuple(D(float(x)) for x in v) for v in p]  # what a program reads in double
+    as_read = lambda p: [tuple(D(float(x)) for x in v) for v in p]  # rounded to the double that a program reads
     for kind in ideal:
         yield kind, as_read(ideal[kind])
         yield kind, as_read([(x * 1000000, y * 1000000, z * 1000000) for x, y, z in ideal[kind]])

@@ -13,14 +13,14 @@
 #include <string>
 #include <vector>
 
-// Their source counts on other headers to bring this.
+// Their source relies on other headers for this one.
 #include <thrust/pair.h>
 
 #include "DMO/dmoKernel.cu"
 
 namespace {
 
-using DMO::gpuAssert;  // of their macro gpuErrchk
+using DMO::gpuAssert;  // used by their macro gpuErrchk
 
 struct Triangles {
   std::vector<double> x, y;
@@ -61,7 +61,7 @@ double worst(const Triangles& m) {
   return least;
 }
 
-/// For every vertex the edges opposite to it, one a triangle, as pairs from first[v] on.
+/// The edges opposite to every vertex, one per triangle, as pairs from first[v] on.
 struct Stars {
   std::vector<std::size_t> first;
   std::vector<std::pair<int, int>> opposite;
@@ -96,7 +96,7 @@ std::vector<int> ring_of(const Stars& stars, std::size_t v) {
   return ring.size() == static_cast<std::size_t>(last - first) + 1 && ring.back() == ring.front() ? ring : std::vector<int>();
 }
 
-/// Their structures: rings of the free vertices, and the greedy colours that their createColoring() gives.
+/// Fills their structures: rings of the free vertices, and the greedy colours of their createColoring().
 DMO::DmoMesh<true> prepared(const Triangles& mesh) {
   const Stars stars = stars_of(mesh);
   DMO::DmoMesh<true> theirs;
@@ -132,7 +132,7 @@ DMO::DmoVector<float2> points_of(const Triangles& mesh) {
   return points;
 }
 
-/// Milliseconds of `iterations` of their kernel from the input on; `points` keeps what came out, on the device.
+/// Returns the milliseconds of `iterations` of their kernel from the input on; `points` keeps the result, on the device.
 float timed(DMO::DmoVector<float2>& points, DMO::DmoMesh<true>& theirs, int iterations) {
   points.copyHostToDevice();
   cudaEvent_t begin{}, end{};

@@ -1,18 +1,18 @@
 #pragma once
-// Memory that the host may not touch but where a device would.
+// Memory that is accessible to the host only while a device would work on it.
 
 #include <cstddef>
 
 namespace dmoscope::gpu::fake {
 
-/// Addresses are never given twice until clear(), so that whatever uses memory that was freed is seen.
+/// Memory whose addresses are never reused until clear(), so that uses of freed memory are detected.
 class Arena {
  public:
   Arena();
   ~Arena();
   Arena(const Arena&) = delete;
   Arena& operator=(const Arena&) = delete;
-  /// Null where there is no more. Filled with 0xcd. Only while it is open.
+  /// Returns memory filled with 0xcd, or null if there is no more. Only while the arena is open.
   [[nodiscard]] void* take(std::size_t bytes);
   void clear();
   void open();

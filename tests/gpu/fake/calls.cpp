@@ -1,5 +1,5 @@
-// The calls of the CUDA runtime that gpu makes, in place of the runtime's own. One that gpu makes and that is not here links the runtime,
-// which then defines them all twice: the linker says so.
+// The calls of the CUDA runtime that gpu makes, in place of the runtime's own. A call that is missing here links the runtime, which then
+// defines them all twice: the linker says so.
 
 #include <algorithm>
 #include <cstring>
@@ -29,7 +29,7 @@ cudaError_t give_back(Machine& machine, Map& live, Handle handle, const char* ca
   return cudaErrorInvalidResourceHandle;
 }
 
-/// Has a device yet to read or write this piece of memory of the host? Null: no piece.
+/// Whether a device has yet to read or write this piece of the host's memory. Null: no piece.
 bool is_waited_for(const Machine& machine, const void* pinned) {
   if (pinned == nullptr) return false;
   for (const auto& [handle, stream] : machine.streams)
@@ -37,7 +37,7 @@ bool is_waited_for(const Machine& machine, const void* pinned) {
   return false;
 }
 
-/// A copy between a device's memory and the host's, which is read or written when the step is done.
+/// Asks for a copy between a device's memory and the host's, which is read or written when the step is done.
 cudaError_t copy_later(Machine& machine, void* to, const void* from, std::size_t bytes, cudaMemcpyKind kind, cudaStream_t handle) {
   const auto stream = machine.find(handle, "cudaMemcpyAsync");
   if (stream == nullptr) return cudaErrorInvalidResourceHandle;
@@ -61,19 +61,19 @@ cudaError_t copy_later(Machine& machine, void* to, const void* from, std::size_t
                           pinned});
   } else {
     if (stream->kept_in() == nullptr && !is_waited_for(machine, pinned))
-      std::memset(to, 0xcd, bytes);  // whoever reads it too early shall see it
+      std::memset(to, 0xcd, bytes);  // makes a read before the copy visible
     machine.ask(*stream, {[to, from, bytes] { std::memcpy(to, from, bytes); }, pinned});
   }
   return cudaSuccess;
 }
 
-/// Was the event recorded in a capture that goes on?
+/// Whether the event was recorded in a capture that is still under way.
 bool is_kept(const Machine& machine, const CUevent_st& event) {
   return event.kept_in != nullptr &&
          std::ranges::any_of(machine.streams, [&](const auto& stream) { return stream.second->capture.get() == event.kept_in; });
 }
 
-/// A stream that waits for one that is captured is captured with it; if it was captured before, the other is joined to it.
+/// Captures a stream that waits for a captured one together with it; if it was captured before, the other is joined to it.
 cudaError_t wait_in_capture(Machine& machine, const std::shared_ptr<CUstream_st>& stream, const CUevent_st& event) {
   if (!is_kept(machine, event)) {
     machine.breach("a capture waits for what is not captured");
@@ -92,7 +92,7 @@ cudaError_t wait_in_capture(Machine& machine, const std::shared_ptr<CUstream_st>
   return cudaSuccess;
 }
 
-/// The streams captured with `origin` are by themselves again. Was what they did waited for?
+/// Ends the capture of the streams that were captured with `origin`. Returns whether their work was waited for.
 bool join_all(Machine& machine, const std::shared_ptr<CUstream_st>& origin) {
   bool all = true;
   for (const auto& [handle, stream] : machine.streams)
@@ -239,7 +239,7 @@ cudaError_t cudaFree(void* memory) {
     if (machine.forbidden_in_capture("cudaFree")) return cudaErrorStreamCaptureUnsupported;
     const auto found = machine.memory.find(memory);
     if (found == machine.memory.end()) return give_back(machine, machine.memory, memory, "cudaFree", "piece of memory");
-    machine.run_all(found->second.device);  // it waits for the device
+    machine.run_all(found->second.device);  // waits for the device
     machine.forget_memory(found->second.device, memory);
     machine.memory.erase(found);
     return cudaSuccess;
@@ -310,7 +310,7 @@ cudaError_t cudaStreamDestroy(cudaStream_t stream) {
   return giving_back("cudaStreamDestroy", [&](Machine& machine) {
     if (const auto found = machine.streams.find(stream); found != machine.streams.end()) {
       if (found->second->kept_in() != nullptr) machine.breach("cudaStreamDestroy in a capture");
-      machine.run(*found->second);  // what was asked for is done all the same
+      machine.run(*found->second);  // the work asked for is done all the same
     }
     return give_back(machine, machine.streams, stream, "cudaStreamDestroy", "stream");
   });
@@ -394,7 +394,7 @@ cudaError_t cudaStreamBeginCapture(cudaStream_t handle, cudaStreamCaptureMode mo
   });
 }
 cudaError_t cudaStreamEndCapture(cudaStream_t handle, cudaGraph_t* graph) {
-  bool fails = true;  // it ends the capture, but there is no graph
+  bool fails = true;  // ends the capture, but there is no graph
   *graph = nullptr;
   const cudaError_t status = giving_back("cudaStreamEndCapture", [&](Machine& machine) {
     const auto stream = machine.find(handle, "cudaStreamEndCapture", Machine::Of::AnyDevice);

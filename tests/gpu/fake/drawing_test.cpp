@@ -1,4 +1,4 @@
-// Pictures into OpenGL's buffers, as a device writes them.
+// Pictures written into OpenGL's buffers by a device.
 
 #include <thread>
 
@@ -44,7 +44,7 @@ TEST_F(FakeDrawing, WhatIsInTheWay) {
   EXPECT_THAT(gl_obstacle(0), HasSubstr("OpenGL does not draw on a device of CUDA"));
   set_up({.gl = &gl});
   std::string elsewhere;
-  std::thread([&] { elsewhere = gl_obstacle(0); }).join();  // no context is current there
+  std::thread([&] { elsewhere = gl_obstacle(0); }).join();  // without a current context
   EXPECT_THAT(elsewhere, HasSubstr("OpenGL does not draw on a device of CUDA"));
 }
 
@@ -86,7 +86,7 @@ TEST_F(FakeDrawing, BuffersThatAreTooSmallAreRefused) {
   EXPECT_THROW(shown->write(*target, {}), DeviceError);
 }
 
-/// The scene that the window shows, by the device's own writing, and through the host where another device draws.
+/// The window's scene, written by the device, and through the host if another device draws.
 TEST_F(FakeDrawing, TheSceneIsThatOfAWholeFrame) {
   for (const int drawing : {0, -1}) {
     set_up({.drawing = drawing, .gl = &gl});
@@ -113,7 +113,7 @@ TEST_F(FakeDrawing, TheSceneIsThatOfAWholeFrame) {
   }
 }
 
-/// The stand-ins see what goes wrong between CUDA and OpenGL.
+/// Detection of errors between CUDA and OpenGL by the stand-ins.
 class FakeDrawingRules : public WithOpenGl {
  protected:
   void TearDown() override { set_up({}); }

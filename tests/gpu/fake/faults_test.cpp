@@ -1,5 +1,5 @@
-// Every call of the runtime fails once, in every way that it may: the work is done all the same, or the error says what is wrong, and the
-// mesh is never anything but that of a finished iteration.
+// Every call of the runtime fails once, in every possible way: the work is done all the same, or the error tells the cause, and the mesh
+// always is that of a finished iteration.
 
 #include <algorithm>
 #include <map>
@@ -20,7 +20,7 @@ using ::testing::AnyOf;
 using ::testing::HasSubstr;
 
 constexpr int kCodes[] = {kOutOfMemory, kUnavailable, kWrongPtxVersion, kOperatingSystem, kIllegalAddress, kTimeout};
-/// What the runtime says of each, or the program.
+/// The runtime's or the program's words for each error.
 const std::map<int, std::string> kWords{
     {kOutOfMemory, "out of memory"},      {kUnavailable, "busy or unavailable"},      {kWrongPtxVersion, "unsupported toolchain"},
     {kOperatingSystem, "OS call failed"}, {kIllegalAddress, "illegal memory access"}, {kTimeout, "timed out"}};
@@ -34,7 +34,7 @@ class FakeFaults : public WithOpenGl {
     WithOpenGl::SetUp();
     if (context != nullptr) begin(lattice(6, 0.35, 71, dmoscope::testing::Cells::Mixed), {.search = kShort});
   }
-  /// What the tests are about from now on.
+  /// Sets the mesh and the run of the test.
   void begin(Mesh mesh, const RunParameters& what) {
     Progress progress;
     parameters = what;
@@ -66,10 +66,10 @@ class FakeFaults : public WithOpenGl {
   }
   void expect_words(const std::string& what) {
     EXPECT_TRUE(has_failed()) << what;
-    // Where the first device was given up for the second, OpenGL draws on the other.
+    // If the first device was given up for the second, OpenGL draws on the other.
     EXPECT_THAT(what, AnyOf(HasSubstr(kWords.at(code)), HasSubstr("OpenGL draws on CUDA device 0, but device 1 smooths")));
   }
-  /// Returns whether it went well; tells errors as the window does.
+  /// Does `act`; returns whether it succeeded, and reports errors as the window does.
   template <class Act>
   bool attempt(const Act& act) {
     try {
@@ -81,11 +81,11 @@ class FakeFaults : public WithOpenGl {
     }
   }
 
-  /// What a person does: the program looks for a device, smooths, shows numbers and a picture, and closes.
+  /// A user's work: the program looks for a device, smooths, shows numbers and a picture, and closes.
   void live(Backend backend) {
     const Acceleration acceleration = make_accelerator();
     if (!acceleration.accelerator) expect_words(acceleration.reason);
-    if (backend == Backend::Cuda && !acceleration.accelerator) return;  // it is refused in these words
+    if (backend == Backend::Cuda && !acceleration.accelerator) return;  // the backend is refused in these words
     attempt([&] {
       dmoscope::Run run = make_run(backend, acceleration);
       work(run, backend);
@@ -103,7 +103,7 @@ class FakeFaults : public WithOpenGl {
         ASSERT_LE(here, kIterations);
         EXPECT_EQ(run.moment().visits, 0U);
         EXPECT_TRUE(is_finished(here, run.positions())) << "the mesh is that of a finished iteration";
-        act();  // and the person asks again
+        act();  // tries again
       }
     };
     with_retry([&] { run.iterate(kIterations - run.moment().iteration, progress); });
@@ -121,7 +121,7 @@ class FakeFaults : public WithOpenGl {
       EXPECT_TRUE(same(run.statistics().minimum, statistics[kIterations].minimum));
     });
   }
-  /// As render's DeviceFeed: by the device's own writing, else through the host, else not at all.
+  /// Draws like render's DeviceFeed: by the device's own writing, else through the host, else not at all.
   void draw(const DevicePicture& picture) {
     std::vector<Vec2<float>> points(input->mesh.vertex_count());
     std::vector<float> shades(input->mesh.elements.size());
@@ -147,7 +147,7 @@ class FakeFaults : public WithOpenGl {
     }
   }
 
-  /// All that `backend` calls when nothing goes wrong.
+  /// All calls with `backend` if nothing fails.
   std::vector<std::string> calls_of(Backend backend) {
     set_up_again();
     live(backend);
@@ -165,7 +165,7 @@ class FakeFaults : public WithOpenGl {
     EXPECT_THAT(leaks(), ::testing::IsEmpty());
   }
 
-  /// Every call fails in two ways: memory that is not there, and the loss of the device.
+  /// Makes every call fail in two ways: memory that is missing, and the loss of the device.
   void fail_all() {
     const std::vector<std::string> all = calls_of(Backend::Auto);
     EXPECT_THAT(all, ::testing::Contains("cudaGraphLaunch")) << "it runs on the device";
@@ -179,7 +179,7 @@ class FakeFaults : public WithOpenGl {
   RunParameters parameters;
   std::shared_ptr<const InputMesh> input;
   std::unique_ptr<Drawn> drawn;
-  std::vector<std::vector<Vec3>> finished;  // of each iteration
+  std::vector<std::vector<Vec3>> finished;  // positions after each iteration
   std::vector<Statistics> statistics;
   int code = 0;
 };
@@ -194,7 +194,7 @@ TEST_F(FakeFaults, EveryCallWhereTheProcessorMayGoOn) {
   std::printf("%zu calls of %zu kinds, %zu faults\n", all.size(), std::set<std::string>(all.begin(), all.end()).size(), faults);
 }
 
-/// One error that passes and one that takes the device: what differs from above is who is told.
+/// One transient error and one loss of the device; unlike above the errors are reported, since the device is named.
 TEST_F(FakeFaults, EveryCallWhereTheDeviceIsAskedForByName) {
   const std::vector<std::string> all = calls_of(Backend::Cuda);
   for (const int each : {kOperatingSystem, kIllegalAddress}) {

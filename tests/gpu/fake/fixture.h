@@ -1,5 +1,5 @@
 #pragma once
-// What every test on stand-ins asks in the end: that no rule was broken, and that all was given back.
+// Final checks of all tests on stand-ins: no rule was broken, and all was given back.
 
 #include <utility>
 

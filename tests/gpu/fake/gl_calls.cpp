@@ -1,4 +1,4 @@
-// The runtime's calls for OpenGL's buffers. While one is mapped its bytes are memory of the device, and go into it when it no longer is.
+// The runtime's calls for OpenGL's buffers. The bytes of a mapped buffer are memory of the device, and go back into it when it is unmapped.
 
 #include <fmt/format.h>
 
@@ -16,7 +16,7 @@ namespace {
 
 const void* current_context(const Machine& machine) { return machine.setup.gl == nullptr ? nullptr : machine.setup.gl->current_context(); }
 
-/// The resource, if it exists; that it is used with its context current on this thread is a rule, too.
+/// Returns the resource, if it exists; checks the rule that its context is current on this thread.
 cudaGraphicsResource* find(Machine& machine, cudaGraphicsResource_t handle, const char* call) {
   const auto found = machine.resources.find(handle);
   if (found == machine.resources.end()) {
@@ -34,7 +34,7 @@ cudaError_t map(Machine& machine, cudaGraphicsResource& resource, CUstream_st& s
     return cudaErrorAlreadyMapped;
   }
   if (resource.device != stream.device) machine.breach("cudaGraphicsMapResources in a stream of another device");
-  resource.mapped = machine.new_memory(resource.device, resource.bytes);  // what the buffer held is lost
+  resource.mapped = machine.new_memory(resource.device, resource.bytes);  // the former content is lost
   resource.stream = &stream;
   return cudaSuccess;
 }
@@ -56,7 +56,7 @@ cudaError_t unmap(Machine& machine, cudaGraphicsResource& resource, CUstream_st&
   return cudaSuccess;
 }
 
-/// For each of them; the first error.
+/// Calls act for each of them; returns the first error.
 template <class Act>
 cudaError_t for_each(Machine& machine, int count, cudaGraphicsResource_t* handles, cudaStream_t stream, const char* call, const Act& act) {
   if (machine.forbidden_in_capture(call)) return cudaErrorStreamCaptureUnsupported;

@@ -10,11 +10,11 @@ namespace dmoscope::gpu::fake {
 
 namespace {
 
-/// Those after which nothing is possible any more, as the runtime documents.
+/// Whether an error is permanent, as the runtime documents.
 bool is_for_ever(int code) { return code >= kIllegalAddress; }
-constexpr std::size_t kMostParameterBytes = 4096;  // of a kernel, on every device
+constexpr std::size_t kMostParameterBytes = 4096;  // limit for a kernel, on every device
 
-/// May be called between a copy of ordinary memory and the wait for it, if it succeeds.
+/// Whether a call may come between a copy of ordinary memory and the wait for it, if it succeeds.
 bool may_come_before_the_wait(std::string_view name) { return name == "cudaSetDevice" || name == "cudaStreamSynchronize"; }
 
 }  // namespace
@@ -141,13 +141,13 @@ cudaError_t Machine::launch(const void* function, dim3 grid, dim3 block, void** 
   if (stream == nullptr || named == functions.end()) return cudaErrorInvalidResourceHandle;
   const int device = stream->device;
   if (setup.devices[static_cast<std::size_t>(device)].too_old) return cudaErrorNoKernelImageForDevice;
-  static ptx::Kernels kernels(ptx::kernels_folder());  // read once, not for each of a thousand machines
+  static ptx::Kernels kernels(ptx::kernels_folder());  // read once for all machines
   const ptx::Entry& entry = kernels.find(ptx::demangled(named->second.c_str()));
   if (const std::string fault = fault_of(entry, grid, block, shared, *stream); !fault.empty()) {
     breach(fmt::format("a launch of {} with {}", entry.name, fault));
     return cudaErrorInvalidConfiguration;
   }
-  // To load a kernel may wait for all of the device, which a capture forbids.
+  // Loading a kernel may wait for all of the device, which a capture forbids.
   if (loaded_.insert({device, entry.name}).second && stream->kept_in() != nullptr)
     breach(fmt::format("{} is launched for the first time in a capture", entry.name));
   ++totals.launches;
@@ -196,7 +196,7 @@ void* Machine::new_memory(int device, std::size_t bytes) {
 }
 void Machine::forget_memory(int device, const void* old) { (void)global_[device].remove(old); }
 
-// What tests ask.
+// Queries of tests.
 
 void set_up(Equipment setup) {
   Machine& machine = Machine::get();

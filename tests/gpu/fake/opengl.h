@@ -1,5 +1,5 @@
 #pragma once
-// True OpenGL for the stand-ins, drawn by whatever draws without a screen here.
+// Real OpenGL for the stand-ins, drawn off screen by this machine.
 
 #include <memory>
 #include <vector>
@@ -22,7 +22,7 @@ class HeadlessGl final : public OpenGl {
     glGetNamedBufferParameteri64v(buffer, GL_BUFFER_SIZE, &bytes);
     return static_cast<std::size_t>(bytes);
   }
-  /// By another buffer, since this one may be of a kind that the processor does not write.
+  /// Writes through another buffer, since this one may be of a kind that the processor does not write.
   void write(std::uint32_t buffer, std::span<const std::byte> content) override {
     GLuint staging = 0;
     const auto bytes = static_cast<GLsizeiptr>(content.size());

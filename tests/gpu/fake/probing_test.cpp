@@ -1,4 +1,4 @@
-// Which device is chosen, and what is said of the others.
+// Choice of a device, and the messages about the others.
 
 #include "gpu/accelerator.h"
 #include "gpu/device.h"
@@ -84,7 +84,7 @@ TEST_F(FakeProbing, WhatCannotBeUsedIsNotTakenAndSaysWhy) {
   }
 }
 
-/// What goes wrong with one is not said of another.
+/// Errors of one device are not reported for another.
 TEST_F(FakeProbing, EachIsJudgedByItself) {
   set_up({.devices = std::vector<FakeDevice>(2)});
   (void)availability();

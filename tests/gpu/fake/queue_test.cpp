@@ -1,4 +1,4 @@
-// Smoothing on the stand-ins: streams, graphs, events and copies as gpu/cuda_queue.cpp asks for them, and the processor's bits.
+// Smoothing on the stand-ins: streams, graphs, events and copies of gpu/cuda_queue.cpp, and the processor's bits.
 
 #include "core/mesh/generate.h"
 #include "core/run/device_picture.h"
@@ -63,7 +63,7 @@ TEST_F(FakeQueue, SameBitsOfAVolume) {
   expect_same_visits(make_cuda_queue(0), subject, Metric::MeanRatio, {}, 2);
 }
 
-/// No formula can be compiled, for stand-ins load nothing: it is run step by step, and that is said.
+/// Formulas are never compiled, since stand-ins load nothing: they are run step by step, and the description says so.
 TEST_F(FakeQueue, SameBitsByFormulasAndTargets) {
   const Subject plane = subject_of(with_fields(lattice(8, 0.6, 97, Cells::Mixed))), volume(volume_samples(64).front().input);
   for (const int multiprocessors : {1, 132})
@@ -146,7 +146,7 @@ TEST_F(FakeQueue, LongCopiesComeThroughWhole) {
     for (ThreadPool* threads : {static_cast<ThreadPool*>(nullptr), &pool}) {
       memory.clear();
       memory.upload(sent, threads);
-      std::ranges::fill(sent, 0U);  // on return it may be changed
+      std::ranges::fill(sent, 0U);  // may be changed on return
       memory.download(found, threads);
       EXPECT_TRUE(found == copy);
       sent = copy;
@@ -157,7 +157,7 @@ TEST_F(FakeQueue, LongCopiesComeThroughWhole) {
 TEST_F(FakeQueue, AFailureInALongCopyIsSaidAndNextTimeItComesThrough) {
   constexpr std::size_t kSize = 3000000;
   std::vector<std::uint32_t> sent(kSize), found(kSize);
-  std::uint32_t value = 0;  // another one each time: what a failure left under way must not get among what comes next
+  std::uint32_t value = 0;  // a new value each time: work left by a failure must not get into later values
   const auto both_ways = [&](Queue& queue, void* memory) {
     std::ranges::fill(sent, ++value);
     queue.upload(memory, sent.data(), kSize * 4, nullptr);
@@ -185,7 +185,7 @@ TEST_F(FakeQueue, AFailureInALongCopyIsSaidAndNextTimeItComesThrough) {
   }
 }
 
-/// Fans and other stars of a class are visited side by side, in the recording as without one.
+/// Fans and other stars of a class are visited side by side, in the recording as well as without one.
 TEST_F(FakeQueue, WhatDoesNotDependOnEachOtherIsAskedOfTwoStreams) {
   const auto waits_in = [](Cells cells, bool whole) {
     const Subject subject = subject_of(lattice(18, 0.35, 95, cells));
@@ -196,7 +196,7 @@ TEST_F(FakeQueue, WhatDoesNotDependOnEachOtherIsAskedOfTwoStreams) {
     smoother->visit(0, whole ? subject.visits() : subject.visits() - 1, positions, nullptr);
     return count_of("cudaStreamWaitEvent") - before;
   };
-  // Two are those of the first use of the second stream.
+  // Two waits come from the first use of the second stream.
   for (const bool whole : {true, false}) EXPECT_GT(waits_in(Cells::Mixed, whole), 2U) << whole;
 }
 
@@ -206,13 +206,13 @@ TEST_F(FakeQueue, OnlyWhatReadsPicturesIsUrgent) {
   const Acceleration acceleration = make_accelerator();
   ASSERT_NE(acceleration.accelerator, nullptr) << acceleration.reason;
   const auto smoother = acceleration.accelerator->make_dmo(subject.task(Metric::MeanRatio));
-  const std::vector<int> all = priorities();  // of the accelerator, the run and its side, and who reads
+  const std::vector<int> all = priorities();  // of the accelerator, the run and its side, and the reader
   ASSERT_EQ(all.size(), 4U);
   EXPECT_LT(all[0], all[1]) << "the lower is the more urgent";
   EXPECT_EQ(all[1], all[3]);
 }
 
-/// Work of two queues is done in any order, but for what stands before a mark.
+/// Work of two queues is done in any order, except before a mark.
 TEST_F(FakeQueue, AMarkIsWaitedFor) {
   const auto maker = make_cuda_queue(0), reader = maker->sibling(Urgency::First);
   Buffer<std::uint32_t> memory(maker, 4);
@@ -264,10 +264,10 @@ TEST_F(FakeQueue, AKernelThatTouchesWhatIsNotItsOwnLosesTheDeviceAndThePositions
   const auto told = breaches();
   ASSERT_EQ(told.size(), 1U);
   EXPECT_THAT(told[0], ::testing::HasSubstr("out of bounds"));
-  set_up({});  // it was meant
+  set_up({});  // the breach was intended
 }
 
-/// A run by the accelerator that the program makes: steps, seeks, and what a person asks for between two visits.
+/// A run by the program's accelerator: steps, seeks, and requests of the user between two visits.
 TEST_F(FakeQueue, ARunGoesAsOnTheProcessor) {
   Progress progress;
   const auto input = prepare_input(lattice(12, 0.35, 99), {}, Need::Smoothing, progress);

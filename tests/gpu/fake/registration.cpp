@@ -1,4 +1,4 @@
-// What nvcc's code calls before main(), and for kernel<<<...>>>.
+// Calls of nvcc's code before main(), and for kernel<<<...>>>.
 
 #include "tests/gpu/fake/machine.h"
 
@@ -38,7 +38,7 @@ cudaError_t __cudaPopCallConfiguration(dim3* grid, dim3* block, std::size_t* sha
   configurations.pop_back();
   return cudaSuccess;
 }
-/// nvcc's code asks once and keeps the answer, also where that was an error.
+/// Returns a kernel's handle; nvcc's code asks once and keeps the answer, even an error.
 cudaError_t __cudaGetKernel(cudaKernel_t* kernel, const void* function) {
   return call("__cudaGetKernel", [&](const Machine&) {
     *kernel = static_cast<cudaKernel_t>(const_cast<void*>(function));

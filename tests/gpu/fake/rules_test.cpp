@@ -1,4 +1,4 @@
-// The stand-ins see when a rule of the runtime is broken: each of these breaks one, and they say which.
+// Breaches of the runtime's rules: each test makes one, and the stand-ins report it.
 
 #include <cstring>
 #include <thread>
@@ -179,7 +179,7 @@ TEST_F(FakeRules, HostMemoryThatADeviceHasYetToWrite) {
   expect_told("that a device has yet to write");
 }
 
-/// As CUDA says of errors that end a context.
+/// Errors that end a context, by CUDA's documentation.
 TEST_F(FakeRules, ALostDeviceStaysLostAndOtherErrorsPass) {
   fail_at(1, kOperatingSystem);
   EXPECT_EQ(cudaStreamSynchronize(stream), cudaErrorOperatingSystem);

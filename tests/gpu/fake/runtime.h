@@ -1,7 +1,7 @@
 #pragma once
-// Devices that are not there: what the stand-ins for the CUDA runtime's calls (calls.cpp) do their work on, and what tests set and ask.
-// Work is kept until something waits for it, kernels are the PTX that nvcc made of them, and whoever breaks a rule of the runtime's
-// documentation is told in words: see breaches().
+// Simulated devices, on which the stand-ins for the CUDA runtime's calls (calls.cpp) work, and the settings and queries of tests. Work is
+// kept until something waits for it, kernels are the PTX that nvcc made of them, and breaches of the rules in the runtime's documentation
+// are described in words: see breaches().
 
 #include <cstddef>
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace dmoscope::gpu::fake {
 
-/// The runtime's numbers of the errors that tests name. From Lost on they take the device away: every call after it fails, too.
+/// The runtime's numbers of the errors that tests name. From Lost on they end the device: every call after them fails, too.
 enum Code : int {
   kOutOfMemory = 2,
   kDriverTooOld = 35,
@@ -44,38 +44,38 @@ class OpenGl {
   OpenGl(const OpenGl&) = delete;
   OpenGl& operator=(const OpenGl&) = delete;
   virtual ~OpenGl() = default;
-  /// Of the calling thread; null: none is current.
+  /// The context of the calling thread; null: none is current.
   [[nodiscard]] virtual const void* current_context() = 0;
-  /// In bytes; nothing where there is no such buffer.
+  /// Size of a buffer in bytes; none if there is no such buffer.
   [[nodiscard]] virtual std::optional<std::size_t> size_of(std::uint32_t buffer) = 0;
   virtual void write(std::uint32_t buffer, std::span<const std::byte> content) = 0;
 };
 
-/// Sets the devices up anew; what the program still holds of the old ones it may not use any more.
+/// Setup of new devices; the program must not use objects of the old ones any more.
 struct Equipment {
   std::vector<FakeDevice> devices{FakeDevice{}};
   int driver = 13000;     // its version; 0: none is installed
   int drawing = 0;        // the device that OpenGL draws on; negative: none
   OpenGl* gl = nullptr;   // null: no context is current anywhere
-  bool together = false;  // which lanes are said to be active at once, see ptx::Schedule
+  bool together = false;  // which lanes are told to be active at once, see ptx::Schedule
 };
 void set_up(Equipment setup);
 
-/// The call number `call` from now on, the next being 1, fails with `code`.
+/// Makes call number `call` from now on, the next being 1, fail with `code`.
 void fail_at(std::size_t call, int code);
-/// Was that call reached?
+/// Whether the call of fail_at() was reached.
 [[nodiscard]] bool has_failed();
-/// The names of all calls since set_up(), in their order. Those that only translate an error into words are not among them.
+/// The names of all calls since set_up(), in their order, without those that only translate an error into words.
 [[nodiscard]] std::vector<std::string> calls();
-/// What was done against the rules since set_up().
+/// Breaches of the rules since set_up().
 [[nodiscard]] std::vector<std::string> breaches();
-/// What was made and not given back since set_up().
+/// Objects that were made and not destroyed since set_up().
 [[nodiscard]] std::vector<std::string> leaks();
-/// Of the streams that there are, ascending: the most urgent first.
+/// Priorities of the existing streams, ascending: the most urgent first.
 [[nodiscard]] std::vector<int> priorities();
-/// The devices that were made a thread's own since set_up(): each has taken memory and time for it.
+/// The devices that were current on a thread since set_up(): each has taken memory and time for it.
 [[nodiscard]] std::set<int> devices_used();
-/// All that any test program of this process called so far, and how often something failed on demand.
+/// Number of all calls of this process's tests so far, and of failures on demand.
 struct Totals {
   std::size_t calls = 0, failures = 0, launches = 0;
 };

@@ -22,7 +22,7 @@ if [[ -n ${AUTHORS:-} ]]; then CAPABILITY=${architectures%%[-;]*} tests/gpu/auth
 rm -rf .prebuilt
 mkdir .prebuilt
 git describe --always --dirty --abbrev=12 >.prebuilt/commit
-# The programs are mostly alike: a dictionary that reaches over all of them, and they stand one after the other.
+# The programs are mostly alike: they stand one after the other, with a dictionary that reaches over all of them.
 find "$stage" -type f -printf '%P\n' | sort -t/ -k2 | tar -C "$stage" -c --no-recursion -T - |
   xz -T1 --lzma2=preset=2,dict=128MiB >.prebuilt/programs.tar.xz
 du -sh "$stage" .prebuilt .headers | sed "s:$stage:unpacked:"

@@ -7,7 +7,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../../.."
 bundle=${UNPACKED:-$(mktemp -d)}
 if [[ ! -x $bundle/bin/dmoscope ]]; then
   mkdir -p "$bundle"
-  # Python reads it where there is no xz.
+  # Python reads the archive if there is no xz.
   tar -xJ -C "$bundle" -f .prebuilt/programs.tar.xz 2>/dev/null ||
     python3 -c 'import sys, tarfile; tarfile.open(sys.argv[1]).extractall(sys.argv[2])' .prebuilt/programs.tar.xz "$bundle"
 fi

@@ -13,7 +13,7 @@ using Set = std::vector<std::uint64_t>;  // a bit per slot
 void remove(Set& set, Slot slot) { set[slot / 64] &= ~(std::uint64_t{1} << slot % 64); }
 void add(Set& set, Slot slot) { set[slot / 64] |= std::uint64_t{1} << slot % 64; }
 bool holds(const Set& set, Slot slot) { return (set[slot / 64] >> slot % 64 & 1U) != 0; }
-/// Returns whether it became smaller.
+/// Intersects `set` with another; returns whether it became smaller.
 bool intersect(Set& set, const Set& other) {
   bool changed = false;
   for (std::size_t i = 0; i < set.size(); ++i) {
@@ -25,7 +25,7 @@ bool intersect(Set& set, const Set& other) {
 }
 
 bool is_copied(const Instruction& i, std::size_t operand) { return (i.copied >> operand & 1U) != 0; }
-/// What is written after an instruction, given what was before.
+/// Adds the slots that an instruction writes to those written before.
 void pass(Set& written, const Instruction& i) {
   bool whole = true;
   for (std::size_t k = i.written; k < i.used; ++k) whole = whole && (!is_copied(i, k) || holds(written, i.slots[k]));
@@ -36,7 +36,7 @@ void pass(Set& written, const Instruction& i) {
 bool is_jump(const Instruction& i) { return i.run == kJump.run || i.run == kJumpIf.run || i.run == kJumpUnless.run; }
 bool ends_here(const Instruction& i) { return i.run == kJump.run || i.run == find_operation("ret")->run; }
 
-/// Straight pieces of the code, and for each what is surely written where it begins.
+/// Straight pieces of the code, with the slots that are surely written at the start of each.
 class Pieces {
  public:
   explicit Pieces(const Entry& entry) : entry_(entry), piece_of_(entry.code.size() + 1) {
@@ -51,7 +51,7 @@ class Pieces {
       piece_of_[i] = first_.size() - 1;
     }
     const std::size_t words = (entry.initial.size() + 63) / 64;
-    written_.assign(first_.size(), Set(words, ~std::uint64_t{0}));  // all, until a way is found that writes less
+    written_.assign(first_.size(), Set(words, ~std::uint64_t{0}));  // all, until a path is found that writes less
     std::ranges::fill(written_[0], 0);
     for (Slot slot = 0; slot < entry.initial.size(); ++slot)
       if (slot < kFirstParameter + entry.parameters.size() || entry.initial[slot] != kPoison) add(written_[0], slot);

@@ -1,5 +1,5 @@
 #pragma once
-// Is every register written before something is computed with it?
+// Check that every register is written before something is computed with it.
 
 #include <optional>
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace dmoscope::gpu::ptx {
 
-/// The text of the first instruction that can be reached with a register not yet written that it computes with, decides by, or takes for an
-/// address; nothing where there is none. What was not written may be passed on: the gaps of a structure are.
+/// The text of the first reachable instruction that computes with, branches on, or addresses by a register not yet written; none if there
+/// is none. Registers that were not written may be copied, as the gaps of a structure are.
 [[nodiscard]] std::optional<std::string> read_before_written(const Entry& entry);
 
 }  // namespace dmoscope::gpu::ptx

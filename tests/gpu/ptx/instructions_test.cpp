@@ -1,5 +1,5 @@
-// What a visit costs, in instructions: the one figure of speed that no GPU is needed for. The same code and the same nvcc give the same
-// number, to the last instruction.
+// Cost of a visit, in instructions: the one figure of speed that needs no GPU. The same code and the same nvcc give the same number, to the
+// last instruction.
 
 #include <map>
 #include <string_view>
@@ -14,8 +14,8 @@ namespace {
 
 using gpu::testing::Subject;
 
-/// Instructions of all lanes for each vertex of a first iteration, of nvcc 13.0: its code generators up to 90 and from 100 on. When a
-/// change makes them fewer, put the new ones here.
+/// Instructions of all lanes for each vertex of a first iteration, by nvcc 13.0: its code generators up to 90 and from 100 on. Put new
+/// numbers here when a change lowers them.
 struct Budget {
   Work work;
   double older, newer;
@@ -32,7 +32,7 @@ class PtxInstructions : public ::testing::Test {
 #endif
     kernels = std::make_shared<Kernels>(kernels_folder());
   }
-  /// One iteration of the mean ratio. Fails where a visit takes more than a tenth over the budget.
+  /// Does one iteration of the mean ratio. Fails if a visit takes more than a tenth over the budget.
   void expect_within(const Budget& budget, std::size_t lanes_at_once, Mesh mesh) const {
     Progress progress;
     const Subject subject(prepare_input(std::move(mesh), {}, Need::Smoothing, progress));
@@ -40,7 +40,7 @@ class PtxInstructions : public ::testing::Test {
     const auto queue = make_ptx_queue(kernels, {.lanes_at_once = lanes_at_once, .instructions = &instructions});
     const auto device = make_device_dmo(queue, subject.task(Metric::MeanRatio));
     device->begin({});
-    instructions.clear();  // what went before visits nobody
+    instructions.clear();  // earlier launches visit no vertex
     std::vector<Vec3> positions = subject.input->mesh.positions;
     EXPECT_GT(device->visit(0, subject.visits(), positions, nullptr), subject.visits() / 2);
     const double found = static_cast<double>(instructions.at(budget.work)) / static_cast<double>(subject.visits());
@@ -53,7 +53,7 @@ class PtxInstructions : public ::testing::Test {
   std::shared_ptr<Kernels> kernels;
 };
 
-/// All diagonals the same way, so that six triangles meet in every vertex.
+/// A lattice with all diagonals the same way, so that six triangles meet in every vertex.
 Mesh sixes(Index n) {
   using dmoscope::testing::add, dmoscope::testing::Random;
   Mesh mesh;

@@ -1,4 +1,4 @@
-// Small kernels: memory, lanes that pass values to each other, and all that must be an error.
+// Small kernels: memory, lanes that pass values to each other, and all errors.
 
 #include <numeric>
 
@@ -17,7 +17,7 @@ using ::testing::ThrowsMessage;
 using U32 = std::uint32_t;
 using Words = std::array<U32, 32>;
 
-/// %mine: where the lane's word of `out` lies; %v: its word of `in`; %team: the mask of the eight lanes it is one of.
+/// %mine: the address of the lane's word of `out`; %v: its word of `in`; %team: the mask of its eight lanes.
 const std::string kOwnWord =
     "mul.wide.u32 %at, %tid, 4; add.s64 %mine, %out, %at; add.s64 %from, %in, %at; ld.global.u32 %v, [%from];\n"
     "and.b32 %first, %tid, 24; mov.u32 %ones, 255; shl.b32 %team, %ones, %first;\n";
@@ -52,7 +52,7 @@ TEST(PtxInterpreter, InstructionsAreCounted) {
   const Entry entry = probe("mov.u32 %left, %tid;\n$L__BB0_1:\nadd.s32 %left, %left, -1; setp.ge.s32 %q, %left, 0; @%q bra $L__BB0_1;\n");
   const std::vector<std::byte> parameters(2 * sizeof(std::uint64_t));
   const GlobalMemory global;
-  const std::uint64_t rounds = 32 * 33 / 2;  // lane 0 goes round once, each one more than the lane before
+  const std::uint64_t rounds = 32 * 33 / 2;  // lane 0 goes round once, each other lane once more than the lane before
   EXPECT_EQ(run_blocks(entry, global, parameters, 3, {}, 32), 3 * (32 * 5 + 3 * rounds)) << "five are no part of the round";
 }
 
@@ -77,7 +77,7 @@ TEST(PtxInterpreter, TeamsShareMemoryAcrossTheirMeetings) {
     for (U32 i = 0; i < 32; ++i) EXPECT_EQ(out[i], 100 + (i ^ 7U));
   }
 }
-/// As nvcc declares the memory of a function that two kernels have.
+/// Shared memory as nvcc declares it for a function of two kernels.
 TEST(PtxInterpreter, SharedMemoryIsDeclaredBeforeAKernelToo) {
   const std::string text =
       ".shared .align 16 .b8 first[32];\n.shared .align 4 .b8 other[8];\n.visible .entry probe(\n)\n{\nmov.u32 %a, first; ret;\n\n}\n"
@@ -97,13 +97,13 @@ TEST(PtxInterpreter, SharedMemoryHasBounds) {
   EXPECT_THAT([] { (void)run_words(".shared .align 4 .b8 sum[4];\nmov.u32 %at0, sum; st.shared.u32 [%at0+4], %v;"); },
               ThrowsMessage<Fault>(HasSubstr("shared memory")));
 }
-/// Who is gone never comes to the barrier.
+/// A lane that has finished never reaches the barrier.
 TEST(PtxInterpreter, ABarrierWantsAll) {
   EXPECT_THAT([] { (void)run_words("setp.eq.s32 %p, %tid, 3; @%p bra $L__BB0_1;\nbar.sync 0;\n$L__BB0_1:\n"); },
               ThrowsMessage<Fault>(HasSubstr("wait for each other")));
 }
 
-/// What lanes do with the words of `out` beside their own.
+/// Accesses of lanes to words of `out` that are not their own.
 class PtxRaces : public ::testing::Test {
  protected:
   void run(const std::string& body) {
@@ -140,7 +140,7 @@ TEST_F(PtxRaces, AreNoneWhereTheOrderDoesNotMatter) {
       << "bytes side by side";
 }
 
-/// As CUDA documents __shfl_xor_sync: a later group of lanes may read an earlier one's values, not the other way round.
+/// A later group of lanes may read an earlier one's values, not the other way round, as CUDA documents __shfl_xor_sync.
 TEST(PtxInterpreter, BeyondItsSegmentALaneKeepsItsValue) {
   const Words out = run_words(
       "shfl.sync.bfly.b32 %w|%p, %v, 8, 6175, -1; selp.u32 %e, 1, 0, %p; shl.b32 %f, %e, 16; add.s32 %g, %w, %f;\n"
@@ -192,7 +192,7 @@ TEST(PtxInterpreter, HalvesOfARegister) {
   EXPECT_EQ(out, (std::array<std::uint32_t, 4>{1, 2, 0x00010002U, 0}));
 }
 
-/// What is wrong, and with which instruction.
+/// Expects a fault with this text and this instruction.
 void expect_fault(const std::string& body, const std::string& instruction, const std::string& what) {
   SCOPED_TRACE(body);
   EXPECT_THAT([&] { run_one(body); }, ThrowsMessage<Fault>(HasSubstr(instruction)));

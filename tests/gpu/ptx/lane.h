@@ -16,7 +16,7 @@
 
 namespace dmoscope::gpu::ptx {
 
-/// What a lane computes with: registers, constants and the special registers all have a slot.
+/// Number of an operand: registers, constants and the special registers all have a slot.
 using Slot = std::uint32_t;
 inline constexpr Slot kThread = 0, kBlock = 1, kLocal = 2, kFirstParameter = 3;
 
@@ -27,12 +27,12 @@ using Handler = void (*)(Lane& lane, const Instruction& instruction);
 
 struct Instruction {
   Handler run = nullptr;
-  std::int64_t offset = 0;             // what is added to an address; where a branch leads
-  std::array<Slot, 6> slots{};         // what is written, then what is read
-  std::uint8_t written = 0, used = 0;  // how many of them
-  std::uint8_t copied = 0;             // a bit for each that is not computed with, but passed on to the first or to memory
-  std::uint8_t aligned = 1;            // what an address must be a multiple of
-  std::uint32_t text = 0;              // in Entry::texts
+  std::int64_t offset = 0;             // added to an address; target of a branch
+  std::array<Slot, 6> slots{};         // slots that are written, then those that are read
+  std::uint8_t written = 0, used = 0;  // their numbers
+  std::uint8_t copied = 0;             // a bit for each that is not computed with, but copied to the first slot or to memory
+  std::uint8_t aligned = 1;            // required alignment of an address
+  std::uint32_t text = 0;              // index into Entry::texts
 };
 
 /// A kernel, decoded.
@@ -40,15 +40,15 @@ struct Entry {
   std::string name;  // mangled
   std::vector<Instruction> code;
   std::vector<std::string> texts;
-  std::vector<std::uint64_t> initial;   // of the first slots: special registers and parameters, which are kPoison, then constants
-  std::size_t slot_count = 0;           // with the registers, which come last
-  std::vector<std::size_t> parameters;  // where each lies in the block of parameters
+  std::vector<std::uint64_t> initial;   // values of the first slots: special registers and parameters, which are kPoison, then constants
+  std::size_t slot_count = 0;           // including the registers, which come last
+  std::vector<std::size_t> parameters;  // their offsets in the block of parameters
   std::vector<std::size_t> parameter_sizes;
   std::size_t parameter_bytes = 0, local_bytes = 0, shared_bytes = 0;
-  std::size_t most_threads = 1024;  // of a block
-  std::size_t team = 1;             // lanes that work together
+  std::size_t most_threads = 1024;  // limit of a block
+  std::size_t team = 1;             // number of lanes that work together
 };
-/// Where a block's shared memory begins; below it nothing is.
+/// Start of a block's shared memory; addresses below it are invalid.
 inline constexpr std::uintptr_t kSharedBase = 256;
 inline constexpr std::uint64_t kPoison = 0x7ff4cdcd7fa4cdcd;  // not a number, in both formats
 
@@ -56,27 +56,26 @@ class Lane {
  public:
   enum class State { Running, AtButterfly, AtIndexedShuffle, AtActiveMask, AtBarrier, AtMeeting, Done };
 
-  /// At the beginning of a kernel. `parameters`: as the entry lays them out. `shared`: the block's memory, as large as the entry says.
-  /// See also watch_for_races().
+  /// Begins a kernel. `parameters`: in the entry's layout. `shared`: the block's memory, of the entry's size. See also watch_for_races().
   void start(const Entry& entry, const GlobalMemory& global, const std::vector<std::byte>& parameters, std::span<std::byte> shared,
              std::uint32_t block, std::uint32_t thread);
-  /// Null: nobody watches.
+  /// Sets the detector of races; null: none.
   void watch_for_races(Races* races, Agent agent) noexcept {
     races_ = races;
     agent_ = agent;
   }
-  /// Until it is done or waits for others.
+  /// Runs until the lane is done or waits for others.
   void run();
 
   [[nodiscard]] State state() const noexcept { return state_; }
-  /// Done so far, in all kernels that it was started in.
+  /// Number of instructions so far, in all kernels of this lane.
   [[nodiscard]] std::uint64_t instructions() const noexcept { return instructions_; }
   void wait(State why) noexcept {
     state_ = why;
     --at_;
   }
   void finish() noexcept { state_ = State::Done; }
-  /// After the instruction that it waited at.
+  /// Continues after the instruction that it waited at.
   void go_on() noexcept {
     state_ = State::Running;
     ++at_;
@@ -100,7 +99,7 @@ class Lane {
       return value;
     }
   }
-  /// The higher bits become zero.
+  /// Sets the low bits of a slot; the higher bits become zero.
   template <class T>
   void put(Slot slot, T value) {
     std::uint64_t bits = 0;
@@ -109,9 +108,9 @@ class Lane {
   }
 
   enum class Space { Global, Local, Shared, Parameter, Generic };
-  /// Throws Fault where the lane has nothing there, or the address is not a multiple of `aligned`.
+  /// Returns memory that the lane accesses. Throws Fault if the lane has none there, or if the address is not a multiple of `aligned`.
   [[nodiscard]] std::byte* memory(Space space, std::uintptr_t address, std::size_t size, std::size_t aligned) const;
-  /// What the lane does with such memory. Throws Fault where another lane of the launch is in the way.
+  /// Notes an access to memory. Throws Fault if it conflicts with another lane of the launch.
   template <class T>
   void reads(std::uintptr_t address) const {
     if (is_watched(address))
@@ -128,14 +127,14 @@ class Lane {
 
  private:
   static constexpr std::size_t kWord = 4;
-  /// Its own memory is nobody else's, and parameters are not written.
+  /// Whether accesses are checked for races: local memory is not shared, and parameters are not written.
   [[nodiscard]] bool is_watched(std::uintptr_t address) const {
     return races_ != nullptr && !local_.holds(address, 1) && global_->holds(address, 1);
   }
 
   const Entry* entry_ = nullptr;
   const GlobalMemory* global_ = nullptr;
-  std::unique_ptr<std::uint64_t[]> slots_;  // no register is read before it is written (see assigned.h)
+  std::unique_ptr<std::uint64_t[]> slots_;  // uninitialised, for no register is read before it is written (see assigned.h)
   std::vector<std::max_align_t> local_memory_;
   Extent local_, parameters_;
   std::span<std::byte> shared_;

@@ -1,5 +1,5 @@
 #pragma once
-// The memory that kernels may touch.
+// Memory that kernels may access.
 
 #include <cstddef>
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace dmoscope::gpu::ptx {
 
-/// What an instruction must not do; whoever runs it adds which one it was.
+/// An invalid operation of an instruction; the caller adds which instruction it was.
 class Fault : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -23,11 +23,11 @@ struct Extent {
   }
 };
 
-/// A device's global memory: what was allocated, and not a byte beside it.
+/// A device's global memory: exactly the allocated bytes.
 class GlobalMemory {
  public:
   void add(const void* memory, std::size_t bytes) { sizes_[reinterpret_cast<std::uintptr_t>(memory)] = bytes; }
-  /// Returns how large it was.
+  /// Removes a piece and returns its size.
   std::size_t remove(const void* memory) {
     const auto found = sizes_.find(reinterpret_cast<std::uintptr_t>(memory));
     if (found == sizes_.end()) throw Fault("memory is released that was not allocated");

@@ -30,12 +30,12 @@ template <class F, class R, class... A>
 constexpr Operation operation(R (*)(A...)) {
   return {[](Lane& lane, const Instruction& i) { apply<F, R, A...>(lane, i, std::index_sequence_for<A...>{}); }, 1, sizeof...(A) + 1};
 }
-/// f: a lambda without captures, of the operands that are read.
+/// Makes a handler. f: a lambda without captures, with the operands that are read.
 template <class F>
 constexpr Operation op(F f) {
   return operation<F>(+f);
 }
-/// `operands`: a bit for each that is passed on as it is.
+/// `operands`: a bit for each that is copied unchanged.
 template <class F>
 constexpr Operation copies(unsigned operands, F f) {
   Operation made = operation<F>(+f);
@@ -44,13 +44,13 @@ constexpr Operation copies(unsigned operands, F f) {
 }
 constexpr unsigned kFirst = 1U << 1U, kSecond = 1U << 2U;
 
-// --- What the device does otherwise than the host, or what C++ leaves open.
+// --- Differences of the device from the host, and behaviour that C++ leaves open.
 
-/// Results in single precision that are not a number are all the same one.
+/// Replaces a single-precision NaN by the one that the device gives.
 float canonical(float x) { return std::isnan(x) ? std::bit_cast<float>(U32{0x7fffffff}) : x; }
 double canonical(double x) { return x; }
 
-/// The other one where one is not a number; -0 is less than +0.
+/// Minimum or maximum: the other operand if one is not a number; -0 is less than +0.
 template <class T>
 T least(T a, T b) {
   if (std::isnan(a) || std::isnan(b)) return canonical(std::isnan(a) ? b : a);
@@ -64,7 +64,7 @@ T greatest(T a, T b) {
   return a < b ? b : a;
 }
 
-/// Towards zero, and to the nearest that there is.
+/// Converts to an integer, towards zero, and to the nearest one in range.
 U64 truncated(double x) {
   if (std::isnan(x)) return U64{1} << 63U;
   if (x <= 0.0) return 0;
@@ -91,13 +91,13 @@ U32 unsigned_quotient_of(U32 a, U32 b) {
   if (b == 0) throw Fault("a division without a quotient");
   return a / b;
 }
-/// Towards zero.
+/// Quotient, rounded towards zero.
 U32 quotient_of(I32 a, I32 b) {
   if (b == 0 || (b == -1 && a == std::numeric_limits<I32>::min())) throw Fault("a division without a quotient");
   return static_cast<U32>(a / b);
 }
 
-/// The low `length` bits of `from`, in `into` from bit `position` on.
+/// Inserts the low `length` bits of `from` into `into`, from bit `position` on.
 U64 inserted(U64 from, U64 into, U32 position, U32 length) {
   position &= 0xffU;
   length &= 0xffU;
@@ -105,7 +105,7 @@ U64 inserted(U64 from, U64 into, U32 position, U32 length) {
   return (into & ~mask) | (shifted_left(from, position) & mask);
 }
 
-/// `length` bits of `from`, from bit `position` on.
+/// Returns `length` bits of `from`, from bit `position` on.
 U32 extracted(U32 from, U32 position, U32 length) {
   length &= 0xffU;
   const U32 rest = shifted_right(from, position & 0xffU);
@@ -156,11 +156,11 @@ void add_floats(Table& t) {
   t["cvt.rn.f64.s64"] = op([](I64 a) { return static_cast<double>(a); });
   t["cvt.rn.f64.u64"] = op([](U64 a) { return static_cast<double>(a); });
   t["cvt.rzi.u64.f64"] = op([](double a) { return truncated(a); });
-  t["cvt.rzi.s64.f64"] = op([](double a) {  // what is no number, or out of range: the ends
+  t["cvt.rzi.s64.f64"] = op([](double a) {  // the end of the range for NaN and values out of range
     if (!(a > -0x1p63)) return std::numeric_limits<I64>::min();
     return a < 0x1p63 ? static_cast<I64>(a) : std::numeric_limits<I64>::max();
   });
-  t["cvt.rzi.s32.f64"] = op([](double a) {  // NaN is 0, what is out of range the nearest that is not
+  t["cvt.rzi.s32.f64"] = op([](double a) {  // 0 for NaN, the nearest number in range for others
     if (a != a) return U32{0};
     const double bounded = std::clamp(std::trunc(a), -0x1p31, 0x1p31 - 1.0);
     return static_cast<U32>(static_cast<std::int32_t>(bounded));
@@ -262,7 +262,7 @@ void add_order(Table& t, std::array<std::string_view, 6> names) {
   t[names[5]] = op([](T a, T b) { return a >= b; });
 }
 
-/// Those of numbers are false, the others true where an operand is not a number.
+/// Comparisons of numbers are false, the others true if an operand is not a number.
 template <class T>
 void add_float_order(Table& t, std::array<std::string_view, 14> n) {
   add_order<T>(t, {n[0], n[1], n[2], n[3], n[4], n[5]});
@@ -357,7 +357,7 @@ std::optional<Access> access_of(std::string_view type, bool is_load) {
   return std::nullopt;
 }
 
-/// Takes `part` from the beginning of `text`, if it is there.
+/// Removes `part` from the beginning of `text`, if it is there.
 bool take(std::string_view& text, std::string_view part) {
   if (!text.starts_with(part)) return false;
   text.remove_prefix(part.size());

@@ -1,5 +1,5 @@
 #pragma once
-// What each of PTX's instructions does, by the text of its opcode. After NVIDIA's "PTX ISA"; only what nvcc makes of the kernels.
+// Effects of PTX's instructions, by the text of the opcode. After NVIDIA's "PTX ISA"; only those that nvcc uses in the kernels.
 
 #include <optional>
 #include <string_view>
@@ -16,7 +16,7 @@ struct Operation {
 /// The operation of an opcode whose operands are only registers and constants, such as "add.rn.f32".
 [[nodiscard]] std::optional<Operation> find_operation(std::string_view opcode);
 
-/// An access to memory ("ld.global.v2.f32", "st.local.u8", "atom.global.add.u32"): what is done for each element of the vector.
+/// An access to memory ("ld.global.v2.f32", "st.local.u8", "atom.global.add.u32"): the operation for each element of the vector.
 struct Access {
   Operation operation;    // slots: register, address[, register]; of a store: address, register
   std::size_t size = 0;   // bytes of an element
@@ -25,11 +25,11 @@ struct Access {
 };
 [[nodiscard]] std::optional<Access> find_access(std::string_view opcode);
 
-/// offset: where to; slots[0]: the predicate of the conditional two.
+/// Branches. offset: the target; slots[0]: the predicate of the conditional two.
 extern const Operation kJump, kJumpIf, kJumpUnless;
-/// mov.b64 d, {a, b} and its reverse, which is two instructions.
+/// The instruction mov.b64 d, {a, b} and its reverse, which is two instructions.
 extern const Operation kPack, kLowHalf, kHighHalf;
-/// The same of mov.b32.
+/// The instruction mov.b32 d, {a, b} and its reverse.
 extern const Operation kPackShort, kLowShort, kHighShort;
 
 }  // namespace dmoscope::gpu::ptx

@@ -1,4 +1,4 @@
-// Single instructions, against values that do not come from the code that runs them.
+// Single instructions, against independent values.
 
 #include <bit>
 #include <cmath>
@@ -23,7 +23,7 @@ U64 bits(double x) { return std::bit_cast<U64>(x); }
 
 struct Order {
   const char* name;
-  bool less, equal, greater, unordered;  // what is said of 1 and 2, of 2 and 2, of 3 and 2, and where one is not a number
+  bool less, equal, greater, unordered;  // results for 1 and 2, 2 and 2, 3 and 2, and with a NaN
 };
 
 TEST(PtxOperations, ComparisonsKnowWhatIsNoNumber) {

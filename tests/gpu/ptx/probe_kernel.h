@@ -24,7 +24,7 @@ inline Entry probe(const std::string& body) {
   return decode(find_entries(text).at(0));
 }
 
-/// One warp of it.
+/// Runs one warp of the kernel.
 template <class In, class Out, std::size_t N, std::size_t M>
 void run_probe(const std::string& body, const std::array<In, N>& in, std::array<Out, M>& out, Schedule schedule = {}) {
   const Entry entry = probe(body);
@@ -41,7 +41,7 @@ void run_probe(const std::string& body, const std::array<In, N>& in, std::array<
   while (!warp.run(schedule)) warp.pass_barrier();
 }
 
-/// What one instruction computes from the operands.
+/// Result of one instruction with these operands.
 template <class R, class... A>
 R result(const std::string& opcode, A... operands) {
   alignas(8) std::array<std::uint64_t, 4> in{}, out{};

@@ -1,4 +1,4 @@
-// Formulas and targets on what nvcc made of the kernels that run programs step by step, and on what NVRTC made of the programs.
+// Formulas and targets on nvcc's code of the kernels that run programs step by step, and on NVRTC's code of the programs.
 
 #include "gpu/defined/formula_source.h"
 #include "gpu/nvrtc.h"
@@ -16,7 +16,7 @@ class PtxDefinedDmo : public ::testing::TestWithParam<std::size_t> {
     if (kernels_folder().empty()) GTEST_SKIP() << "needs the kernels' PTX; built without a CUDA toolkit";
     kernels = std::make_shared<Kernels>(kernels_folder());
   }
-  /// On some of the meshes, each metric on others.
+  /// Compares on some of the meshes, with other metrics on each.
   void expect_same(const PtxDevice& device, int iterations) {
     const std::string_view words = kDefinedMetrics[GetParam()];
     std::size_t turn = 0, tried = 0;

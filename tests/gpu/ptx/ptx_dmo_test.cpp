@@ -1,4 +1,4 @@
-// The smoother on what nvcc made of the kernels: the processor's bits, although no GPU is at hand.
+// The smoother on nvcc's code of the kernels: the processor's bits, without a GPU.
 
 #include <algorithm>
 #include <array>
@@ -39,7 +39,7 @@ Subject subject_of(Mesh mesh) {
   return Subject(prepare_input(std::move(mesh), {}, Need::Smoothing, progress));
 }
 
-/// The zoo, and what takes the ways that are left: exact visits of tilted planes and of single precision.
+/// The zoo, and meshes for the remaining paths: exact visits of tilted planes and of single precision.
 std::vector<Specimen> specimens() {
   using dmoscope::testing::mapped;
   std::vector<Specimen> all = dmoscope::testing::zoo();
@@ -71,7 +71,7 @@ TEST_P(PtxDmo, SameBitsAlone) {
   for (Specimen& specimen : specimens()) expect_same(singles({.together = true, .backwards = true}), std::move(specimen), 2);
 }
 
-/// What the bits of one order of the lanes cannot show: that no other order gives others.
+/// Independence of the order of lanes, which the bits of one order cannot show.
 TEST_P(PtxDmo, NoLaneMinglesInAnothersWork) {
   Races races;
   const auto queues = {teams({.races = &races}), singles({.races = &races})};
@@ -147,7 +147,7 @@ TEST_P(PtxVolumeTwoAims, SameBits) {
 
 INSTANTIATE_TEST_SUITE_P(Metrics, PtxVolumeTwoAims, every_volume_metric(), name_of_metric);
 
-/// What is drawn, made by the kernels and by their source compiled for the host.
+/// Pictures made by the kernels and by their source compiled for the host.
 class PtxPicture : public PtxTest {};
 INSTANTIATE_TEST_SUITE_P(Shown, PtxPicture, ::testing::Values(Metric::MeanRatio, Metric::ScaledJacobian, Metric::MinAngle));
 
@@ -201,7 +201,7 @@ constexpr std::array kVisits{"bodies5Visit",           "bodies11VisitVolume",   
                              "bodies14PrepareDefined", "bodies13SearchDefined", "bodies15UntangleDefined",
                              "bodies13SettleDefined",  "bodies12VisitTargets",  "bodies13SearchTargets"};
 
-/// nvcc turns a kernel whose body it holds for the host's into an empty one, or into a loop without end.
+/// Kernels are complete: nvcc turns one whose body it takes for the host's into an empty one, or into an infinite loop.
 TEST_P(PtxText, KernelsAreWhole) {
   std::size_t visits = 0;
   for (const EntryText& text : kernels->texts()) {
@@ -214,7 +214,7 @@ TEST_P(PtxText, KernelsAreWhole) {
   }
   std::size_t expected = 0;
   for (const MetricInfo& metric : metric_table())
-    if (metric.metric != Metric::Condition)  // in the plane it is the mean ratio
+    if (metric.metric != Metric::Condition)  // the mean ratio in the plane
       expected += formulas::with_planar_metric(metric.metric, []<Metric M>() { return kIsRatio<M>; }) ? 5 : 3;  // fans have two more
   for (const MetricInfo& metric : metric_table()) expected += metric.defined_for(ElementKind::Tetrahedron) ? 2 : 0;
   expected += 2 * 5 + 2 * 3;  // by formulas in the plane and in space, two searches in each; by targets that are crossed and not

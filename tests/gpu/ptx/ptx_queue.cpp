@@ -42,7 +42,7 @@ std::filesystem::path kernels_folder() {
 namespace {
 
 constexpr std::size_t kBlockSize = 128, kTeamSize = 8, kWarpSize = 32;
-constexpr std::align_val_t kAlignment{256};  // as a device's
+constexpr std::align_val_t kAlignment{256};  // a device's alignment
 
 template <class Body>
 Kernels::Name solo() {
@@ -263,7 +263,7 @@ class PtxQueue final : public Queue, public std::enable_shared_from_this<PtxQueu
   void run(Work work, Metric metric, const Task& task, std::size_t count) {
     run(kernels_->find(work, metric, task.defined), Kernels::name_of(work, metric, task.defined), work, task, count);
   }
-  /// T: of the kernel's first parameter; the second is the count.
+  /// Calls f.template operator()<T>() with the type of the kernel's first parameter; the second is the count.
   template <class T>
   void run(const Entry& entry, const Kernels::Name& name, Work work, const T& task, std::size_t count) {
     try {
@@ -283,7 +283,7 @@ class PtxQueue final : public Queue, public std::enable_shared_from_this<PtxQueu
   PtxDevice device_;
   GlobalMemory global_;
   std::unique_ptr<Recorded> recording_;
-  bool at_once_ = false;  // are launches done at once?
+  bool at_once_ = false;  // whether launches may be done at once
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-// Who reads and writes what in one launch, or in several that are done at once: the order of their lanes must not matter.
+// Detector of conflicting accesses in one launch, or in several that are done at once: the order of their lanes must not matter.
 
 #include <cstdint>
 #include <unordered_map>
@@ -13,15 +13,16 @@ namespace dmoscope::gpu::ptx {
 /// A lane, or all lanes of a team, which wait for each other between writing and reading.
 using Agent = std::uint64_t;
 
-/// Each call throws Fault where the memory is another agent's to write. Addresses: words of four bytes, or single bytes of flags.
+/// Accesses of agents. Each call throws Fault if the memory is another agent's to write. Addresses: words of four bytes, or single bytes of
+/// flags.
 class Races {
  public:
-  /// From now on nothing that was done matters: who launched waits for it.
+  /// Forgets all accesses: the launches were waited for.
   void forget() {
     cells_.clear();
     launches_ = 0;
   }
-  /// Of the next launch.
+  /// The first agent of the next launch.
   [[nodiscard]] Agent first_agent() { return ++launches_ << 40U; }
 
   void read(std::uintptr_t address, Agent agent) {
@@ -30,7 +31,7 @@ class Races {
     if (cell.adder.is_other(agent)) throw Fault(fmt::format("race: {:#x} is read, and counted up by another", address));
     cell.reader.add(agent);
   }
-  /// Several may write one value, as they do with flags.
+  /// Notes a write. Several agents may write one value, as they do with flags.
   void write(std::uintptr_t address, Agent agent, std::uint64_t value) {
     Cell& cell = cells_[address];
     if (cell.reader.is_other(agent)) throw Fault(fmt::format("race: {:#x} is written, and read by another", address));
@@ -40,7 +41,7 @@ class Races {
     cell.writer.add(agent);
     cell.value = value;
   }
-  /// As one with reading what was there.
+  /// Notes an atomic addition, by an agent that reads the value before.
   void count_up(std::uintptr_t address, Agent agent) {
     Cell& cell = cells_[address];
     if (cell.reader.is_other(agent) || cell.writer.is_other(agent))

@@ -23,7 +23,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kSpaces) - first + 1);
 }
 
-/// What stands before `end`, which is taken away too; Fault where it does not come.
+/// Removes and returns the text before `end`, which is removed too. Throws Fault if it does not occur.
 std::string_view take_until(std::string_view& text, std::string_view end) {
   const std::size_t at = text.find_first_of(end);
   if (at == std::string_view::npos) throw Fault(fmt::format("PTX breaks off in: {}", text.substr(0, 80)));
@@ -58,7 +58,7 @@ T number(std::string_view text, int base = 10) {
   return value;
 }
 
-/// Operands, without spaces; commas in braces do not part them.
+/// Splits operands, without spaces; commas in braces do not separate them.
 std::vector<std::string> operands_of(std::string_view text) {
   std::vector<std::string> operands;
   int depth = 0;
@@ -73,7 +73,7 @@ std::vector<std::string> operands_of(std::string_view text) {
   }
   return operands;
 }
-/// "{a,b}": a and b; "a": a alone.
+/// Splits "{a,b}" into a and b; "a" is a alone.
 std::vector<std::string> members_of(std::string_view operand) {
   if (!operand.starts_with('{')) return {std::string(operand)};
   return operands_of(operand.substr(1, operand.size() - 2));
@@ -127,7 +127,7 @@ class Decoder {
         throw Fault(fmt::format("not known of {}: {}", entry_.name, directive));
     }
   }
-  /// ".param .align 8 .b8 NAME[424]", ".param .u64 NAME" or ".param .u64 .ptr .align 1 NAME"
+  /// Adds a parameter: ".param .align 8 .b8 NAME[424]", ".param .u64 NAME" or ".param .u64 .ptr .align 1 NAME".
   void add_parameter(std::string_view text) {
     std::string_view rest = text;
     std::size_t bytes = 8, align = 8;
@@ -137,7 +137,7 @@ class Decoder {
       align = number<std::size_t>(take_word(rest));
       type = take_word(rest);
     }
-    if (rest.starts_with(".ptr ")) {  // what it points to is of no matter
+    if (rest.starts_with(".ptr ")) {  // properties of the pointer are skipped
       (void)take_word(rest);
       if (take_word(rest) == ".align") (void)number<std::size_t>(take_word(rest));
     }
@@ -182,7 +182,7 @@ class Decoder {
       throw Fault(fmt::format("{}: {}: {}", entry_.name, statement, fault.what()));
     }
   }
-  /// ".local .align 8 .b8 NAME[16]", the only one
+  /// Adds local memory: ".local .align 8 .b8 NAME[16]", the only declaration.
   void add_local(std::string_view text) {
     const std::size_t open = text.find('['), name = text.find("__local_depot");
     if (entry_.local_bytes != 0 || open == std::string_view::npos || name == std::string_view::npos || !text.ends_with(']'))
@@ -195,7 +195,7 @@ class Decoder {
     const std::string_view named = declaration.substr(0, declaration.find('['));
     return named.substr(named.find_last_of(kSpaces) + 1);
   }
-  /// ".shared .align 4 .b8 NAME[268]"
+  /// Adds shared memory: ".shared .align 4 .b8 NAME[268]".
   void add_shared(std::string_view text) {
     std::string_view rest = text;
     (void)take_word(rest);
@@ -296,7 +296,8 @@ class Decoder {
     entry_.code.push_back(instruction);
   }
 
-  /// So that a lane begins with a copy of the others alone: a kernel has some 100,000 registers, of which a small launch writes few.
+  /// Puts the registers last, so that a lane begins with a copy of the other slots alone: a kernel has some 100,000 registers, of which a
+  /// small launch writes few.
   void put_registers_last() {
     const std::size_t given = kFirstParameter + entry_.parameters.size();
     const auto is_register = [&](Slot slot) { return slot >= given && entry_.initial[slot] == kPoison; };
@@ -344,7 +345,7 @@ std::vector<EntryText> find_entries(std::string_view ptx) {
       (void)take_until(text, "\n");
     } else if (text.starts_with(".visible .entry ") || text.starts_with(".entry ")) {
       const std::string_view rest = text.substr(text.find(".entry ") + std::string_view(".entry ").size());
-      const std::size_t end = text.find("\n}");  // those of inner blocks are indented, or behind other things
+      const std::size_t end = text.find("\n}");  // those of inner blocks are indented, or not first on a line
       if (end == std::string_view::npos) throw Fault("PTX breaks off in an entry");
       entries.push_back({std::string(trimmed(rest.substr(0, rest.find('(')))), std::string(text.substr(0, end + 2)), shared});
       text.remove_prefix(end + 2);
@@ -358,7 +359,7 @@ std::vector<EntryText> find_entries(std::string_view ptx) {
       throw Fault(fmt::format("not known in PTX: {}", text.substr(0, std::min<std::size_t>(text.find('\n'), 200))));
     }
   }
-  // Constants that the compiler wrote down, and whose values it put where they are used.
+  // Constants that the compiler wrote down, although it put their values into the code.
   for (const std::string& global : globals)
     for (const EntryText& entry : entries)
       if (entry.text.find(global) != std::string::npos) throw Fault(fmt::format("{} reads {}", entry.name, global));

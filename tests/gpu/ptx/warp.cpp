@@ -14,10 +14,10 @@ using State = Lane::State;
 bool shuffles(const Lane& lane) { return lane.state() == State::AtButterfly || lane.state() == State::AtIndexedShuffle; }
 bool meets(const Lane& lane) { return shuffles(lane) || lane.state() == State::AtMeeting; }
 bool is_member(std::uint32_t members, std::size_t lane) { return (members >> lane & 1U) != 0; }
-/// shfl.sync d|p, a, b, c, members; bar.warp.sync members
+/// The mask of lanes of a shuffle (shfl.sync d|p, a, b, c, members) or of bar.warp.sync members.
 std::uint32_t members_of(const Lane& lane) { return lane.get<std::uint32_t>(lane.instruction().slots[shuffles(lane) ? 5 : 0]); }
 
-/// All warps to the end, and at every barrier all together.
+/// Runs all warps to the end, and to every barrier together.
 void run_block(std::vector<Warp>& warps, const Entry& entry, Schedule schedule) {
   for (;;) {
     std::size_t done = 0;
@@ -60,7 +60,7 @@ void Warp::start(const Entry& entry, const GlobalMemory& global, const std::vect
   present_ = std::min(kSize, threads - first);
   for (std::uint32_t i = 0; i < kSize; ++i) {
     lanes_[i].start(entry, global, parameters, shared, block, first + i);
-    if (i >= present_) lanes_[i].finish();  // there is none
+    if (i >= present_) lanes_[i].finish();  // the block has no such lane
   }
 }
 

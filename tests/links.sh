@@ -1,18 +1,19 @@
 #!/usr/bin/env bash
-# The links of the documents: every relative link and picture in an .md file leads to a file that exists, and every #anchor to a heading.
-# Addresses of other machines are not looked up. Prints every breach as file:line.
+# Checks the links of the documents: every relative link and picture in an .md file leads to a file that exists, and every #anchor to a
+# heading. Addresses of other machines are not looked up. Prints every breach as file:line.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 failed=0
 
-# breach PLACE WHAT
+# breach PLACE WHAT: prints a breach.
 breach() {
   failed=1
   printf '%s: %s\n' "$1" "$2"
 }
 
-# documents: those that git keeps or could take; without git all but what a build makes. Ends every name with a zero byte.
+# documents: prints the names of documents that git keeps or could take; without git all but build outputs. Ends every name with a zero
+# byte.
 documents() {
   if [[ -e .git ]] && git rev-parse --git-dir >/dev/null 2>&1; then
     git ls-files -z --cached --others --exclude-standard -- '*.md'
@@ -22,14 +23,14 @@ documents() {
 }
 files=()
 while IFS= read -r -d '' file; do
-  if [[ -f $file ]]; then files+=("$file"); fi # git also lists what was just removed
+  if [[ -f $file ]]; then files+=("$file"); fi # git also lists removed files
 done < <(documents | sort -zu)
 if [[ ${#files[@]} -eq 0 ]]; then
   echo "There are no documents."
   exit 1
 fi
 
-# What the documents hold, outside of code: "link FILE LINE TARGET", "heading FILE TEXT" and "anchor FILE NAME", separated by tabs.
+# Links and headings outside of code: "link FILE LINE TARGET", "heading FILE TEXT" and "anchor FILE NAME", separated by tabs.
 found=$(awk '
   function link(target) {
     sub(/^[ \t]+/, "", target)
@@ -65,7 +66,7 @@ found=$(awk '
     for (; match(rest, /\]\(([^()]|\([^()]*\))*\)/); rest = substr(rest, RSTART + RLENGTH)) link(substr(rest, RSTART + 2, RLENGTH - 3))
   }' "${files[@]}")
 
-# The names that pages give to headings: lower case, without punctuation, blanks as hyphens; of equal ones the second ends with -1.
+# Anchors of headings: lower case, without punctuation, blanks as hyphens; of equal ones the second ends with -1.
 declare -A anchors=() times=()
 while IFS=$'\t' read -r file anchor; do
   before=${times[$file#$anchor]:-0}
@@ -77,7 +78,7 @@ while IFS=$'\t' read -r file anchor; do
   if [[ -n $file ]]; then anchors[$file#$anchor]=1; fi
 done < <(sed -n 's/^anchor\t//p' <<<"$found")
 
-# decoded TEXT: sets `decoded`, with every %20 a blank and so on.
+# decoded TEXT: sets `decoded` to TEXT with every %20 as a blank and so on.
 decoded() {
   decoded=$1
   if [[ $1 == *%[0-9A-Fa-f][0-9A-Fa-f]* ]]; then printf -v decoded '%b' "${1//%/\\x}"; fi

@@ -46,12 +46,12 @@ TEST(Abaqus, SolidsWithTheirSets) {
   EXPECT_THAT(faces(*group(mesh, "skin", "element set")), ElementsAre(0, 3, 2, 1));
   EXPECT_THAT(group(mesh, "More", "element set")->members, ElementsAre(0, 1));
   EXPECT_THAT(group(mesh, "MASS", "element type")->members, ElementsAre(8));
-  // S3 of a brick has its nodes 1, 5, 6, 2, S2 of a pyramid 1, 5, 2; outward.
+  // Sides, seen from outside: S3 of a brick has its nodes 1, 5, 6, 2, S2 of a pyramid 1, 5, 2.
   EXPECT_THAT(faces(*group(mesh, "Top", "surface")), ElementsAre(0, 1, 5, 4, 4, 5, 8));
   EXPECT_THAT(mesh.source->only_in_file(), ::testing::Contains("*MATERIAL"));
 }
 
-/// Abaqus' manual: which nodes of an element its faces have.
+/// Nodes of the faces of an element, from Abaqus' manual.
 TEST(Abaqus, FacesAreNumberedAsInTheManual) {
   struct Solid {
     std::string type;
@@ -114,7 +114,7 @@ TEST(Abaqus, WrittenAgainOnlyWhatMovedChanges) {
   }
 }
 
-/// 20 characters are what Abaqus has for a number; CalculiX cuts longer ones, exponent and all.
+/// Abaqus has 20 characters for a number; CalculiX cuts longer ones, exponent and all.
 TEST(Abaqus, NumbersFitTheirField) {
   Mesh mesh = read_bytes("a.inp", testing::abaqus_volume());
   std::vector<Vec3> positions = mesh.positions;

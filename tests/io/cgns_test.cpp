@@ -1,5 +1,5 @@
-// CGNS. The files are made by h5py as the SIDS' HDF5 mapping says (tests/fuzz/array_samples.py, which asks cgnscheck); what they hold
-// stands here again.
+// CGNS. The files are made by h5py, by the SIDS' HDF5 mapping (tests/fuzz/array_samples.py, which asks cgnscheck); their content is
+// repeated here.
 
 #include <string>
 #include <vector>
@@ -84,7 +84,7 @@ TEST(Cgns, WrittenAgainItHoldsTheSameWithOtherPositions) {
     const Mesh mesh = read_bytes("a.cgns", bytes);
     EXPECT_EQ(written("a.cgns", mesh), bytes);
     std::vector<Vec3> positions = mesh.positions;
-    for (Vec3& p : positions) p = {p.x * 0.5 + 0.25, 3.0 - p.y, p.z * 2.0};  // floats hold these
+    for (Vec3& p : positions) p = {p.x * 0.5 + 0.25, 3.0 - p.y, p.z * 2.0};  // exact in floats
     std::vector<std::string> notes;
     const Mesh again = read_bytes("a.cgns", written("a.cgns", mesh, positions, &notes));
     EXPECT_THAT(notes, ElementsAre());
@@ -115,7 +115,7 @@ std::string with_bytes(std::string bytes, std::string_view what, std::string_vie
   return bytes.replace(at, what.size(), by);
 }
 
-/// Numbers as they lie in the file.
+/// The numbers' bytes in the file.
 std::string whole_numbers(std::initializer_list<std::int32_t> numbers) {
   std::string bytes;
   for (const std::int32_t number : numbers) bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
@@ -149,7 +149,7 @@ TEST(Cgns, Refused) {
   expect_refused("a.cgns", testing::xdmf_numbers(), 0, "this is an HDF5 file");
 }
 
-/// Nothing but the file itself is opened, and what is not read is told.
+/// Links to other files are not followed, and omitted content is reported.
 TEST(Cgns, LinksIntoOtherFilesAreRefused) {
   const TemporaryFolder folder;
   put(folder / "solids.cgns", testing::cgns_solids());
@@ -163,7 +163,7 @@ TEST(Cgns, LinksIntoOtherFilesAreRefused) {
   }
 }
 
-/// A file says how large it is; arrays that are more than it can be are no reason to take all memory.
+/// A file declares its size: arrays larger than it can be must not take all memory.
 TEST(Cgns, ABudgetBoundsWhatIsUnpacked) {
   const TemporaryFolder folder;
   put(folder / "a.cgns", testing::cgns_solids());

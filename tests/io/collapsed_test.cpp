@@ -1,4 +1,4 @@
-// Files of elements with corners twice: taken as what they are, written as they came.
+// Files of elements with repeated corners: read as the simpler elements, written with the file's corners.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ std::string squares_and_triangles() {
          "CELL_DATA 5\nSCALARS id int 1\nLOOKUP_TABLE default\n10\n11\n12\n13\n14\n";
 }
 
-/// A wedge by eight nodes between a cube and nothing.
+/// A wedge by eight nodes on a side of a cube.
 std::string cube_and_wedge() {
   return "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 10 double\n"
          "0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 0.5 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n2 0.5 1\n"

@@ -1,4 +1,4 @@
-// From every format to every other: positions and connectivity come through exactly, and what does not is named.
+// From every format to every other: positions and connectivity are kept exactly, and content that is lost is named.
 
 #include <filesystem>
 #include <string>
@@ -16,7 +16,7 @@
 namespace dmoscope::testing {
 namespace {
 
-/// Faces of the same vertices in the same order; formats that name them as sides of elements begin with another corner.
+/// Whether faces have the same vertices in the same order; formats that name them as sides of elements begin with another corner.
 bool same_faces(const ElementTable& a, const ElementTable& b) {
   if (a.size() != b.size()) return false;
   for (Index f = 0; f < a.size(); ++f) {
@@ -42,7 +42,7 @@ TEST(Conversion, EverySampleToEveryFormat) {
       ++converted;
       const Mesh again = read_bytes(format.name, written.bytes);
       if (format.name == "medit" && !std::ranges::is_sorted(mesh.elements.kinds())) {
-        // Its elements are in lists by kind, which the notes say.
+        // The format lists elements by kind, as the notes say.
         EXPECT_EQ(again.elements.size(), mesh.elements.size());
         EXPECT_EQ(again.positions, mesh.positions);
         EXPECT_FALSE(written.notes.empty());
@@ -87,7 +87,7 @@ TEST(Conversion, WhatOnlyTheFileHeldIsNamedAndARefusalLeavesTheOldFile) {
   EXPECT_THAT(notes, ::testing::Contains(::testing::HasSubstr("\"line cells\"")));
   EXPECT_THAT(notes, ::testing::Contains(::testing::HasSubstr("data of cells that are no elements of in.vtk")));
   EXPECT_THAT(notes, ::testing::Contains(::testing::HasSubstr("\"flow\"")));
-  // The same format keeps all of it, and has nothing to say.
+  // The same format keeps all content, without a note.
   EXPECT_TRUE(write_mesh(folder / "out.vtk", mesh, mesh.positions, progress).empty());
   EXPECT_EQ(read_whole_file(folder / "out.vtk", progress).view(), vtk_ascii());
   EXPECT_THROW(write_mesh(folder / "out.stl", mesh, mesh.positions, progress), OutputError);

@@ -1,4 +1,4 @@
-// Exodus II. The files are made by netCDF4 (tests/fuzz/array_samples.py); what they hold stands here again.
+// Exodus II. The files are made by netCDF4 (tests/fuzz/array_samples.py); their content is repeated here.
 
 #include "core/io/exodus/exodus.h"
 
@@ -67,8 +67,8 @@ TEST(Exodus, ClassicSolidsWithBlocksSetsAndTheLastTimeStep) {
   EXPECT_THAT(mesh.source->notes(), Contains(HasSubstr("the last of 3 time steps")));
 }
 
-/// The manual's sides 4 and 5 of a wedge are its triangles, side 1 of a hexahedron 1 2 6 5, 3 of a tetrahedron 1 4 3, 5 of a pyramid its
-/// base; all are seen from outside.
+/// Sides by the manual's numbers: 4 and 5 of a wedge are its triangles, 1 of a hexahedron is 1 2 6 5, 3 of a tetrahedron 1 4 3, 5 of a
+/// pyramid its base; all are seen from outside.
 TEST(Exodus, SidesOfEveryKindByTheManualsNumbers) {
   const Mesh mesh = read_bytes("a.e", testing::exodus_solids());
   const Group& skin = group_named(mesh, "skin");
@@ -113,10 +113,10 @@ TEST(Exodus, PlanarInOneArrayOfFloats) {
   EXPECT_EQ(group_named(mesh, "below").dimension, 1);
 }
 
-/// As libMesh writes them: a triangle that is a shell, though the file is planar, has its edges behind two faces.
+/// Edges as libMesh writes them: a triangle that is a shell, though the file is planar, has its edges behind two faces.
 TEST(Exodus, EdgesOfShellsInThePlane) {
   std::string plane = testing::exodus_plane();
-  const std::string sides("\0\0\0\x01\0\0\0\x01", 8);  // of elements 1 and 3
+  const std::string sides("\0\0\0\x01\0\0\0\x01", 8);  // elements 1 and 3
   ASSERT_TRUE(plane.ends_with(sides));
   const auto with_side = [&](char side) { return plane.substr(0, plane.size() - 8) + std::string("\0\0\0", 3) + side + sides.substr(4); };
   EXPECT_THAT(group_named(read_bytes("a.exo", with_side(3)), "below").members, ElementsAre(2, 0, 1, 4)) << "the third of three";
@@ -142,7 +142,7 @@ TEST(Exodus, WhereItIsNotBuiltInTheWordsSayWhatToDo) {
   expect_refused("a.e", testing::exodus_netcdf4(), 0, "made without HDF5: convert");
 }
 
-/// Bytes that differ, at least: only these of the coordinates that moved.
+/// Bytes of moved coordinates are the only ones that differ.
 TEST(Exodus, WrittenAgainAClassicFileChangesOnlyWhereVerticesMoved) {
   const std::string bytes = testing::exodus_solids();
   const Mesh mesh = read_bytes("a.e", bytes);
@@ -156,7 +156,7 @@ TEST(Exodus, WrittenAgainAClassicFileChangesOnlyWhereVerticesMoved) {
     if (bytes[i] != again[i]) differ.push_back(i);
   }
   ASSERT_FALSE(differ.empty());
-  const std::size_t x = differ.front() - differ.front() % 4;  // arrays begin at fours
+  const std::size_t x = differ.front() - differ.front() % 4;  // arrays begin at multiples of four
   for (const std::size_t at : differ) EXPECT_LT((at - x) % (23 * 8), 8U) << "x, y and z of one vertex, in three arrays of 23 doubles";
   expect_same_positions(positions, read_bytes("a.e", again).positions);
 }
@@ -167,7 +167,7 @@ TEST(Exodus, WrittenAgainEveryKindHoldsTheSame) {
   for (const std::string& bytes : all) {
     const Mesh mesh = read_bytes("a.e", bytes);
     std::vector<Vec3> positions = mesh.positions;
-    for (Vec3& p : positions) p = {p.x * 0.5 + 0.25, 3.0 - p.y, p.z * 2.0};  // floats hold these
+    for (Vec3& p : positions) p = {p.x * 0.5 + 0.25, 3.0 - p.y, p.z * 2.0};  // exact in floats
     const Mesh again = read_bytes("a.e", written("a.e", mesh, positions));
     expect_same_positions(positions, again.positions);
     expect_same_elements(mesh, again);
@@ -216,7 +216,7 @@ TEST(Exodus, Refused) {
   // The connectivity of the tetrahedron: 15, 16, 17, 18.
   const std::string four("\0\0\0\x0f\0\0\0\x10\0\0\0\x11\0\0\0\x12", 16), bad("\0\0\0\x0f\0\0\0\x10\0\0\0\x11\0\0\0\x18", 16);
   expect_refused("a.e", replaced_text(solids, four, bad), 0, "node 24 out of range (the file has 23 nodes)");
-  // Sides 4, 5, 1, 3, 5 of the side set: now 9 of a pyramid.
+  // Sides 4, 5, 1, 3, 5 of the side set: replaced by 9, which a pyramid lacks.
   const std::string sides("\0\0\0\x01\0\0\0\x03\0\0\0\x05", 12), nine("\0\0\0\x01\0\0\0\x03\0\0\0\x09", 12);
   expect_refused("a.e", replaced_text(solids, sides, nine), 0, "side set 1: element 4 has no side 9");
   expect_refused("a.e", "CDF\x01", 0, "this is a NetCDF file");
@@ -226,7 +226,7 @@ TEST(Exodus, Refused) {
 TEST(Exodus, AnIndependentReaderFindsWhatWasWrittenAgain) {
   const TemporaryFolder folder;
   std::vector<std::filesystem::path> paths{folder / "a.e"};
-  // meshio cannot hold results that only some blocks have: they get names that nobody knows.
+  // Results of some blocks alone, which meshio cannot hold: they get unknown names.
   std::string bytes = replaced_text(testing::exodus_solids(), "name_elem_var", "nobodys_thing");
   bytes = replaced_text(bytes, "vals_elem_var1eb1", "nobodys_numbers_1");
   const Mesh mesh = read_bytes("a.e", bytes);

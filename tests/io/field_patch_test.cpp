@@ -1,4 +1,4 @@
-// Fields written again: of all formats that hold numbers of vertices, those that changed change, and nothing else.
+// Fields written again, in all formats that hold numbers of vertices: changed numbers change, and nothing else.
 
 #include <algorithm>
 #include <array>
@@ -128,7 +128,7 @@ TEST(FieldPatch, VtkInTextAndBytes) {
       "VECTORS v double\n0 0 0 1 1 1 2 2 2 3 3 3 4 4 4\n";
   EXPECT_EQ(with_another_depth("a.vtk", text), with(with(text, "0.5 0.5 0\n", "0.375 0.625 0\n"), "\n5.125\n", "\n2.0625\n"));
   const Mesh mesh = read_bytes("a.vtk", text);
-  // A float in a text is written as short as a float may be.
+  // A float in a text is written with the fewest digits of a float.
   FieldValues depth{1, mesh.fields[1].values};
   depth.values[4] = static_cast<double>(10.04F);
   EXPECT_EQ(written_with("a.vtk", mesh, mesh.positions, {&depth, 1}), with(text, "\n5.125\n", "\n10.04\n"));
@@ -137,7 +137,7 @@ TEST(FieldPatch, VtkInTextAndBytes) {
   EXPECT_EQ(written_with("a.vtk", mesh, mesh.positions, {&changed, 1}), with(text, " 4 4 4\n", " 4 0.1 4\n"));
 }
 
-/// Eight bytes each, the greater first.
+/// Eight bytes each, most significant first.
 std::string big_endian(std::initializer_list<double> numbers) {
   std::string bytes;
   for (const double number : numbers) {
@@ -172,7 +172,7 @@ TEST(FieldPatch, Gmsh) {
   changed.values[4] = 2.0625;
   changed.values[0] = 8.5;
   EXPECT_EQ(written_with("a.msh", mesh, mesh.positions, {&changed, 1}), with(with(text, "7 5.125", "7 2.0625"), "10 1.25", "10 8.5"));
-  // Of version 4.1, as the program writes it.
+  // A file of version 4.1, as the program writes it.
   (void)with_another_depth("b.msh", written("b.msh", square()));
 }
 
@@ -213,7 +213,7 @@ TEST(FieldPatch, Xdmf) {
   (void)with_another_depth("a.xdmf", written("a.xdmf", square()));
 }
 
-/// The last of two time steps is what was read; it alone changes, and the other is named.
+/// The last of two time steps is read; it alone changes, and the other is named.
 TEST(FieldPatch, ExodusAndCgns) {
   const std::string bytes = testing::exodus_solids();
   const Mesh mesh = read_bytes("a.e", bytes);
@@ -241,7 +241,7 @@ TEST(FieldPatch, ExodusAndCgns) {
   EXPECT_EQ(other.fields.at(0).values, at_both.values);
 }
 
-/// Another format than it was read from takes the numbers, too.
+/// Another format than that of the input keeps the numbers, too.
 TEST(FieldPatch, MadeAnew) {
   const Mesh mesh = square();
   FieldValues changed{0, mesh.fields[0].values};

@@ -115,7 +115,7 @@ std::vector<Vec3> moved(const Mesh& mesh, std::size_t every, bool three, std::ui
 
 namespace {
 
-/// Words and what is between them, in turn; all of them together are the text.
+/// Splits a text into words and the blanks between them, in turn.
 std::vector<std::string_view> pieces(std::string_view text) {
   constexpr std::string_view kBlanks = " \t\r\n,";
   std::vector<std::string_view> result;

@@ -1,5 +1,5 @@
 #pragma once
-// Files for the tests of readers and writers: a folder that goes away, and the properties that every format has to keep.
+// Files for the tests of readers and writers: a temporary folder, and properties of all formats.
 
 #include <cstdint>
 #include <filesystem>
@@ -29,7 +29,7 @@ void put(const std::filesystem::path& path, std::string_view bytes);
                                   std::vector<std::string>* notes = nullptr);
 [[nodiscard]] inline std::string written(std::string_view name, const Mesh& mesh) { return written(name, mesh, mesh.positions); }
 
-/// Is there a file of this format for a mesh that was read from another one?
+/// Whether the format can write a mesh that was read from another one.
 [[nodiscard]] inline bool is_made_anew(const FormatInfo& format) {
   return format.name != "meshb" && format.name != "mike" && format.name != "selafin" && format.name != "exodus" && format.name != "cgns";
 }
@@ -42,25 +42,25 @@ void expect_refused(std::string_view name, std::string_view bytes, std::size_t l
   return {own.begin(), own.end()};
 }
 
-/// Is every corner and every member of a group a vertex or element of the mesh, and has every field its size?
+/// Expects every corner and every member of a group to be a vertex or element of the mesh, and every field to have its size.
 void expect_consistent(const Mesh& mesh);
 
-/// Reads every beginning of `bytes`: a mesh that is in order, or an InputError, and nothing else.
+/// Reads every beginning of `bytes`, and expects a consistent mesh or an InputError.
 void expect_truncation_safe(std::string_view name, std::string_view bytes);
 
-/// Bitwise: -0.0 is not 0.0.
+/// Expects equal bits: -0.0 is not 0.0.
 void expect_same_positions(std::span<const Vec3> expected, std::span<const Vec3> found);
 void expect_same_elements(const Mesh& expected, const Mesh& found);
 
-/// Doubles of every size, tiny and huge ones, and -0.0, with x and y (and z if `three`) changed for every `every`-th vertex.
+/// Positions with doubles of every size, tiny and huge ones, and -0.0, in x and y (and z if `three`) of every `every`-th vertex.
 [[nodiscard]] std::vector<Vec3> moved(const Mesh& mesh, std::size_t every, bool three, std::uint64_t seed);
 
-/// Writes text files again with every third vertex moved to random doubles and checks: the same doubles come back, and of the old and new
-/// bytes, cut into words and the blanks between them, only as many words differ as coordinates changed; unmoved: the very bytes.
+/// Writes text files again with every third vertex moved to random doubles and expects that the same doubles come back, and that of the old
+/// and new bytes, cut into words and the blanks between them, only as many words differ as coordinates changed; unmoved: the same bytes.
 /// `three`: the file holds z.
 void expect_patched(std::string_view name, std::string_view bytes, bool three);
 
-/// All files below the shared meshes with this extension; empty where they are not there.
+/// All files below the shared meshes with this extension; none if they are missing.
 [[nodiscard]] std::vector<std::filesystem::path> shared_meshes(std::string_view extension);
 
 }  // namespace dmoscope::test

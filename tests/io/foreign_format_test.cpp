@@ -1,4 +1,4 @@
-// Files of formats that are not read: each is named, with what to do about it; and no file that is read is taken for one.
+// Files of formats that are not read: each is named, with advice; and no file that is read is mistaken for one.
 
 #include "core/io/foreign_format.h"
 
@@ -99,7 +99,7 @@ TEST(ForeignFormat, FoldersOfACaseAreNamed) {
   EXPECT_THAT(refused(other), HasSubstr("directory"));
 }
 
-/// Formats for which there may be a reader, which then tells by itself what is wrong.
+/// Formats that some builds read, whose readers report errors themselves.
 TEST(ForeignFormat, LeavesToReadersWhatIsTheirs) {
   const std::vector<Known> all{{".bdf", "SOL 101\nCEND\nBEGIN BULK\nGRID,1,,0.,0.,0.\n", "a Nastran", ""},
                                {".inp", "*Heading\n*Node\n1, 0., 0., 0.\n", "an Abaqus", ""},
@@ -119,14 +119,14 @@ TEST(ForeignFormat, LeavesToReadersWhatIsTheirs) {
 
 TEST(ForeignFormat, IsNoneOfTheSamples) {
   for (const auto& sample : dmoscope::testing::samples()) {
-    if (sample.format == "exodus" || sample.format == "cgns") continue;  // known by their content, before anybody is asked
+    if (sample.format == "exodus" || sample.format == "cgns") continue;  // recognised by their content before this check
     for (const char* extension : {".vtk", ".off", ".node", ".14", ".su2", ".vtu", ".dat", ""}) {
       EXPECT_EQ(foreign_format(sample.bytes, extension), "") << sample.format << " " << sample.name;
     }
   }
 }
 
-/// What is wrong in a file of the format itself is still told with its line.
+/// Errors in a file of the format itself are still reported with their line.
 TEST(ForeignFormat, DoesNotHideTheReadersOwnWords) {
   expect_refused("a.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n1\n1 0 zero 0\n", 6, "a coordinate");
   expect_refused("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", 6, "3");

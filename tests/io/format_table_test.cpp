@@ -1,4 +1,4 @@
-// docs/user/formats.md says what is kept: each row of its table is taken at its word, cell by cell, with a file of that row.
+// The table of docs/user/formats.md: each cell of each row is checked with files of that row.
 
 #include <algorithm>
 #include <fstream>
@@ -20,7 +20,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// The cells of a row; what is left out above a row is that of the row before.
+/// The cells of a row; an empty cell repeats that of the row before.
 struct DocumentedRow {
   std::string format, variant, read, again, anew, elements, groups, fields, coordinates;
 };
@@ -45,7 +45,7 @@ std::vector<DocumentedRow> documented_rows() {
   return rows;
 }
 
-/// Which samples are files of a row: its format and variant as the table has them, the program's name of the format, the samples' names.
+/// The samples of a row: its format and variant in the table, the program's name of the format, the samples' names.
 struct Backing {
   std::string format, variant, name;
   std::vector<std::string> samples;
@@ -89,7 +89,7 @@ const std::vector<Backing> kBackings{
     {"XDMF", "one uniform grid, numbers in the XML", "xdmf", {"mixed", "planar"}},
 };
 
-/// "as above" is what the row before says.
+/// "as above" stands for the row before.
 const DocumentedRow* row_of(const Backing& backing) {
   static const std::vector<DocumentedRow> rows = [] {
     std::vector<DocumentedRow> all = documented_rows();
@@ -106,7 +106,7 @@ const DocumentedRow* row_of(const Backing& backing) {
 
 bool begins(const std::string& cell, std::string_view word) { return cell.starts_with(word); }
 
-/// A text file of numbers as people write them: nothing but printable signs and line ends.
+/// Whether it is a text file of numbers: printable characters and line ends alone.
 bool is_text(std::string_view bytes) {
   return std::ranges::all_of(bytes,
                              [](char c) { return (c >= ' ' && c <= '~') || c == '\n' || c == '\r' || c == '\t' || c == kBetweenFiles; });
@@ -120,7 +120,7 @@ class FormatTable : public ::testing::TestWithParam<Backing> {
     if (std::ranges::none_of(format_table(), [](const FormatInfo& f) { return f.name == GetParam().name; }))
       GTEST_SKIP() << "this build lacks the format";
   }
-  /// Does something for every sample of the row.
+  /// Calls `act` with every sample of the row.
   template <class Do>
   static void for_samples(const Do& work) {
     std::size_t seen = 0;
@@ -133,13 +133,13 @@ class FormatTable : public ::testing::TestWithParam<Backing> {
     EXPECT_EQ(seen, GetParam().samples.size()) << "samples that there are not";
   }
   [[nodiscard]] bool is_written_again() const { return begins(row_->again, "yes"); }
-  /// A file of another variant, made anew.
+  /// Writes a file of another variant.
   [[nodiscard]] std::string made_anew(const Mesh& mesh, Notes* notes = nullptr) const {
     Written written = write_anew(GetParam().name, mesh, mesh.positions);
     if (notes != nullptr) *notes = std::move(written.notes);
     return written.bytes;
   }
-  /// What a coordinate must be after it was written again, by the last cell.
+  /// The coordinate after it was written again, by the last cell.
   [[nodiscard]] double kept(double value, const Mesh& mesh, std::size_t axis) const {
     const std::string& cell = row_->coordinates;
     const auto as_float = static_cast<double>(static_cast<float>(value));
@@ -195,7 +195,7 @@ TEST_P(FormatTable, KeepsAsManyDigitsAsItSays) {
   for_samples([&](const Sample& sample) {
     const Mesh mesh = read_bytes(sample.format, sample.bytes);
     std::vector<Vec3> moved = mesh.positions;
-    // Numbers with more digits than a float, 16 or 20 characters hold.
+    // Numbers with more digits than a float, or 16 or 20 characters, can hold.
     moved[1] = {1.0 / 3.0, -1.234567890123456789e-7, moved[1].z};
     const bool has_z = mesh.source->layout().components == 3 && row_->coordinates.find("x and y") == std::string::npos;
     if (has_z) moved[1].z = 1e10 / 7.0;
@@ -219,7 +219,7 @@ TEST_P(FormatTable, IsMadeAnewAsItSays) {
     const std::string bytes = made_anew(mesh);
     const Mesh again = read_bytes(GetParam().name, bytes);
     EXPECT_EQ(again.elements.size(), mesh.elements.size());
-    const std::string cell = row_->anew.empty() ? row_->again : row_->anew;  // of what is never written again
+    const std::string cell = row_->anew.empty() ? row_->again : row_->anew;  // for formats that are never written again
     if (cell == "yes: raw, zlib" || cell == "no: as .vtu") {
       EXPECT_THAT(bytes, HasSubstr("encoding=\"raw\""));
       EXPECT_THAT(bytes, HasSubstr("vtkZLibDataCompressor"));
@@ -287,7 +287,7 @@ std::vector<ElementKind> kinds_of(const std::string& cell) {
 
 TEST_P(FormatTable, HoldsTheElementsThatItSaysAndRefusesOthers) {
   if (row_->anew.empty() || begins(row_->anew, "no: .") || begins(row_->elements, "quad")) {
-    // Such files are read alone: theirs must be of these kinds.
+    // Formats that are read alone: the samples' elements must be of these kinds.
     for_samples([&](const Sample& sample) {
       const Mesh mesh = read_bytes(sample.format, sample.bytes);
       const std::vector<ElementKind> said = kinds_of(row_->elements);
@@ -312,7 +312,7 @@ TEST_P(FormatTable, HoldsTheElementsThatItSaysAndRefusesOthers) {
   }
 }
 
-/// What the cell about fields names: of points and of elements, in whatever words.
+/// Kinds of fields that a cell names: of points and of elements, in any words.
 struct Keeps {
   bool points = false, elements = false;
 };
@@ -325,12 +325,12 @@ Keeps fields_in(const std::string& cell) {
 }
 
 TEST_P(FormatTable, KeepsTheFieldsThatItSaysAndNamesOthersAsDropped) {
-  if (row_->anew.empty() || begins(row_->anew, "no")) return;  // see the row of what is made anew
+  if (row_->anew.empty() || begins(row_->anew, "no")) return;  // see the row of files that are made anew
   Mesh mesh = small_mesh(ElementKind::Triangle);
   mesh.fields.push_back(
       {.name = "heat", .on = Field::On::Vertices, .components = 1, .type = "double", .role = "", .values = {0.25, 2, 3, 4}});
   mesh.fields.push_back({.name = "load", .on = Field::On::Elements, .components = 1, .type = "double", .role = "", .values = {0.5, 6}});
-  if (row_->fields == "elevation") mesh.fields[0].name = mesh.fields[0].role = row_->fields;  // it holds that one alone
+  if (row_->fields == "elevation") mesh.fields[0].name = mesh.fields[0].role = row_->fields;  // the format holds that field alone
   Notes notes;
   const Mesh again = read_bytes(GetParam().name, made_anew(mesh, &notes));
   Keeps keeps = fields_in(row_->fields);
@@ -361,7 +361,7 @@ TEST_P(FormatTable, ReadsFieldsAndGroupsWhereItSaysSo) {
     groups += mesh.groups.size();
   });
   const Keeps keeps = fields_in(row_->fields);
-  // The samples of these two rows hold groups alone; data are read by the code of the ASCII row (Gmsh.*).
+  // The samples of these two rows have groups alone; data are read by the code of the ASCII row (Gmsh.*).
   const bool groups_alone = GetParam().name == "gmsh" && GetParam().samples.front() != "2_ascii";
   if (!groups_alone) {
     EXPECT_EQ(of_points + of_elements > 0, row_->fields != "no") << row_->fields;
@@ -377,15 +377,15 @@ TEST_P(FormatTable, ReadsFieldsAndGroupsWhereItSaysSo) {
   }
 }
 
-/// Groups of these dimensions come back: 0 vertices, 1 edges, 2 elements; "boundary strings" are a role of their own.
+/// Dimensions of the groups that come back: 0 vertices, 1 edges, 2 elements; "boundary strings" are a role of their own.
 std::vector<int> groups_in(const std::string& cell) {
   static const std::map<std::string, std::vector<int>> kept{
       {"no", {}},
       {"cells of fewer dimensions; not anew", {}},
-      {"open and land boundaries", {}},  // tried below
+      {"open and land boundaries", {}},  // tested below
       {"markers", {1}},
       {"physical groups, entities", {0, 1, 2}},
-      {"references, corners, ridges, required", {1, 2}},  // vertices' as marks alone, tried below
+      {"references, corners, ridges, required", {1, 2}},  // vertices' as marks alone, tested below
       {"boundary markers, as fields", {}},
       {"node sets, element sets, surfaces", {0, 1, 2}},
       {"materials, nodestrings", {1, 2}},
@@ -450,7 +450,7 @@ TEST(FormatTableRows, EveryRowThatIsReadIsTried) {
   const std::vector<DocumentedRow> rows = documented_rows();
   ASSERT_GE(rows.size(), kBackings.size());
   for (const DocumentedRow& row : rows) {
-    // Formats that need libraries of their own have tests of their own.
+    // Formats that need other libraries have tests of their own.
     if (!begins(row.read, "yes") || row.variant.find("HDF5") != std::string::npos || row.format.find("Exodus") != std::string::npos ||
         row.format.find("CGNS") != std::string::npos)
       continue;

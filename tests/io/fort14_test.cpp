@@ -51,7 +51,7 @@ TEST(Fort14, GridDepthAndBoundaries) {
   EXPECT_THAT(mesh.groups[3].members, ElementsAre(0, 3));
 }
 
-/// SCHISM's: the grammar of fort.14, in longitude and latitude, and land boundaries that are islands (1) or not (0).
+/// Grids of SCHISM: the grammar of fort.14, in longitude and latitude, and land boundaries that are islands (1) or not (0).
 TEST(Fort14, GridsOfSchism) {
   const std::string grid =
       "hgrid of a lagoon\n2 5\n1 -70.25 43.5 10.5\n2 -70.0 43.5 -3\n3 -70.0 43.75 0\n4 -70.25 43.75 7\n5 -69.9 43.6 1\n"
@@ -173,7 +173,7 @@ TEST(Fort14, MadeAnewFromAnotherSource) {
     EXPECT_EQ(again.groups[i].members, mesh.groups[i].members);
   }
 
-  mesh.groups[1].code = 24;  // a weir whose columns nobody has
+  mesh.groups[1].code = 24;  // a weir, whose columns are missing
   mesh.fields[0].name = "h";
   mesh.fields.push_back({.name = "id", .on = Field::On::Elements, .components = 1, .type = "int", .role = "", .values = {1, 2}});
   (void)written("b.14", mesh, mesh.positions, &notes);

@@ -35,7 +35,7 @@ Mesh stripped(Mesh mesh) {
   return mesh;
 }
 
-/// Old files give names to numbers alone; saved again by Gmsh such names have the dimension -1.
+/// Old files name numbers without a dimension; saved again by Gmsh such names have the dimension -1.
 TEST(Gmsh, NamesWithoutADimensionAreOfWhateverHasTheNumber) {
   for (const char* const dimension : {"", "-1 "}) {
     const std::string d(dimension);
@@ -79,7 +79,7 @@ TEST(Gmsh, PeriodicVerticesArePaired) {
   }
 }
 
-/// As Gmsh writes it: two partitions of one surface, with a line between them that is no line of the mesh.
+/// Partitions as Gmsh writes them: two of one surface, with a line between them that is no line of the mesh.
 TEST(Gmsh, PartitionsArePutTogether) {
   const std::string text = dmoscope::testing::gmsh_4_partitioned();
   const Mesh mesh = read_bytes("a.msh", text);
@@ -187,7 +187,7 @@ TEST(Gmsh, BinaryFilesArePatchedWhereTheCoordinatesAre) {
       const Mesh mesh = read_bytes("a.msh", bytes);
       EXPECT_EQ(written("a.msh", mesh), bytes);
       std::vector<Vec3> positions = mesh.positions;
-      positions[1].y = 0.1;  // of a parametric node in version 4
+      positions[1].y = 0.1;  // a parametric node in version 4
       positions[4] = {-0.0, 1e300, 1.0 / 3.0};
       std::vector<std::string> notes;
       const std::string patched = written("a.msh", mesh, positions, &notes);

@@ -1,4 +1,4 @@
-// Files packed by gzip: read by their content, written where the name says so, and no bombs.
+// Files packed by gzip: recognised by their content, written if the name asks for it, and limited in size.
 
 #include "core/io/reading/gzip.h"
 
@@ -25,7 +25,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 constexpr std::string_view kPlainOff = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1.50 0\n3 0 1 2\n";
-/// The same, packed by Python's gzip.
+/// The bytes packed by Python's gzip.
 constexpr char kPackedBytes[] =
     "\x1f\x8b\x08\x00\x00\x00\x00\x00\x02\xff\xf3\x77\x73\xe3\x32\x56\x30\x54\x30\xe0\x32\x50\x00\x42\x2e\x43\x30\x69\xa0\x60\xa8\x67\x0a"
     "\x62\x18\x03\xb9\x86\x0a\x46\x5c\x00\xcc\x8d\x0c\x6a\x27\x00\x00\x00";
@@ -118,7 +118,7 @@ TEST_F(Gzip, WhatItMayUnpackToCanBeSaid) {
   const std::string blanks = packed(std::string(kPlainOff) + std::string(std::size_t{3} << 20, ' '));
   const TemporaryFolder folder;
   Progress progress;
-  for (const char* name : {"a.off.gz", "a"}) {  // the latter is looked into to learn its format
+  for (const char* name : {"a.off.gz", "a"}) {  // the format of the second is found in its content
     const auto path = folder / name;
     put(path, blanks);
     for (const std::uint64_t fine : {std::uint64_t{0}, std::uint64_t{4} << 20U}) {
@@ -135,7 +135,7 @@ TEST_F(Gzip, WhatItMayUnpackToCanBeSaid) {
   EXPECT_THROW(require_known_format(folder / "a", {progress, nullptr, std::uint64_t{2} << 20U}), InputError);
 }
 
-// Otherwise a hundred times of a hundred times: 36 MB of zeros that gzip packs to 36 kB, and that take 8 bytes each as numbers.
+// The limit: 36 MB of zeros that gzip packs to 36 kB, and that take 8 bytes each as numbers.
 TEST_F(Gzip, WhatAPackedFileBecomesIsMeasuredByTheFileItself) {
   if (format_by_extension(".vtu") == nullptr) GTEST_SKIP() << "this build has no VTU";
   constexpr std::uint32_t kBytes = 36U << 20U;

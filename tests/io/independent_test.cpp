@@ -1,4 +1,4 @@
-// What we write, as an independent program reads it.
+// Files of this program, read by an independent one.
 
 #include <filesystem>
 #include <string>
@@ -42,7 +42,7 @@ TEST(Independent, VolumesOfFormatsWithGmshsOrder) {
     SCOPED_TRACE(paths[i].filename().string());
     auto sizes = (*found)[i].sizes;
     const std::string extension = paths[i].extension().string();
-    if (extension == ".xdmf" && (*found)[i].points == 0) continue;  // it wants python3-h5py for these, whatever they hold
+    if (extension == ".xdmf" && (*found)[i].points == 0) continue;  // meshio needs python3-h5py for these
     EXPECT_EQ((*found)[i].points, 23U);
     EXPECT_NEAR(sizes["wedge"], 0.5, 1e-12);
     EXPECT_NEAR(sizes["hexahedron"], 1.0, 1e-12);

@@ -122,7 +122,7 @@ TEST(Medit, RequiredFacesAreAGroupAndWrittenAnew) {
   EXPECT_THAT(notes, ElementsAre());
   EXPECT_THAT(anew, HasSubstr("Triangles\n3\n")) << "none a second time";
   EXPECT_THAT(required(read_bytes("b.mesh", anew)), ElementsAre(1, 2, 4, 0, 2, 1));
-  mesh.groups = {*group(mesh, "RequiredTriangles", 2)};  // faces that no other group has
+  mesh.groups = {*group(mesh, "RequiredTriangles", 2)};  // faces of no other group
   EXPECT_THAT(required(read_bytes("b.mesh", written("b.mesh", mesh))), ElementsAre(1, 2, 4, 0, 2, 1));
   expect_refused("a.mesh", kHead + kVertices + kTetrahedra + kTriangles + "RequiredTriangles\n1\n4\nEnd\n", 21,
                  "RequiredTriangles 4 out of range");

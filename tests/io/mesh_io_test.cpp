@@ -1,4 +1,4 @@
-// What holds for all formats: which one a file is of, what is refused, all or nothing on writing, notes.
+// Properties of all formats: detection, refusals, all-or-nothing writing, notes.
 
 #include "core/io/mesh_io.h"
 
@@ -133,7 +133,7 @@ TEST(WriteMesh, UndoesTheFlipOfFlippedElements) {
   EXPECT_EQ(written("a.obj", mesh), kObj);
 }
 
-/// One element of each kind, that of volumes and that of surfaces by themselves; corners of the cube, its apex is vertex 8.
+/// A mesh with one element of each kind, volume elements and surface elements separately; corners of the cube, whose apex is vertex 8.
 Mesh one_of_each_kind(int dimension) {
   Mesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}, {0.5, 0.5, 2}};
@@ -159,7 +159,7 @@ std::vector<Index> corners_of_kind(const Mesh& mesh, ElementKind kind) {
   return {};
 }
 
-/// But for volume elements: those go out as they are here, with a word.
+/// Flips are undone, except of volume elements, which are written as they are, with a note.
 TEST(WriteMesh, EveryFormatUndoesTheFlipOfEveryKindOfThePlane) {
   int kinds_written = 0;
   for (const int dimension : {2, 3}) {
@@ -242,9 +242,9 @@ TEST(WriteMesh, FilesOfTwoCoordinatesRefuseAThird) {
     Mesh mesh = read_bytes(name, text);
     std::vector<Vec3> positions = mesh.positions;
     positions[1].z = 1e-300;
-    EXPECT_THROW((void)written(name, mesh, positions), OutputError);  // patched
+    EXPECT_THROW((void)written(name, mesh, positions), OutputError);  // written into the file's own text
     mesh.source.reset();
-    EXPECT_THROW((void)written(name, mesh, positions), OutputError);  // anew
+    EXPECT_THROW((void)written(name, mesh, positions), OutputError);  // written anew
     std::vector<std::string> notes;
     for (Vec3& p : positions) p.z = 2.5;
     (void)written(name, mesh, positions, &notes);

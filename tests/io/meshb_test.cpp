@@ -58,7 +58,7 @@ TEST(Meshb, MovedCoordinatesAreReplacedInPlace) {
 TEST(Meshb, IsNotMadeAnew) {
   Mesh mesh = read_bytes("a.mesh", dmoscope::testing::medit_ascii());
   EXPECT_THROW((void)written("b.meshb", mesh), OutputError);
-  // The other way round it is.
+  // The byte order is swapped.
   const Mesh binary = read_bytes("a.meshb", dmoscope::testing::medit_binary(2, false));
   expect_same_elements(mesh, read_bytes("c.mesh", written("c.mesh", binary)));
 }
@@ -71,7 +71,7 @@ TEST(Meshb, Malformed) {
     dmoscope::testing::put<std::int32_t>(raw, false, {number});
     return bytes.replace(at, 4, raw);
   };
-  // 8: Dimension, 12: where the next keyword is, 16: 3; 20: Vertices, 24: the next, 28: how many.
+  // Bytes of the file: 8: Dimension, 12: place of the next keyword, 16: 3; 20: Vertices, 24: the next place, 28: their number.
   expect_refused("a.meshb", with(4, 9), 0, "version of 1 to 4");
   expect_refused("a.meshb", with(12, 4), 0, "the next one is at byte 4");
   expect_refused("a.meshb", with(12, 1 << 30), 0, "the next one is at byte");

@@ -1,4 +1,4 @@
-// Every reader against damaged files: it refuses them or gives a sound mesh, and never crashes.
+// Every reader against damaged files: it refuses them or returns a sound mesh, and never crashes.
 
 #include <algorithm>
 #include <map>
@@ -16,11 +16,11 @@
 namespace dmoscope::testing {
 namespace {
 
-constexpr int kMutantsPerFormat = 1000;  // and of each of its samples:
+constexpr int kMutantsPerFormat = 1000;  // and for each of its samples:
 constexpr int kMutantsPerSample = 200;
-constexpr std::size_t kMostCuts = kSanitized ? 1000 : 5000;  // of a sample
+constexpr std::size_t kMostCuts = kSanitized ? 1000 : 5000;  // cuts per sample
 
-/// One to three bytes flipped, inserted, deleted, or replaced by what upsets parsers most.
+/// Changes the bytes: one to three are flipped, inserted, deleted, or replaced by characters that upset parsers most.
 std::string mutated(std::string bytes, std::mt19937_64& random) {
   constexpr std::string_view kNasty = "0123456789-+.eEnN \n\r\t#\0\xff\x7f";
   const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
@@ -50,7 +50,7 @@ std::string mutated(std::string bytes, std::mt19937_64& random) {
 TEST(Mutations, EveryFormatHasASample) {
   std::set<std::string> formats;
   for (const Sample& sample : samples()) formats.insert(sample.format);
-  for (const FormatInfo& format : format_table())  // but for the one of several files, see pvtu_test.cpp
+  for (const FormatInfo& format : format_table())  // all but the one of several files, see pvtu_test.cpp
     EXPECT_TRUE(format.name == "pvtu" || formats.contains(std::string(format.name))) << format.name;
 }
 
@@ -76,7 +76,7 @@ TEST(Mutations, DamagedIsRefusedOrSound) {
   std::map<std::string, int> samples_of;
   for (const Sample& sample : samples()) ++samples_of[sample.format];
   for (const Sample& sample : samples()) {
-    if (kSanitized && sample.bytes.starts_with("\x89HDF")) continue;  // HDF5's library leaks where a file's structure is damaged
+    if (kSanitized && sample.bytes.starts_with("\x89HDF")) continue;  // HDF5's library leaks memory if a file's structure is damaged
     std::mt19937_64 random(20181018);
     int read = 0;
     const int mutants = std::max(kMutantsPerSample, kMutantsPerFormat / samples_of[sample.format] + 1);

@@ -55,7 +55,7 @@ TEST(Nastran, BulkDataAlone) {
   }
 }
 
-/// Quick Reference Guide: a real number is 7.0, .7E1, 0.7+1, 70.-1.
+/// Real numbers by the Quick Reference Guide: 7.0, .7E1, 0.7+1, 70.-1.
 TEST(Nastran, NumbersAsNastranWritesThem) {
   const std::string head = "GRID,1,,7.0,.7E1,0.7+1\nGRID,2,,70.-1,-.7+1,7.D0\nGRID           3            -7.0+7.00000    7.\n";
   const Mesh mesh = read_bytes("a.bdf", head + "CTRIA3,1,1,1,2,3\n");
@@ -76,7 +76,7 @@ TEST(Nastran, WrittenAgainOnlyWhatMovedChanges) {
       expect_same_positions(positions, again.positions);
       expect_same_elements(mesh, again);
       EXPECT_EQ(again.groups.size(), mesh.groups.size());
-      // The lines before and behind the card are as they were.
+      // The lines before and after the card are unchanged.
       const std::size_t place = static_cast<std::size_t>(mesh.source->place(v));
       EXPECT_EQ(patched.substr(0, place), bytes.substr(0, place));
       const std::size_t next =
@@ -84,7 +84,7 @@ TEST(Nastran, WrittenAgainOnlyWhatMovedChanges) {
       EXPECT_TRUE(patched.ends_with(bytes.substr(next)));
     }
   }
-  // What else the card says goes along.
+  // The other fields of the card are kept.
   const Mesh mesh = read_bytes("a.bdf", testing::nastran_volume());
   std::vector<Vec3> positions = mesh.positions;
   positions[1].x = 0.25;

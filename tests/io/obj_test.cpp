@@ -45,7 +45,7 @@ TEST(Obj, AllThatRealFilesHold) {
   EXPECT_THAT(corners(mesh, 0), ElementsAre(0, 1, 2, 3));
   EXPECT_THAT(corners(mesh, 1), ElementsAre(1, 4, 2));
   EXPECT_THAT(corners(mesh, 2), ElementsAre(0, 1, 4));
-  EXPECT_THAT(corners(mesh, 3), ElementsAre(5, 0, 1));  // names a vertex further down
+  EXPECT_THAT(corners(mesh, 3), ElementsAre(5, 0, 1));  // the face names a vertex of a later line
   EXPECT_THAT(mesh.source->notes(), ElementsAre(HasSubstr("1 line elements"), HasSubstr("1 point elements")));
   std::vector<std::string> notes;
   (void)written("a.off", mesh, mesh.positions, &notes);

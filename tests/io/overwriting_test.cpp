@@ -1,4 +1,4 @@
-// Which files a mesh is read from, and that none of them is written over by another; nor what lies beside an output and is none of it.
+// Files that a mesh is read from are not overwritten by another mesh; nor are unrelated files beside an output.
 
 #include <filesystem>
 #include <string>

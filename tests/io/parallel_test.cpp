@@ -1,4 +1,4 @@
-// Reading and writing with threads: the same meshes, bytes, notes and errors as without.
+// Reading and writing with threads gives the meshes, bytes, notes and errors of one thread.
 
 #include <string>
 #include <vector>
@@ -21,7 +21,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Some hundred thousand lines: many chunks of whatever is done in chunks.
+/// Some hundred thousand lines: many chunks of any kind.
 constexpr std::size_t kLarge = testing::kSanitized ? 25000 : 60000;
 const Mesh& large() {
   static const Mesh mesh = [] {
@@ -42,7 +42,7 @@ std::vector<Vec3> shaken(const Mesh& mesh) {
 
 std::string off_text(const Mesh& mesh) { return written("a.off", mesh, shaken(mesh)); }
 
-/// The n-th line (from 1) replaced.
+/// The text with its n-th line (from 1) replaced.
 std::string with_line(const std::string& text, std::size_t n, std::string_view line) {
   std::size_t begin = 0;
   for (std::size_t i = 1; i < n; ++i) begin = text.find('\n', begin) + 1;
@@ -102,7 +102,7 @@ TEST(Threads, ReadTheSameMesh) {
   const TemporaryFolder folder;
   Progress progress;
   const std::string plain = off_text(large());
-  std::string commented;  // a comment, an empty line or more numbers here and there, and other line ends
+  std::string commented;  // with comments, empty lines, more numbers, and other line ends
   Random random(9);
   for (std::size_t begin = 0; begin < plain.size();) {
     const std::size_t end = plain.find('\n', begin);

@@ -106,7 +106,7 @@ TEST(Ply, NewFileNamesWhatItDropsAndRenames) {
   EXPECT_THAT(written.notes, Contains(HasSubstr("\"x_\"")));
   EXPECT_THAT(written.notes, Contains(HasSubstr("flow")));
   const Mesh again = read_bytes("ply", written.bytes);
-  ASSERT_EQ(again.fields.size(), 2U);  // x_ and id; those of several components are dropped
+  ASSERT_EQ(again.fields.size(), 2U);  // x_ and id; fields of several components are dropped
   EXPECT_EQ(again.fields[0].values, mesh.fields[0].values);
   EXPECT_EQ(again.fields[1].type, "int");
 }

@@ -1,4 +1,4 @@
-// PVTU: a mesh comes back from its pieces as it was, and pieces that do not fit are refused.
+// PVTU: a mesh is restored from its pieces, and pieces that do not fit are refused.
 
 #include "core/io/pvtu/pvtu.h"
 
@@ -37,7 +37,7 @@ Mesh read(const std::filesystem::path& path) {
 
 void write_text(const std::filesystem::path& path, std::string_view text) { std::ofstream(path, std::ios::binary) << text; }
 
-/// The message of the InputError that reading throws.
+/// The message of the InputError of reading.
 std::string refusal(const std::filesystem::path& path) {
   try {
     (void)read(path);
@@ -101,7 +101,7 @@ TEST(Pvtu, NoPieceTakesThePlaceOfWhatWasRead) {
   EXPECT_FALSE(std::filesystem::exists(folder / "a.pvtu"));
   write_pieces(folder / "b.pvtu", mesh, 2);
   const Mesh pieces = read(folder / "b.pvtu");
-  write_pieces(folder / "b.pvtu", pieces, 3);  // itself
+  write_pieces(folder / "b.pvtu", pieces, 3);  // overwrites the file itself
   std::filesystem::copy_file(folder / "b.pvtu", folder / "c.pvtu");
   EXPECT_THROW(write_pieces(folder / "b.pvtu", read(folder / "c.pvtu"), 2), OutputError);
 }
@@ -168,7 +168,7 @@ TEST(Pvtu, WhatDoesNotFitIsRefused) {
   EXPECT_THAT(refusal(path), HasSubstr("a.pvtu:3: a Piece without a Source"));
   write_text(path, "<VTKFile type=\"PUnstructuredGrid\">\n<PUnstructuredGrid>\n<Piece Source=");
   EXPECT_THAT(refusal(path), HasSubstr("not well-formed"));
-  // One that names itself must not be followed for ever.
+  // A piece that names the file itself must not be followed for ever.
   write_text(path, "<VTKFile type=\"PUnstructuredGrid\"><PUnstructuredGrid><Piece Source=\"a.pvtu\"/></PUnstructuredGrid></VTKFile>");
   EXPECT_THAT(refusal(path), HasSubstr("is no .vtu"));
 }

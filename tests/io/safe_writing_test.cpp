@@ -1,4 +1,4 @@
-// Files are replaced whole, with what belongs to them, and what killed processes left is cleaned up.
+// Files are replaced as a whole, with their companions, and litter of killed processes is removed.
 
 #include <atomic>
 #include <cmath>
@@ -156,12 +156,12 @@ TEST(ReadMesh, RefusesPipesAndDevicesByName) {
 TEST(SourceFile, AddsAThingOnceInOrder) {
   SourceFile source("a.ply", FileBytes("x"));
   for (int round = 0; round < 2; ++round)
-    for (int i = 0; i < 50000; ++i) source.add_only_in_file("element " + std::to_string(i));  // hours, were each compared with all
+    for (int i = 0; i < 50000; ++i) source.add_only_in_file("element " + std::to_string(i));  // takes hours if each is compared with all
   ASSERT_EQ(source.only_in_file().size(), 50000U);
   EXPECT_EQ(source.only_in_file()[49999], "element 49999");
 }
 
-/// A square with one field on its vertices, one of whose values is no number.
+/// A square with one field on its vertices, one of whose values is not a number.
 Mesh with_gap(double gap) {
   Mesh mesh = read_bytes("a.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n");
   mesh.source.reset();
@@ -232,7 +232,7 @@ TEST(WriteMesh, ACommentStandsWhereAFormatHasThemAndIsReadOver) {
     Progress progress;
     Mesh mesh = original;
     mesh.source.reset();
-    for (int round = 1; round <= 2; ++round) {  // anew, then into the very file
+    for (int round = 1; round <= 2; ++round) {  // a new file, then the same file
       const auto notes = write_commented_mesh(folder / name, mesh, mesh.positions, progress, "made--by a\ntest $End");
       const bool has = !trailing_comment(format.name, "x").empty();
       const std::string bytes = get(folder / name);

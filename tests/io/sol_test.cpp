@@ -1,4 +1,4 @@
-// MEDIT's solution files beside a mesh: what is read, what is passed over, and what is refused.
+// MEDIT's solution files beside a mesh: content that is read, skipped or refused.
 
 #include "core/io/medit/sol.h"
 
@@ -57,7 +57,7 @@ TEST_F(SolFiles, HaveTensorsNumbersAndVectors) {
   EXPECT_THAT(mesh_.fields[1].values, ElementsAre(1, 2, 3, 4, 5, 6));
 }
 
-/// As solvers append it, and what belongs to elements.
+/// Files as solvers append them, with data of elements.
 TEST_F(SolFiles, WhatSaysNothingOfVerticesIsPassedOverAndTold) {
   EXPECT_THAT(read(std::string(kTensors) + " Time\n 0.0E+00\n Iterations\n 0\n CFL\n 1.9E-004\n Residu\n 0.1 nan -inf\n"
                                            "SolAtTriangles 1 1 1 5\nEnd\n"),
@@ -96,7 +96,7 @@ TEST_F(SolFiles, ANoteTellsWhatIsThere) {
   EXPECT_LT(notes_on(many).size(), 300U);
 }
 
-/// A part of a file has all of a field, or none.
+/// A truncated file gives whole fields, or none.
 TEST_F(SolFiles, TruncatedAnywhereHaveWholeFieldsOrAreRefused) {
   const std::string whole = std::string(kTensors) + "Time 0.5\nEnd\n";
   for (std::size_t n = 0; n < whole.size(); ++n) {

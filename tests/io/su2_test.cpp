@@ -63,7 +63,7 @@ TEST(Su2, PlanarPointsMayHaveAThirdCoordinateOfZero) {
     expect_patched("a.su2", head + points, false);
   }
   expect_refused("a.su2", head + "0 0 0 0\n1 0 0.5 1\n0 1 0 2\n", 6, "z coordinate 0.5 where 0");
-  expect_refused("a.su2", head + "0 0 0 0\n1 0 1\n0 1 0 2\n", 6, "z coordinate 1");  // a number of its own, and no z
+  expect_refused("a.su2", head + "0 0 0 0\n1 0 1\n0 1 0 2\n", 6, "z coordinate 1");  // a number for the vertex, and no z
   expect_refused("a.su2", head + "0 0 0\n1 0 0 1\n0 1 2\n", 6, "");
   expect_refused("a.su2", head + "0 0 0 0 0\n1 0 0 0 1\n0 1 0 0 2\n", 5, "");
 }
@@ -200,11 +200,11 @@ TEST(Su2, BoundaryStringsBecomeMarkers) {
   ASSERT_EQ(mesh.groups.size(), 2U);
   EXPECT_EQ(mesh.groups[0].name, "open_boundary_1");
   EXPECT_THAT(mesh.groups[0].members, ElementsAre(0, 1));
-  EXPECT_THAT(mesh.groups[1].members, ElementsAre(0, 1, 1, 2, 2, 0));  // an island is closed
+  EXPECT_THAT(mesh.groups[1].members, ElementsAre(0, 1, 1, 2, 2, 0));  // islands are closed
   EXPECT_THAT(notes, testing::UnorderedElementsAre(HasSubstr("depth"), HasSubstr("open boundary 1"), HasSubstr("land boundary 1")));
 }
 
-/// What was turned over after reading goes out the right way round, all else as it came.
+/// An element turned over after reading is written the right way round, all else as in the file.
 TEST(Su2, RealVolumeMadeAnewTheRightWayRound) {
   std::filesystem::path path;
   for (const auto& file : shared_meshes(".su2")) {

@@ -1,4 +1,4 @@
-// A number too many on a line of a mesh: the ones behind it are not where they belong, so the file is refused there.
+// A surplus number on a line of a mesh shifts the ones after it, so that the file is refused there.
 
 #include <string>
 

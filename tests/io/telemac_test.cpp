@@ -1,4 +1,4 @@
-// SELAFIN of TELEMAC and the meshes of MIKE: what is read, what comes out again, and what is refused and where.
+// SELAFIN of TELEMAC and the meshes of MIKE: reading, writing, and refusals with their places.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

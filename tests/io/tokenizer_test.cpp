@@ -19,7 +19,7 @@ class TokenizerTest : public testing::Test {
  protected:
   Tokenizer over(std::string_view text, TextSyntax syntax = {}) { return {text, "file", syntax, progress_}; }
   double number(std::string_view text) { return over(text).read_double("x"); }
-  /// The error that reading a double gives, "" if none.
+  /// The error of reading a double, "" if none.
   std::string complaint(std::string_view text) {
     try {
       (void)number(text);
@@ -101,7 +101,7 @@ TEST_F(TokenizerTest, ReadsTheNearestDoubleOfAnyDigits) {
   for (int i = 0; i < 20000; ++i) {
     std::string text = random.below(2) == 0 ? "-" : "";
     const std::uint64_t digits = 1 + random.below(22);
-    const std::uint64_t point = random.below(digits + 3);  // may be before the first or behind the last digit, or nowhere
+    const std::uint64_t point = random.below(digits + 3);  // may be before the first or after the last digit, or nowhere
     for (std::uint64_t d = 0; d < digits; ++d) {
       if (d == point) text += '.';
       text += static_cast<char>('0' + (random.below(4) == 0 ? 0 : random.below(10)));

@@ -1,5 +1,5 @@
-// Every kind of volume element from every format that holds it to every other: each format has its own rule for how corners are numbered,
-// and a file that breaks it is inside out for its readers.
+// Every kind of volume element from every format that holds it to every other: each format numbers corners by its own rule, and a file that
+// breaks it is inside out for its readers.
 
 #include <array>
 #include <string>
@@ -34,10 +34,11 @@ std::string points(bool numbered) {
 struct HandWritten {
   const char* name;
   std::string bytes;
-  std::vector<const char*> lines;  // of the elements, as another format's mesh must be written in this one
+  std::vector<const char*> lines;  // the elements' lines, which other formats' meshes must become in this one
 };
 
-/// VTK's wedge (0, 1, 2), (3, 4, 5): the normal of the first triangle points away from the other. Gmsh's and MEDIT's points to it.
+/// Hand-written files. The normal of the first triangle of VTK's wedge (0, 1, 2), (3, 4, 5) points away from the other triangle, that of
+/// Gmsh's and MEDIT's wedge towards it.
 std::vector<HandWritten> files() {
   const std::string vtk_cells = "6 0 2 1 3 5 4\n8 6 7 8 9 10 11 12 13\n4 14 15 16 17\n5 18 19 20 21 22\n";
   std::vector<HandWritten> all{
@@ -120,7 +121,7 @@ TEST(VolumeElements, AnIndependentReaderFindsThemWoundAsEachFormatSays) {
     const std::string extension = paths[i].extension().string();
     auto sizes = (*found)[i].sizes;
     EXPECT_EQ((*found)[i].points, 23U);
-    // meshio brings wedges of VTK's files into Gmsh's order, as we do; those of SU2's it leaves in VTK's, which is inside out there.
+    // meshio converts wedges of VTK's files to Gmsh's order, as we do; those of SU2's it leaves in VTK's, which is inside out there.
     EXPECT_NEAR(sizes["wedge"], extension == ".su2" ? -0.5 : 0.5, 1e-12);
     EXPECT_NEAR(sizes["hexahedron"], 1.0, 1e-12);
     EXPECT_NEAR(sizes["tetra"], 1.0 / 6.0, 1e-12);
@@ -128,7 +129,7 @@ TEST(VolumeElements, AnIndependentReaderFindsThemWoundAsEachFormatSays) {
   }
 }
 
-/// A cube of two wedges: in VTK's own order nothing is inside out; in Gmsh's, as many programs write them, both are, and only then the
+/// A cube of two wedges: in VTK's own order nothing is inside out; in Gmsh's, which many programs write, both are, and only then the
 /// program says so.
 TEST(VolumeElements, AreInsideOutOnlyWhereTheyAre) {
   const std::string head = "NDIME= 3\nNPOIN= 8\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\nNELEM= 2\n";

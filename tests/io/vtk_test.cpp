@@ -1,4 +1,4 @@
-// VTK legacy: what is read, what is refused and where, and what a written file says.
+// VTK legacy: reading, refusals with their places, and notes about written files.
 
 #include <bit>
 #include <cmath>
@@ -103,7 +103,7 @@ TEST(Vtk, DataOfAnUnknownTypeArePassedOver) {
   EXPECT_THAT(field(mesh, "b").values, ElementsAre(8, 9));
   EXPECT_THAT(mesh.source->notes(), ElementsAre(HasSubstr("\"odd\" was passed over"), HasSubstr("\"quad\""), HasSubstr("\"w\"")));
   EXPECT_THAT(mesh.source->only_in_file(), ::testing::Contains("field \"odd\""));
-  // In a binary file nobody knows where they end.
+  // In a binary file their end is unknown.
   std::string binary = with_cell_data("SCALARS odd complex\nLOOKUP_TABLE default\n");
   binary.replace(binary.find("ASCII"), 5, "BINARY");
   binary.erase(binary.find("0 0 0 1"));
@@ -173,7 +173,7 @@ TEST(Vtk, PolydataInTheLayoutOfVersion5) {
   ASSERT_EQ(mesh.elements.size(), 3U);
   EXPECT_THAT(corners(mesh, 0), ElementsAre(0, 1, 2));
   EXPECT_THAT(corners(mesh, 2), ElementsAre(1, 4, 5, 2));
-  // The row of the vertex comes first and goes.
+  // The row of the vertex is the first, and is dropped.
   EXPECT_THAT(field(mesh, "rgb").values, ElementsAre(1, 0, 0, 0, 1, 0, 0, 0, 1));
   EXPECT_EQ(field(mesh, "n").role, "NORMALS");
 }
@@ -233,7 +233,7 @@ TEST(Vtk, VolumeCellsOfBothBinaryLayouts) {
     EXPECT_THAT(corners(mesh, 3), ElementsAre(0, 2, 1, 4, 6, 5)) << "a wedge, in our order";
     EXPECT_THAT(corners(mesh, 4), ElementsAre(4, 5, 6, 7, 8));
     EXPECT_THAT(mesh.source->notes(), ElementsAre(HasSubstr("1 lines"), HasSubstr("1 faces of the volume")));
-    // Written again, the voxel, the face and the line are what they were.
+    // Written again, the voxel, the face and the line are unchanged.
     std::vector<Vec3> positions = mesh.positions;
     positions[8].z = 3.0;
     std::string expected = s;

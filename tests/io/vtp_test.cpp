@@ -1,5 +1,5 @@
-// VTP: every encoding gives the same surface, comes out as it went in, and what is wrong is refused where it stands. The samples were made
-// by Python's struct, base64 and zlib (tests/fuzz/vtp_samples.py).
+// VTP: every encoding gives the same surface and is kept, and errors are reported with their places. The samples were made by Python's
+// struct, base64 and zlib (tests/fuzz/vtp_samples.py).
 
 #include <cstdio>
 #include <fstream>
@@ -82,7 +82,7 @@ TEST_F(Vtp, WhatIsWrongIsRefusedWhereItStands) {
   expect_truncation_safe("a.vtp", good);
 }
 
-/// As VTK reads it, where Python has it.
+/// Files read by VTK, if Python has it.
 TEST_F(Vtp, VtkReadsWhatIsMadeAnew) {
   const Mesh mesh = read_bytes("a.vtk", testing::vtk_poly_ascii());
   const TemporaryFolder folder;

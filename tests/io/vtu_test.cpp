@@ -1,5 +1,5 @@
-// VTU: every encoding gives the same mesh, comes out as it went in, and what is wrong is refused where it stands. The samples were made by
-// Python's struct, base64 and zlib (tests/fuzz/vtu_samples.py).
+// VTU: every encoding gives the same mesh and is kept, and errors are reported with their places. The samples were made by Python's struct,
+// base64 and zlib (tests/fuzz/vtu_samples.py).
 
 #include <string>
 #include <string_view>
@@ -33,7 +33,7 @@ std::string sample(std::string_view name) {
 
 bool in_pieces(std::string_view name) { return name.starts_with("pieces"); }
 
-/// `text` with the first `from` replaced.
+/// Replaces the first `from` in `text`.
 std::string with(std::string text, std::string_view from, std::string_view to) {
   const std::size_t at = text.find(from);
   if (at == std::string::npos) throw std::logic_error("not in the sample: " + std::string(from));
@@ -144,7 +144,7 @@ TEST(Vtu, MovedPointsAreWrittenInTheFilesOwnEncoding) {
     EXPECT_EQ(again.positions, positions);
     EXPECT_NO_THROW(check_same_data(mesh, again));
     EXPECT_NO_THROW(check_same(mesh, positions, again, true, true));
-    // Moved back, only the points could differ, and by their compression alone.
+    // After moving back only the points could differ, and by their compression alone.
     if (name.find("zlib") == std::string_view::npos && name.find("ascii") == std::string_view::npos) {
       EXPECT_EQ(write_again(again, mesh.positions).bytes, bytes);
       EXPECT_EQ(written.bytes.size(), bytes.size());
@@ -351,7 +351,7 @@ TEST(Vtu, RefusesWrongDataOfTheOtherEncodings) {
   expect_refused(with(sample("base64"), "format=\"binary\">\n  ", "format=\"binary\">\n  *"), 6, "base64");
   const std::string raw = sample("raw");
   expect_refused(raw.substr(0, raw.find("   _") + 400), 13, "the data end");
-  // Without its data at all.
+  // Appended data is missing.
   expect_refused(with(with(sample("raw"), "<AppendedData", "<AppendedDatum"), "</AppendedData", "</AppendedDatum"), 0, "");
 }
 

@@ -1,4 +1,4 @@
-// XDMF whose numbers are in an HDF5 file, made by h5py (tests/fuzz/array_samples.py).
+// XDMF with numbers in an HDF5 file, made by h5py (tests/fuzz/array_samples.py).
 
 #include <string>
 #include <vector>
@@ -72,7 +72,7 @@ TEST_F(XdmfHdf5, PackedFloatsOfThePlane) {
   EXPECT_THAT(mesh.fields.at(0).values, ElementsAre(1, 2, 3, 4.5));
 }
 
-/// As FEniCS writes checkpoints: no slash, and attributes of several items.
+/// Checkpoints of FEniCS: no slash, and attributes of several items.
 TEST_F(XdmfHdf5, PlacesWithoutASlashAndFiniteElementFunctions) {
   std::string xml = kFlat;
   xml.replace(xml.find("numbers.h5:/flat"), 16, "numbers.h5:flat");

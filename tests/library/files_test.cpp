@@ -1,4 +1,4 @@
-// Meshes by the library's public headers alone: read, moved, and written in the formats of files.
+// Meshes by the library's public headers alone: read, moved, and written in all formats.
 
 #include <cmath>
 #include <cstring>
@@ -61,7 +61,7 @@ TEST(Library, NewPlacesAreWrittenInTheFilesOwnFormat) {
     const std::size_t bytes = 3 * read.vertex_count() * sizeof(double);
     std::vector<double> places(read.positions(), read.positions() + 3 * read.vertex_count());
     for (std::size_t i = 0; i < places.size(); ++i) places[i] = i % 3 == 2 ? 0.0 : 2.0 * places[i] + 0.5;
-    places[3 * 30] = read.positions()[3 * 30];  // one that stays
+    places[3 * 30] = read.positions()[3 * 30];  // does not move
     const dmo::Mesh moved = read.with_positions(places.data());
     const dmo::Smoothed smoothed = dmo::smooth(moved);
     EXPECT_NE(std::memcmp(smoothed.mesh.positions(), places.data(), bytes), 0);
@@ -85,7 +85,7 @@ TEST(Library, NewPlacesAreWrittenInTheFilesOwnFormat) {
   }
 }
 
-/// A CalculiX text named .msh is written as what it was.
+/// A CalculiX text named .msh is written in its own format.
 TEST(Library, NewPlacesAreWrittenUnderAnotherFormatsExtension) {
   const std::string folder = ::testing::TempDir() + "/library_other";
   (void)sheet_with_data(coarse_sheet(8)).write(folder + ".inp");

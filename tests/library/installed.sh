@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# installed.sh BUILD EXAMPLES: installs the library into an empty folder, builds the examples against what is there and nothing else, by CMake
-# and by pkg-config, and compares what they write with what the program writes.
+# installed.sh BUILD EXAMPLES: installs the library into an empty folder, builds the examples with that installation alone, by CMake and by
+# pkg-config, and compares their output with the program's.
 set -euo pipefail
 build=$1 examples=$2
 work=$(mktemp -d)
@@ -8,19 +8,19 @@ trap 'rm -rf "$work"' EXIT
 prefix=$work/prefix
 for component in library development; do cmake --install "$build" --prefix "$prefix" --component "$component" >/dev/null; done
 
-# No header says a word of what is inside.
+# Headers must not mention internals.
 if grep -rnE 'OpenMesh|imgui|GLFW|glad|core/|library/' "$prefix/include"; then
   echo "the installed headers name what is not installed" >&2
   exit 1
 fi
-# The shared library shows its own functions alone.
+# The shared library exports its own functions alone.
 foreign=$(nm -DC --defined-only "$prefix"/lib*/libdmoscope.so | grep -vE ' (dmo::|(vtable|typeinfo|typeinfo name) for dmo::)' | grep -E ' [TDB] ' || true)
 [[ -z $foreign ]] || { printf 'it shows what it should not:\n%s\n' "$foreign" >&2; exit 1; }
 
 cmake -S "$examples" -B "$work/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release >/dev/null
 cmake --build "$work/build" >/dev/null
 "$work/build/smooth_arrays" | tee "$work/arrays"
-# Right angles with equal legs have a mean ratio of 0.866, which no place but the middle gives all eight.
+# Right angles with equal legs have a mean ratio of 0.866, which the middle alone gives all eight.
 grep -qE -- '-> 0\.86[0-9]+, vertex 4 at \((0\.99|1\.00)' "$work/arrays"
 
 "$build/dmoscope" generate coast -o "$work/coast.14" >/dev/null

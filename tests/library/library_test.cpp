@@ -65,7 +65,7 @@ TEST(Library, BoundaryLoopsPartsAndRings) {
 
 TEST(Library, ClockwiseTrianglesStayClockwise) {
   Arrays arrays = sheet(4);
-  std::swap(arrays.connectivity[1], arrays.connectivity[3]);  // a quadrilateral of another winding than all the rest
+  std::swap(arrays.connectivity[1], arrays.connectivity[3]);  // a quadrilateral that is wound the other way than all others
   const dmo::Mesh mesh = arrays.mesh();
   const dmo::Cells cells = mesh.cells();
   EXPECT_EQ(std::vector(cells.connectivity, cells.connectivity + arrays.connectivity.size()), arrays.connectivity);
@@ -108,7 +108,7 @@ TEST(Library, DataComeBackAsTheyWentIn) {
   EXPECT_THROW((void)dmo::Mesh(arrays.positions.data(), 25, arrays.cells(), {}, {{"wind", {1.0, 2.0}, 3}}), dmo::InputError);
 }
 
-/// What smooth() and write() in the file's own format make of a mesh.
+/// The file after smooth() and write() in the file's own format.
 std::string smoothed_file(const dmo::Mesh& mesh, const std::string& path) {
   (void)dmo::smooth(mesh).mesh.write(path);
   std::ifstream file(path, std::ios::binary);
@@ -118,7 +118,7 @@ std::string smoothed_file(const dmo::Mesh& mesh, const std::string& path) {
 TEST(Library, BytesHoldAllOfAMesh) {
   const std::string path = ::testing::TempDir() + "/library_bytes.vtk", out = ::testing::TempDir() + "/library_bytes_out.vtk";
   (void)sheet_with_data(sheet(6)).write(path);
-  std::ofstream(path, std::ios::app) << "FIELD more 1\nunread 1 1 string\nwords\n";  // what only the file holds
+  std::ofstream(path, std::ios::app) << "FIELD more 1\nunread 1 1 string\nwords\n";  // content that the file alone holds
   const dmo::Mesh read = dmo::Mesh::read(path), moved = dmo::smooth(read, {}).mesh;
   std::vector<double> places(read.positions(), read.positions() + 3 * read.vertex_count());
   for (double& x : places) x *= 2.0;
@@ -306,7 +306,7 @@ TEST(Library, AResultCanBeSmoothedOn) {
   EXPECT_GE(dmo::statistics(on.mesh).minimum, on.history.front().statistics.minimum);
 }
 
-/// A depth of 10 x is one wherever vertices go; flags go along with them.
+/// A depth of 10 x stays one at any positions; flags move with the vertices.
 TEST(Library, PointDataBelongToPlaces) {
   const Arrays arrays = sheet(8);
   dmo::PointData depth, flag;
@@ -332,7 +332,7 @@ TEST(Library, PointDataBelongToPlaces) {
   dmo::SmoothOptions carry;
   carry.options["fields"] = "carry";
   EXPECT_EQ(dmo::smooth(mesh, carry).mesh.point_data()[0].values, depth.values);
-  // Elsewhere by hand they are carried, from where they were last.
+  // After a move by hand fields are carried, from the last positions.
   const dmo::Mesh elsewhere = once.mesh.with_positions(arrays.positions.data());
   EXPECT_EQ(elsewhere.point_data()[0].values, once.mesh.point_data()[0].values);
 
@@ -349,7 +349,7 @@ TEST(Library, PointDataBelongToPlaces) {
   const dmo::Mesh back = dmo::Mesh::read(file);
   for (std::size_t v = 0; v < back.vertex_count(); ++v)
     EXPECT_NEAR(back.point_data()[0].values[v], 10.0 * back.positions()[3 * v] + 0.25, 1e-12);
-  // Written again by way of bytes and of other positions it is the same.
+  // Writing by way of bytes and of other positions gives the same file.
   EXPECT_EQ(written(dmo::Mesh::from_bytes(again.mesh.to_bytes())), bytes);
   EXPECT_EQ(written(again.mesh.with_positions(again.mesh.positions())), bytes);
   EXPECT_EQ(written(dmo::Mesh::from_bytes(again.mesh.with_positions(again.mesh.positions()).to_bytes())), bytes);
@@ -369,7 +369,7 @@ TEST(Library, DegreesAreJudgedOnTheEarth) {
   std::filesystem::remove(file);
   EXPECT_TRUE(mesh.in_degrees());
   EXPECT_EQ(mesh.positions()[3 * 8 + 1], 60.02);
-  // A rectangle of one by two has the mean ratio 2 / (1 / 2 + 2) of its corners.
+  // A rectangle of one by two has the mean ratio 2 / (1 / 2 + 2) at its corners.
   const auto regular = [](const dmo::Mesh& at) {
     std::vector<double> positions(at.positions(), at.positions() + 3 * at.vertex_count());
     positions[3 * 4] = 0.01;
@@ -384,7 +384,7 @@ TEST(Library, DegreesAreJudgedOnTheEarth) {
   EXPECT_TRUE(dmo::Mesh::from_bytes(smoothed.mesh.to_bytes()).in_degrees());
 }
 
-/// Four squares, one cell thick, whose middle is out of place.
+/// Four squares, one cell thick, with a misplaced middle.
 TEST(Library, OneCellThickIsSmoothedAsItsFront) {
   const std::string file = (std::filesystem::temp_directory_path() / "dmoscope_library_thin.vtk").string();
   {
@@ -448,7 +448,7 @@ TEST(Library, WrongArraysAreRefusedByName) {
   arrays.positions[4] = std::numeric_limits<double>::quiet_NaN();
   refused(arrays, "not finite");
   refused(Arrays{{0, 0, 0}, {}, {0}, {}}, "no elements");
-  arrays = sheet(2);  // offsets that lead far beyond the corners, before they come back
+  arrays = sheet(2);  // offsets far beyond the corners, which then fall
   arrays.offsets[1] = 400000004;
   arrays.offsets[2] = 400000007;
   refused(arrays, "do not rise");
@@ -467,7 +467,7 @@ TEST(Library, ATraceEndsWhereTheFirstVisitDoes) {
     const dmo::Trace trace = dmo::trace(mesh, vertex);
     dmo::SmoothOptions once;
     once.iterations = 1;
-    const dmo::Smoothed smoothed = dmo::smooth(mesh, once);  // of one free vertex
+    const dmo::Smoothed smoothed = dmo::smooth(mesh, once);  // one free vertex
     EXPECT_EQ(std::memcmp(trace.to, smoothed.mesh.positions() + 3 * vertex, sizeof trace.to), 0);
     EXPECT_GT(trace.after, trace.before);
     ASSERT_EQ(trace.levels.size(), 3U);

@@ -1,4 +1,4 @@
-// Elements that have corners twice, against volumes by a formula of their own and the patterns that other programs write.
+// Elements with repeated corners, against volumes by a separate formula and the patterns that other programs write.
 
 #include "core/mesh/collapsed.h"
 
@@ -40,7 +40,7 @@ void expect(ElementKind kind, const Corners& corners, ElementKind wanted, const 
   EXPECT_THAT(left.corners, ElementsAreArray(wanted_corners));
 }
 
-/// Six times what the faces enclose, each in the mean of its two ways to be cut in triangles (Gauss).
+/// Six times the volume inside the faces, each taken as the mean of its two triangulations (Gauss).
 double enclosed(ElementKind kind, const Corners& corners, const std::vector<Vec3>& points) {
   const auto cone = [&](Index a, Index b, Index c) { return dot(points[corners[a]], cross(points[corners[b]], points[corners[c]])); };
   double sum = 0.0;
@@ -54,7 +54,7 @@ double enclosed(ElementKind kind, const Corners& corners, const std::vector<Vec3
 
 TEST(Collapsed, PatternsThatProgramsWrite) {
   using enum ElementKind;
-  // ANSYS, Nemoh, FVCOM: triangles by quadrilaterals, whichever corner is there twice.
+  // ANSYS, Nemoh, FVCOM: triangles by quadrilaterals, with any corner repeated.
   expect(Quadrilateral, {7, 8, 9, 9}, Triangle, {7, 8, 9});
   expect(Quadrilateral, {7, 8, 8, 9}, Triangle, {7, 8, 9});
   expect(Quadrilateral, {7, 7, 8, 9}, Triangle, {7, 8, 9});
@@ -81,7 +81,7 @@ TEST(Collapsed, WhatMakesNoKindStays) {
   EXPECT_FALSE(left_of(Hexahedron, {0, 1, 2, 3, 4, 5, 6, 7}).kind);
 }
 
-/// Over all ways in which edges may shrink to points: what is left encloses the same volume, the right way round.
+/// All ways in which edges may shrink to points: the rest encloses the same volume, the right way round.
 TEST(Collapsed, EveryPatternKeepsItsVolume) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> place(-1.0, 1.0);

@@ -77,7 +77,7 @@ TEST(Colouring, IsTheSameForAnyPool) {
   }
 }
 
-/// Every two of them share an element, so each needs a colour of its own.
+/// Every two vertices share an element, so that each needs a colour of its own.
 TEST(Colouring, MoreColoursThanAWordHasBits) {
   constexpr Index kCount = 150;
   Mesh mesh;

@@ -12,7 +12,7 @@ namespace {
 
 using Triangles = std::vector<std::array<Index, 3>>;
 
-/// Long double is exact enough for the small coordinates used here (products below 2^63).
+/// In-circle determinant in long double, which is exact for the small coordinates used here (products below 2^63).
 long double in_circle(GridPoint a, GridPoint b, GridPoint c, GridPoint d) {
   const auto row = [d](GridPoint p) {
     const long double x = p.x - d.x;

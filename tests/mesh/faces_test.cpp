@@ -1,4 +1,4 @@
-// Faces against what is known of volume elements: they are closed, face outwards, and enclose the element's volume.
+// Faces of volume elements: they are closed, face outwards, and enclose the element's volume.
 #include "core/mesh/faces.h"
 
 #include <numeric>
@@ -34,7 +34,7 @@ Mesh single(ElementKind kind) {
   return mesh;
 }
 
-/// By the divergence theorem, from the faces' triangles.
+/// Volume by the divergence theorem, from the faces' triangles.
 double enclosed_volume(const Mesh& mesh, Index element) {
   double six = 0.0;
   for (Index f = 0; f < faces_of(mesh.elements.kind(element)).size(); ++f) {

@@ -99,7 +99,7 @@ TEST(Generate, ThereIsRoomForImprovement) {
   }
 }
 
-/// The elements that bound the minimum of swept rods touch the surface: at a line where a square's corner lies on a smooth curve.
+/// The elements at the minimum of swept rods touch the surface: at a line where a square's corner lies on a smooth curve.
 TEST(Generate, TheWorstOfRodsTouchesTheSurface) {
   for (const char* name : {"screw", "elbow"}) {
     const Mesh mesh = generated(name, 0, 2);
@@ -174,7 +174,7 @@ TEST(Generate, CoastHasBoundaryStringsAndDepth) {
     islands += group.role == "land boundary" && group.code == 1 ? 1 : 0;
     on_strings.insert(group.members.begin(), group.members.end());
     for (std::size_t i = 1; i < group.members.size(); ++i) {
-      // Neighbours on a string share exactly one element: they are an edge of the boundary.
+      // Neighbours on a string share exactly one element: they form an edge of the boundary.
       int shared = 0;
       for (const Incidence& incidence : input->topology.star(group.members[i])) {
         shared += std::ranges::count(mesh.elements.corners(incidence.element), group.members[i - 1]) > 0 ? 1 : 0;

@@ -1,4 +1,4 @@
-// Longitude and latitude: the map, and what is taken for degrees.
+// Longitude and latitude: the map, and the detection of degrees.
 
 #include "core/mesh/geographic.h"
 

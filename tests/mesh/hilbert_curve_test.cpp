@@ -12,7 +12,7 @@
 namespace dmoscope {
 namespace {
 
-/// The lattice's points in the order of the curve: every step from one to the next is one of the lattice's edges.
+/// Expects every step between consecutive points of the curve to be an edge of the lattice.
 void expect_unit_steps(int side, int dimension) {
   std::vector<Vec3> points;
   for (int k = 0; k < (dimension == 3 ? side : 1); ++k)

@@ -111,7 +111,7 @@ TEST(PrepareInput, ReferenceMeasureIsTheMeanAreaAround) {
   Progress progress;
   const auto input = prepare_input(mesh, {}, Need::Smoothing, progress);
   EXPECT_THAT(input->reference_measure, ElementsAre(1.0, 2.0, 4.0));
-  // Nothing to measure at all: 1.
+  // Nothing to measure: 1.
   const auto flat = prepare_input(make({{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}, {{0, 1, 2}}), {}, Need::Smoothing, progress);
   EXPECT_THAT(flat->reference_measure, ElementsAre(1.0));
 }

@@ -1,4 +1,4 @@
-// Which vertices inside a mesh are held, and why: against what the lattices below show at a glance.
+// Vertices inside a mesh that interfaces hold, and the reasons: against the answers known for the lattices below.
 
 #include "core/mesh/interfaces.h"
 
@@ -184,7 +184,7 @@ TEST(Interfaces, DataThatMayMeanMaterialsAreSaid) {
   EXPECT_THAT(input->interfaces.offers("--materials"),
               ElementsAre("cell data \"my zones\" has 4 values: --materials \"my zones\" keeps their interfaces"));
   EXPECT_FALSE(input->interfaces.any());
-  // Where all that it would hold is held already, there is nothing to gain.
+  // A field whose vertices are all held already adds nothing.
   mesh.fields.push_back(of_cells("mat", mesh, [](Index e) { return e % 4; }));
   EXPECT_THAT(testing::input(mesh)->interfaces.offers("x"), IsEmpty());
   EXPECT_THAT(with_materials(*input, std::vector<std::string>{"my zones", "steady"})->interfaces.offers("x"),
@@ -245,7 +245,7 @@ TEST(Interfaces, BoundaryStringsInsideHold) {
   EXPECT_EQ(input->interfaces.why(7), "it lies on \"land boundary 1\", which stays");
 }
 
-/// All faces of hexahedra, each once or twice, or only those whose four corners `has`.
+/// Faces of hexahedra, each once or twice: all, or only those whose four corners satisfy `has`.
 Group faces_of_block(const Mesh& mesh, const std::function<bool(Index)>& has) {
   Group group{.name = "wall", .role = "marker", .code = 0, .dimension = 2, .members = {}};
   for (Index e = 0; e < mesh.elements.size(); ++e) {

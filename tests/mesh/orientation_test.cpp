@@ -65,7 +65,7 @@ TEST(Orientation, MeshWoundClockwiseIsReversedAndRemembersIt) {
   EXPECT_EQ(flat(mesh), positive);
   ASSERT_EQ(mesh.flipped.size(), mesh.elements.size());
   for (const auto f : mesh.flipped) EXPECT_EQ(f, 1);
-  // Idempotent: nothing more to do, and what was done is still known.
+  // A second call changes nothing, and the flips of the first are still known.
   const auto flipped = mesh.flipped;
   EXPECT_EQ(normalise_orientation(mesh, kXy).flipped, 0U);
   EXPECT_EQ(mesh.flipped, flipped);

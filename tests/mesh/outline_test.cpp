@@ -34,7 +34,7 @@ void add_annulus(Mesh& mesh, Vec3 centre, double inner, double outer, Index n, I
   }
 }
 
-/// A grid of n x m quadrilaterals, closed along the first direction and, where `both`, along the second.
+/// A grid of n x m quadrilaterals, closed along the first direction and, if `both`, along the second.
 Mesh tube(Index n, Index m, bool both) {
   Mesh mesh;
   const Index rows = both ? m : m + 1;

@@ -1,4 +1,4 @@
-// Real meshes, where they are at hand: numbers counted by an independent script.
+// Real meshes, if they are there: numbers counted by an independent script.
 
 #include <algorithm>
 #include <filesystem>

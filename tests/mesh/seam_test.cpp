@@ -1,4 +1,4 @@
-// Which meshes are taken to wrap, and what is said of them.
+// Detection of meshes that wrap, and the messages about them.
 
 #include "core/mesh/seam.h"
 
@@ -29,7 +29,7 @@ std::shared_ptr<const InputMesh> prepared(Mesh mesh) {
 
 std::string findings(const InputMesh& input) { return fmt::format("{}", fmt::join(input.report.sentences(), "\n")); }
 
-/// Cells of one degree around (180, 0) as a file has them, which counts from `west`.
+/// Cells of one degree around (180, 0) with a file's longitudes, which count from `west`.
 Mesh around_180(Index n, Index every, double west) {
   Mesh mesh = lattice(n, n, every);
   for (Vec3& p : mesh.positions) {
@@ -106,7 +106,7 @@ TEST(Seam, WhatIsMerelyWideStaysAsItIs) {
   for (Index e = 0; e < wide.elements.size(); ++e) wide.elements.flip(e);
   EXPECT_EQ(prepared(wide)->geometry.plane.period, 0.0);
   EXPECT_EQ(prepared(make({{-170, -80, 0}, {170, -80, 0}, {0, -60, 0}}, {{0, 1, 2}}))->geometry.plane.period, 0.0);
-  // All elements are, and wound clockwise: unwrapped they would be counter-clockwise, but still wider than any on the Earth.
+  // All elements are wide, and wound clockwise: unwrapped they would be counter-clockwise, but still wider than any on the Earth.
   const Mesh coarse = make({{-100, -50, 0}, {100, -50, 0}, {100, 50, 0}, {-100, 50, 0}}, {{0, 2, 1}, {0, 3, 2}});
   EXPECT_EQ(prepared(coarse)->geometry.plane.period, 0.0);
   // No element wider than half the circle.
@@ -114,11 +114,11 @@ TEST(Seam, WhatIsMerelyWideStaysAsItIs) {
   for (Vec3& p : fine.positions) p = {10.0 * p.x - 180.0, 10.0 * p.y - 80.0, 0.0};
   EXPECT_EQ(prepared(fine)->geometry.plane.period, 0.0);
   EXPECT_THAT(findings(*prepared(fine)), Not(HasSubstr("meridian")));
-  // A slip: one vertex whose sign is turned makes some elements wide, of which unwrapping would mend one side and ruin the other.
+  // An error: one vertex with the wrong sign makes some elements wide, of which unwrapping would mend one side and ruin the other.
   fine.positions[8 * 37 + 34].x *= -1.0;
   EXPECT_EQ(prepared(fine)->geometry.plane.period, 0.0);
   EXPECT_FALSE(prepared(fine)->report.inverted_elements.empty());
-  // What wraps, in a plane that is not that of longitude and latitude, or beyond the poles.
+  // A mesh that wraps, in a plane that is not that of longitude and latitude, or beyond the poles.
   Mesh upright = around_180(8, 1, -180.0);
   for (Vec3& p : upright.positions) p = {p.x, 0.0, p.y};
   EXPECT_EQ(prepared(upright)->geometry.plane.period, 0.0);

@@ -1,4 +1,4 @@
-// The front of a mesh one cell thick: which it is, how it is wound, and what groups are there.
+// The front of a mesh one cell thick: its side, its winding, and its groups.
 
 #include "core/mesh/thin.h"
 
@@ -40,7 +40,7 @@ std::string taken(Mesh& mesh) {
   return take_front(mesh, progress);
 }
 
-/// Each element of the front has the corners of the sheet's, the same way round.
+/// Expects each element of the front to have the corners of the sheet's, the same way round.
 void expect_sheet(const Mesh& sheet, const Mesh& mesh) {
   ASSERT_EQ(mesh.elements.size(), sheet.elements.size());
   for (Index e = 0; e < sheet.elements.size(); ++e) {
@@ -57,7 +57,7 @@ TEST(Thin, TheFrontIsTheSheetWhicheverWayTheBackLies) {
     const Mesh sheet = testing::lattice(6, 0.2, 1, testing::Cells::Mixed);
     Mesh mesh = stacked(sheet, 1, {0.01, 0.02, way});
     const ElementTable cells = mesh.elements;
-    if (way < 0.0)  // or they would be inside out
+    if (way < 0.0)  // else they would be inside out
       for (Index e = 0; e < mesh.elements.size(); ++e) mesh.elements.flip(e);
     ASSERT_EQ(taken(mesh), "");
     expect_sheet(sheet, mesh);
@@ -114,7 +114,7 @@ TEST(Thin, ABackOfAnotherShapeIsNotTaken) {
   EXPECT_THAT(taken(mesh), HasSubstr("has another shape than its front"));
 }
 
-/// Two sheets beside each other, of which one is numbered from behind.
+/// Two sheets beside each other, one of them numbered from behind.
 TEST(Thin, PartsHaveTheirFrontsOnTheSameSide) {
   const Mesh sheet = testing::lattice(4, 0.2, 1, testing::Cells::Quadrilaterals);
   Mesh mesh = stacked(sheet, 1, {0, 0, 0.1});

@@ -1,4 +1,4 @@
-// Vertices that belong to others: found, and kept together where they would slide.
+// Vertices that belong to others: they are found, and stay together where they could slide.
 
 #include "core/mesh/ties.h"
 

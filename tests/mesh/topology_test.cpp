@@ -108,7 +108,7 @@ TEST(Edges, EverySideOnceAndItsElementRight) {
   EXPECT_EQ(sides_seen, mesh.elements.all_corners().size());
 }
 
-/// The survey by the definitions, from a table of all edges.
+/// The survey by its definitions, from a table of all edges.
 EdgeSurvey surveyed_by_hand(const Mesh& mesh) {
   EdgeSurvey survey;
   const Index count = mesh.elements.size();
@@ -181,7 +181,7 @@ TEST(Edges, SurveyOfLatticesWithOddElements) {
     Mesh mesh = lattice(7, 6, seed % 3 == 0 ? 1000 : static_cast<Index>(seed % 3));
     expect_surveyed(mesh);
     const Index count = mesh.elements.size();
-    for (int i = 0; i < 3; ++i) {  // one odd thing after the other
+    for (int i = 0; i < 3; ++i) {  // one irregularity after the other
       if (seed % 2 == 0) mesh.elements.flip(static_cast<Index>(random.below(count)));
       const auto c = mesh.elements.corners(static_cast<Index>(random.below(count)));
       std::vector<Index> again(c.begin(), c.end());

@@ -1,4 +1,4 @@
-// The words by which vertices are named: what they mean, and what is refused.
+// Words that name vertices: their meaning, and their refusals.
 
 #include "core/mesh/vertex_words.h"
 

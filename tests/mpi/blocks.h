@@ -1,5 +1,5 @@
 #pragma once
-// Meshes that every rank of a test has whole, and their parts.
+// Meshes that every rank of a test has as a whole, and their parts.
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace dmoscope::testing {
 
-/// A mesh, and what tells it from its generator's.
+/// A mesh, and its difference from the generator's.
 struct Sample {
   std::string name;
   Mesh mesh;
@@ -24,12 +24,12 @@ struct Sample {
 [[nodiscard]] inline Mesh generated(const char* name, std::size_t size, std::uint64_t seed = 1) {
   Progress unwatched;
   Mesh mesh = generate_mesh(name, size, seed, unwatched);
-  mesh.groups.clear();  // a block has none
+  mesh.groups.clear();  // blocks have none
   mesh.fields.clear();
   return mesh;
 }
 
-/// Some elements the other way round.
+/// Turns some elements over.
 [[nodiscard]] inline Mesh with_turned_elements(Mesh mesh, std::uint64_t seed) {
   Random random(seed);
   for (Index e = 0; e < mesh.elements.size(); ++e)
@@ -37,7 +37,7 @@ struct Sample {
   return mesh;
 }
 
-/// Numbered at random.
+/// Numbers the mesh at random.
 [[nodiscard]] inline Mesh shuffled_mesh(const Mesh& mesh, std::uint64_t seed) {
   std::vector<Index> order(mesh.positions.size()), elements(mesh.elements.size());
   for (Index v = 0; v < order.size(); ++v) order[v] = v;
@@ -68,7 +68,7 @@ struct Sample {
   return mesh;
 }
 
-/// Two copies beside each other.
+/// Puts two copies beside each other.
 [[nodiscard]] inline Mesh twice(const Mesh& mesh) {
   Mesh two;
   two.positions = mesh.positions;
@@ -85,7 +85,7 @@ struct Sample {
   return two;
 }
 
-/// A sheet that is folded on itself: as many elements look up as down, and all are of one size.
+/// A sheet that is folded on itself: as many elements look up as down, and all have one size.
 [[nodiscard]] inline Mesh folded_lattice(Index cells) {
   Mesh mesh;
   const Index side = cells + 1;
@@ -106,7 +106,7 @@ struct Sample {
   for (const char* name : {"tetrahedra", "hexahedra", "solids", "tangled-solids"}) all.push_back({name, generated(name, 300, 2)});
   all.push_back({"coast turned", with_turned_elements(generated("coast", 300), 5)});
   all.push_back({"solids turned", with_turned_elements(generated("solids", 200), 5)});
-  // Most ranks know turned elements alone, and the first none.
+  // Turned elements are known to most ranks, and none to the first.
   all.push_back({"later elements turned", generated("grid", 300)});
   for (Index e = all.back().mesh.elements.size() / 5; e < all.back().mesh.elements.size(); ++e) all.back().mesh.elements.flip(e);
   all.push_back({"random numbers", shuffled_mesh(generated("coast", 500), 7)});
@@ -144,7 +144,7 @@ struct Sample {
   return prepare_input(mesh, {}, Need::Smoothing, unwatched);
 }
 
-/// In ranks' shares. By turns along a curve and as the vertices are numbered.
+/// The mesh in ranks' shares; the partition is along a curve or by the vertices' numbers.
 [[nodiscard]] inline SharedMesh shared(const World& world, const Mesh& mesh, PartitionChoice::Kind kind = PartitionChoice::Kind::Hilbert) {
   return share_block(world, block_of(world, mesh), "sample", {kind}, SharedVertexWords({}), Need::Smoothing);
 }

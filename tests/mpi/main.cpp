@@ -1,5 +1,5 @@
-// Tests that all ranks of an MPI job run together, each the same tests in the same order. Only the first rank tells how they go; what
-// another finds wrong it says itself.
+// Tests that all ranks of an MPI job run together, each the same tests in the same order. Only the first rank reports progress; other ranks
+// report their failures themselves.
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 namespace {
 
-/// Nothing but failures.
+/// Listener that prints failures alone.
 class Quiet : public testing::EmptyTestEventListener {
   void OnTestPartResult(const testing::TestPartResult& result) override {
     if (result.failed())

@@ -108,8 +108,8 @@ class Case(unittest.TestCase):
 
     def same_as_alone(self, mesh, options=(), ranks=(1, 2, 3), partitions=("hilbert",), threads=(1,)):
         want = self.folder / ("want" + mesh.suffix)
-        options = (*options, "--fields", "carry")  # as several ranks do
-        alone_only = ("--geographic", "off")  # ranks take coordinates as they stand
+        options = (*options, "--fields", "carry")  # the default of several ranks
+        alone_only = ("--geographic", "off")  # ranks take coordinates unprojected
         code = subprocess.run([str(DMOSCOPE), "smooth", str(mesh), "-o", str(want), *map(str, options), *alone_only],
                               capture_output=True, timeout=240).returncode
         self.assertIn(code, (0, 1))
@@ -306,7 +306,7 @@ class Pieces(Case):
             after = (self.folder / "s_0.vtu").read_bytes()
             self.assertEqual(len(after), len(before))
             begin = before.index(b"_") + 1
-            self.assertEqual(after[begin : begin + 8 * 40], before[begin : begin + 8 * 40])  # the temperatures stand first
+            self.assertEqual(after[begin : begin + 8 * 40], before[begin : begin + 8 * 40])  # the temperatures are first
 
     def test_pieces_that_disagree(self):
         mesh = self.make("a.obj", "grid", 60)

@@ -1,4 +1,4 @@
-// A rank's share knows of its vertices and elements what one process knows of the whole mesh.
+// A rank's share has the data of its vertices and elements that one process finds for the whole mesh.
 
 #include <algorithm>
 #include <bit>

@@ -1,4 +1,4 @@
-// Ranks smooth a mesh to the very bits that one process finds, and know the same of it after each iteration.
+// Ranks smooth a mesh to the bits of one process, with the same statistics after each iteration.
 
 #include <algorithm>
 #include <bit>
@@ -45,7 +45,7 @@ void expect_same_positions(const SharedMesh& mesh, const Run& mine, const Run& t
   }
 }
 
-/// Runs both for some iterations.
+/// Runs both for some iterations, and compares them.
 void compare(const World& world, const Sample& sample, const RunParameters& parameters, std::uint64_t iterations) {
   SCOPED_TRACE(sample.name + ", " + parameters.method);
   const auto whole = whole_input(sample.mesh);
@@ -129,7 +129,7 @@ TEST(SharedSmoothing, MovesFloatsToFloats) {
   compare(world, {"floats", mesh}, {}, 4);
 }
 
-/// Hexahedra and wedges that are nearly or wholly inverted inside, where corners do not tell.
+/// Hexahedra and wedges that are nearly or wholly inverted inside, which corners do not show.
 TEST(SharedSmoothing, HasTheSameBitsWhereElementsAreAlmostInvertedInside) {
   const World world;
   RunParameters one_aim{.layers = LayerRule::Free}, other_method = one_aim, two_aims = one_aim;
@@ -166,7 +166,7 @@ TEST(SharedSmoothing, ConvergesWhereOneProcessDoes) {
     }
 }
 
-/// Many vertices move on for long, and one whose neighbours all stay has one of them far too near.
+/// Many vertices move for a long time, and one whose neighbours all stay has one of them far too near.
 TEST(SharedSmoothing, EndsByTheSameCertificate) {
   const World world;
   constexpr Index kSide = 90, kVertex = 45 * (kSide + 1) + 45;
@@ -195,7 +195,7 @@ TEST(SharedSmoothing, EndsByTheSameCertificate) {
   expect_same_positions(part, mine, theirs);
 }
 
-/// A method that may make things worse goes back to its best iteration: also where a rank has nothing to visit, or no vertex at all.
+/// A method that may make things worse goes back to its best iteration: also if a rank has nothing to visit, or no vertex at all.
 TEST(SharedSmoothing, GoesBackToTheBestIterationTogether) {
   const World world;
   for (const char* method : {"laplace", "angle-based"})
@@ -235,7 +235,7 @@ TEST(SharedSmoothing, UntanglesSeveralVerticesTogether) {
   }
 }
 
-/// A region that several ranks have parts of is the same on all of them, and that of one process.
+/// A region with parts on several ranks is the same on all of them, and that of one process.
 TEST(SharedSmoothing, ARegionIsTheSameForAll) {
   const World world;
   for (const Sample& sample : {Sample{"coast", generated("coast", 300)}, Sample{"solids", generated("solids", 150)}}) {

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# chroot.sh [PACKAGES]: installs the packages in PACKAGES (out/packages, by tools/package) into a Debian with nothing else, uses them there, takes
-# them out again, and tells how much they draw in. Needs root, mmdebstrap, and the network or a mirror, which apt knows.
+# chroot.sh [PACKAGES]: installs the packages in PACKAGES (out/packages, by tools/package) into a Debian with nothing else, uses them there,
+# removes them, and prints the size of their dependencies. Needs root, mmdebstrap, and the network or a mirror that apt knows.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 packages=$(realpath "${1:-$root/out/packages}")
@@ -29,7 +29,7 @@ install libgl1 fonts-dejavu-core  # every desktop has these
 install $(deb dmoscope)
 inside dmoscope --version
 inside dmoscope smooth /usr/share/dmoscope/samples/coast.14 -o /better.14 --until-converged | tail -2
-install libegl1 libgl1 libgl1-mesa-dri  # which the package recommends
+install libegl1 libgl1 libgl1-mesa-dri  # the package recommends them
 inside dmoscope render /better.14 -o /better.png --size 400x300
 inside test -s /better.png
 install xvfb xauth

@@ -1,5 +1,5 @@
-// What the paper claims of DMO and of the methods it is compared with (Sections 5.1, 5.3 and 5.4), on the paper's own meshes where they are
-// and on generated ones; the figures expected of other methods were computed apart.
+// The paper's claims about DMO and the methods it is compared with (Sections 5.1, 5.3 and 5.4), on the paper's own meshes if they are
+// there, and on generated ones; the figures expected of other methods were computed apart.
 
 #include <algorithm>
 #include <cmath>

@@ -110,7 +110,7 @@ def test_boundary_loops_parts_and_rings():
     assert set(ring) == set(triangles[(triangles == 8).any(axis=1)].ravel()) - {8} and (turns > 0).all()
     with pytest.raises(dmoscope.UsageError, match="no vertex 49"):
         mesh.ring(49)
-    # Two sheets are two parts, of which one is kept.
+    # Two sheets are two parts; one is kept.
     both = dmoscope.Mesh(np.vstack([points, points + [10, 0]]), {"triangle": np.vstack([triangles, triangles + len(points)])})
     assert [len(part) for part in both.parts] == [len(triangles)] * 2 and [loop.part for loop in both.boundary_loops] == [0, 1]
     moved = dmoscope.smooth(both, 3, fix="part:1").mesh.points != both.points
@@ -272,7 +272,7 @@ def test_meshio_s_wedges_have_another_order(tmp_path):
     by_meshio, own = meshio.read(tmp_path / "solids.vtk"), dmoscope.read(tmp_path / "solids.vtk")
     wedges = {tuple(c) for b in by_meshio.cells if b.type == "wedge" for c in b.data.tolist()}
     assert wedges == {tuple(c) for b in own.to_meshio().cells if b.type == "wedge" for c in b.data.tolist()} and wedges
-    # One alone has no neighbour that could tell which way is out.
+    # A single one has no neighbour that could tell its outside.
     points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1]], dtype=float)
     meshio.write(tmp_path / "one.vtk", meshio.Mesh(points, [("wedge", np.array([[0, 1, 2, 3, 4, 5]]))]))
     of_file = dmoscope.read(tmp_path / "one.vtk")
@@ -345,7 +345,7 @@ def test_options_are_heard_or_refused():
 
 def test_an_interrupt_at_once_keeps_the_mesh_or_is_raised(tmp_path):
     run("generate", "grid", "-o", tmp_path / "grid.off", "--size", 300000)
-    moved = dmoscope.smooth(dmoscope.read(tmp_path / "grid.off"), iterations=1).mesh  # is prepared anew when it is smoothed on
+    moved = dmoscope.smooth(dmoscope.read(tmp_path / "grid.off"), iterations=1).mesh  # prepared anew for the next smoothing
     for wait in (0.15, 0.5):
         threading.Timer(wait, os.kill, (os.getpid(), signal.SIGINT)).start()
         with pytest.warns(RuntimeWarning, match="interrupted"):
@@ -456,7 +456,7 @@ def test_pyvista_is_taken_and_given_back():
             self.celltypes = np.full(len(cells), 5, dtype=np.uint8)
             self.offset = np.arange(0, 3 * len(cells) + 1, 3)
             self.cell_connectivity = cells.ravel()
-            self.cells = np.column_stack([np.full(len(cells), 3), cells]).ravel()  # as PyVista has them: flat
+            self.cells = np.column_stack([np.full(len(cells), 3), cells]).ravel()  # flat, as in PyVista
             self.cells_dict = {5: cells}
             self.point_data, self.cell_data = {}, {}
 
@@ -524,7 +524,7 @@ def test_pictures_are_the_program_s(tmp_path, kind, words, options):
     pixels = dmoscope.render(mesh, (240, 160), colour_bar=False, **options)
     assert pixels.shape == (160, 240, 4) and pixels.dtype == np.uint8
     assert len(np.unique(pixels.reshape(-1, 4), axis=0)) > 20
-    # With its colour bar, it is the very picture of the program's but for the mesh's name.
+    # With its colour bar, it equals the program's picture but for the mesh's name.
     run("render", tmp_path / "mesh.vtk", "-o", tmp_path / "mesh.png", "--size", "240x160", *words)
     with_bar = dmoscope.render(mesh, (240, 160), **options)
     assert (with_bar != png(tmp_path / "mesh.png")).any(axis=2).mean() < 0.05

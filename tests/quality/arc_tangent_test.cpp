@@ -10,7 +10,7 @@
 namespace dmoscope {
 namespace {
 
-/// In units in the last place of the result.
+/// Error in units in the last place of the result.
 double error(double y, double x) {
   const long double exact = std::atan2(static_cast<long double>(y), static_cast<long double>(x));
   const double near = std::fabs(static_cast<double>(exact));

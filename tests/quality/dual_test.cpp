@@ -18,7 +18,7 @@ namespace {
 using V = Vec2<double>;
 using D = Vec2<Dual>;
 
-/// The derivative of f at 0 by central differences of sixth order; none where two widths do not agree, as at a kink.
+/// The derivative of f at 0 by central differences of sixth order; none if two widths do not agree, as at a kink.
 template <class F>
 std::optional<double> derivative(const F& f) {
   const auto at = [&f](double h) { return (45 * (f(h) - f(-h)) - 9 * (f(2 * h) - f(-2 * h)) + (f(3 * h) - f(-3 * h))) / (60 * h); };
@@ -27,7 +27,7 @@ std::optional<double> derivative(const F& f) {
   return narrow;
 }
 
-/// quality(p): of an element of which one corner is at p, in any scalar.
+/// Checks the gradient. quality(p): of an element with one corner at p, in any scalar.
 template <class Quality>
 int expect_gradient(const Quality& quality, V p, std::string_view name) {
   const Dual exact = quality(variable(p));

@@ -1,4 +1,4 @@
-// Many elements at once: the very bits of one after the other.
+// Many elements at once have the bits of one after the other.
 
 #include "core/quality/element_block.h"
 
@@ -21,7 +21,7 @@ using testing::lattice;
 
 bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0 || (std::isnan(a) && std::isnan(b)); }
 
-/// Elements of no area, of no extent, inverted ones and sharp ones among the others.
+/// A mesh with elements of no area, of no extent, inverted ones and sharp ones among the others.
 Mesh tangled(Cells cells) {
   Mesh mesh = lattice(24, 0.9, 11, cells);
   for (std::size_t v = 30; v < 500; v += 31) mesh.positions[v] = mesh.positions[v + 1];
@@ -34,13 +34,14 @@ Mesh tilted(Mesh mesh) {
   return mesh;
 }
 
-/// So little that one component of the frame's vectors is exactly 1 and the others still count: the vertices are off the plane besides.
+/// Tilts the mesh so little that one component of the frame's vectors is exactly 1 and the others still count; the vertices are off the
+/// plane besides.
 Mesh hardly_tilted(Mesh mesh) {
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) mesh.positions[v].z = 3e-9 * mesh.positions[v].x + (v % 2 == 0 ? 4e-7 : -4e-7);
   return mesh;
 }
 
-/// In the plane x = 3 or y = 3.
+/// Puts the mesh in the plane x = 3 or y = 3.
 Mesh upright(Mesh mesh, bool in_yz) {
   for (Vec3& p : mesh.positions) p = in_yz ? Vec3{3.0, p.x, p.y} : Vec3{p.y, 3.0, p.x};
   return mesh;
@@ -80,7 +81,7 @@ TEST(ElementBlock, HasTheVeryBitsOfEachElementInAnyPlane) {
   }
 }
 
-/// In degrees, across the meridian of 180.
+/// Puts the mesh in degrees, across the meridian of 180.
 Mesh across_the_seam(Mesh mesh) {
   for (Vec3& p : mesh.positions) {
     p = {170.0 + 20.0 * p.x, 30.0 * p.y, 0.0};

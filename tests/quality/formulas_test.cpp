@@ -1,4 +1,4 @@
-// The metrics against values computed here in other ways: elementary geometry in long double.
+// The metrics against values computed in other ways: elementary geometry in long double.
 
 #include "core/quality/formulas.h"
 
@@ -55,7 +55,7 @@ long double expected(Metric metric, const Measured& m) {
   const long double longest = std::max({m.side[0], m.side[1], m.side[2]});
   const long double perimeter = m.side[0] + m.side[1] + m.side[2];
   switch (metric) {
-    case Metric::Condition:  // not of triangles
+    case Metric::Condition:  // not defined for triangles
       return 0;
     case Metric::MeanRatio:
     case Metric::MeanRatioArea:

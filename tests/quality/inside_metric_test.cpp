@@ -1,4 +1,4 @@
-// The metric that sees inside elements, against determinants and lengths at places in them, worked out apart in long double.
+// The metric of the inside of elements, against determinants and lengths at places in them, computed apart in long double.
 
 #include <array>
 #include <cmath>
@@ -46,7 +46,7 @@ struct Elements {
 constexpr std::array<Vec3, 8> kCube{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
 constexpr std::array<Vec3, 6> kPrism{
     {{0, 0, 0}, {1, 0, 0}, {0.5, 0.8660254037844386, 0}, {0, 0, 1}, {1, 0, 1}, {0.5, 0.8660254037844386, 1}}};
-/// Corners alone call it sound; at (1, .55, 1) in it the determinant is negative.
+/// A hexahedron that is sound by its corners alone; at (1, .55, 1) in it the determinant is negative.
 constexpr std::array<Vec3, 8> kSwivel{{{74.732437133789062, 42.958683013916016, 85.311637878417969},
                                        {73.082679748535156, 44.547451019287109, 84.69134521484375},
                                        {74.776168823242188, 41.417781829833984, 86.452590942382812},
@@ -87,7 +87,7 @@ Here at(std::span<const Point> p, Real x, Real y, Real z) {
     const Point c = mean(x, y, p[4] - p[0], p[5] - p[1], p[7] - p[3], p[6] - p[2]);
     return {determinant_of(a, b, c), length(a) * length(b) * length(c)};
   }
-  const std::array<Real, 3> share{1 - x - y, x, y};  // of the edges between the triangles
+  const std::array<Real, 3> share{1 - x - y, x, y};  // shares of the edges between the triangles
   std::array<Point, 3> layer{};
   for (std::size_t i = 0; i < 3; ++i) layer[i] = (1 - z) * p[i] + z * p[i + 3];
   Point along{0, 0, 0};
@@ -100,7 +100,7 @@ Here at(std::span<const Point> p, Real x, Real y, Real z) {
   return {2 / std::sqrt(Real(3)) * determinant_of(layer[1] - layer[0], layer[2] - layer[0], along), lengths};
 }
 
-/// The least scaled Jacobian at 9^3 places in each element; of places where the determinant is not positive 0.
+/// The least scaled Jacobian at 9^3 places in each element; 0 if the determinant is not positive somewhere.
 std::vector<double> expect_lower_bounds(Elements elements) {
   const auto prepared = input(std::move(elements.mesh), Need::QualityOnly);
   const Mesh& mesh = prepared->mesh;
@@ -189,7 +189,7 @@ TEST(InsideMetric, IsTheScaledJacobianWhereCornersTell) {
   EXPECT_EQ(info(inside()).acceptable, info(Metric::ScaledJacobian).acceptable);
 }
 
-/// The worst of an element is at its last corner: what the first one changes is better than all of it.
+/// The worst corner of an element is its last: the part that the first one changes is better than the whole.
 TEST(InsideMetric, CountsOfAMovingCornerWhatItChanges) {
   Elements one{ElementKind::Hexahedron, {}};
   std::array<Vec3, 8> bent = kCube;
@@ -202,11 +202,11 @@ TEST(InsideMetric, CountsOfAMovingCornerWhatItChanges) {
   const double all = quality(kNoIndex);
   EXPECT_EQ(quality(6), all);
   EXPECT_GT(quality(0), all + 0.1);
-  bent[0] = {0.1, 0.05, 0.0};  // another place of the first corner changes nothing of what it does not
+  bent[0] = {0.1, 0.05, 0.0};  // another place of the first corner leaves the rest unchanged
   EXPECT_EQ(quality(kNoIndex), all);
 }
 
-/// What is refused says so: a target knows a hexahedron's corners alone; a metric field has all of it.
+/// Refusals tell the reason: a target knows a hexahedron's corners alone; a metric field has all of it.
 TEST(InsideMetric, HasNoTargetButMetricFields) {
   Progress progress;
   const auto mesh = generate_input("hexahedra 60", progress);

@@ -1,4 +1,4 @@
-// Power means against their definition, and that packs get the bits of scalars.
+// Power means against their definition, and equality of packs and scalars to the bit.
 
 #include "core/quality/power_mean.h"
 

@@ -101,7 +101,8 @@ TEST(Statistics, SameBitsForAnyPool) {
   }
 }
 
-/// As many processes and a device add it, too: elements within stretches of 1,024 by four lanes, stretches within groups of 1,024, groups.
+/// The order of addition, also for many processes and a device: elements within stretches of 1,024 by four lanes, stretches within groups
+/// of 1,024, groups.
 TEST(Statistics, TheMeanIsAddedUpInStretchesAndGroups) {
   Progress unwatched;
   const auto mesh = prepare_input(generate_mesh("grid", 560'000, 1, unwatched), {}, Need::QualityOnly, unwatched);
@@ -215,7 +216,7 @@ TEST(ThreadPool, CoversEveryIndexOnceAndPassesExceptionsOn) {
 }
 
 TEST(ThreadPool, LoopsMayFollowEachOtherAtOnceOrAfterAWhile) {
-  for (const unsigned threads : {2U, 9U}) {  // 9: more than processors, most likely
+  for (const unsigned threads : {2U, 9U}) {  // 9: probably more than processors
     ThreadPool pool(threads);
     std::vector<std::size_t> sums(64, 0);
     for (int loop = 0; loop < 3000; ++loop) {

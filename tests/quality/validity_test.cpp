@@ -1,4 +1,4 @@
-// Whether elements are valid inside, against exact arithmetic: corners are whole numbers, determinants at places i / n too.
+// Validity of elements inside, against exact arithmetic: corners are whole numbers, determinants at places i / n too.
 
 #include "core/quality/validity.h"
 
@@ -45,7 +45,7 @@ struct Count {
   int valid = 0, inverted = 0, inside_alone = 0, undecided = 0;
 };
 
-/// Elements whose corners are pushed about by so much that half of them are invalid.
+/// Elements whose corners are displaced so far that half of them are invalid.
 template <class Shape, std::size_t N>
 Count expect_right(const std::array<Point, N>& ideal, int trials, double least_push, double greatest_push) {
   Random random(91);
@@ -65,7 +65,7 @@ Count expect_right(const std::array<Point, N>& ideal, int trials, double least_p
     if (found.proved) {
       ++count.valid;
       EXPECT_GT(corner, 0.0);
-      if (trial % 8 != 0) continue;  // which is enough, and takes long
+      if (trial % 8 != 0) continue;  // enough, for it takes long
       constexpr int kPlaces = 6;
       for (int i = 0; i <= kPlaces; ++i)
         for (int j = 0; j <= (N == 6 ? kPlaces - i : kPlaces); ++j)
@@ -100,8 +100,8 @@ TEST(Validity, OfWedgesByExactArithmetic) {
   EXPECT_LT(count.undecided, 10);
 }
 
-/// Two opposite faces that are turned against each other, by steps: the determinant in the middle goes through zero at a quarter turn of
-/// each (faces of half the diagonal h at height 1: 4 h^2 cos(turn)), long after nothing is left at the corners, or never.
+/// Two opposite faces turned against each other, step by step: the determinant in the middle becomes zero at a quarter turn of each (faces
+/// of half the diagonal h at height 1: 4 h^2 cos(turn)), long after those at the corners, or never.
 TEST(Validity, OfFacesTurnedAgainstEachOther) {
   for (int step = 0; step < 180; ++step) {
     const double turn = step * M_PI / 180.0;
@@ -110,7 +110,7 @@ TEST(Validity, OfFacesTurnedAgainstEachOther) {
       const double angle = M_PI / 2 * static_cast<double>(c % 4) + (c < 4 ? 0.0 : turn);
       hexahedron.at[c] = {std::cos(angle), std::sin(angle), c < 4 ? 0.0 : 1.0};
     }
-    double least = 1e9;  // of 21^3 places
+    double least = 1e9;  // over 21^3 places
     const auto& p = hexahedron.at;
     for (int i = 0; i <= 20; ++i)
       for (int j = 0; j <= 20; ++j)

@@ -1,4 +1,4 @@
-// The metrics of volume elements against elementary geometry in long double, and what must hold of all of them.
+// The metrics of volume elements against elementary geometry in long double, and properties of all of them.
 #include "core/quality/volumes.h"
 
 #include <algorithm>
@@ -83,7 +83,7 @@ TEST(VolumeElements, ScaledAndTurnedAnElementIsWorthTheSame) {
   }
 }
 
-/// Insphere and circumsphere by the faces' areas and Cayley and Menger's determinant in long double.
+/// Insphere and circumsphere by the faces' areas and the Cayley-Menger determinant in long double.
 TEST(VolumeElements, RadiiOfATetrahedronByOtherWays) {
   using Wide = long double;
   Random random(9);
@@ -129,7 +129,7 @@ TEST(VolumeElements, DegenerateOnesAreWorthNothing) {
   }
 }
 
-/// What the fast search compares is an increasing function of the metric, 0 where it is 0.
+/// Ranks of the fast search are an increasing function of the metric, 0 where it is 0.
 TEST(VolumeElements, RanksRiseWithTheMetric) {
   Random random(10);
   for (const Metric metric : kOfTetrahedra) {

@@ -12,7 +12,7 @@
 namespace dmoscope::render {
 namespace {
 
-/// OKLab by its definition (Ottosson 2020), written again by way of CIE XYZ (D65), not as the map's own code has it.
+/// OKLab by its definition (Ottosson 2020), implemented apart by way of CIE XYZ (D65).
 struct Lab {
   double l, a, b;
 };
@@ -36,7 +36,7 @@ double distance(Lab a, Lab b) { return std::hypot(a.l - b.l, a.a - b.a, a.b - b.
 TEST(ColourMap, LightnessChangesEvenly) {
   for (const ColourMapInfo& info : colour_map_table()) {
     const double first = oklab(sample(info.map, 0.0)).l, last = oklab(sample(info.map, 1.0)).l;
-    // Where the low is bright, colours keep away from the darkest and the lightest, which backgrounds have.
+    // If the low end is bright, colours keep away from the darkest and the lightest, which backgrounds have.
     EXPECT_GT(low_is_bright(info.map) ? first - last : last - first, low_is_bright(info.map) ? 0.33 : 0.5) << info.name;
     for (int i = 0; i <= 100; ++i) {
       // 8 bits a channel round lightness, most of all where it is dark.
@@ -45,7 +45,7 @@ TEST(ColourMap, LightnessChangesEvenly) {
   }
 }
 
-/// A colour as eyes see it that lack a kind of cones (Machado, Oliveira and Fernandes 2009, severity 1), on linear light.
+/// A colour as seen without a kind of cones (Machado, Oliveira and Fernandes 2009, severity 1), on linear light.
 using Vision = std::array<std::array<double, 3>, 3>;
 constexpr Vision kProtanopia{{{0.152286, 1.052583, -0.204868}, {0.114503, 0.786281, 0.099216}, {-0.003882, -0.048116, 1.051998}}};
 constexpr Vision kDeuteranopia{{{0.367322, 0.860646, -0.227968}, {0.280085, 0.672501, 0.047413}, {-0.011820, 0.042940, 0.968881}}};
@@ -72,7 +72,7 @@ TEST(Beacon, TellsValuesApartForEveryColourVision) {
     std::array<Lab, kSteps + 1> seen{};
     for (int i = 0; i <= kSteps; ++i)
       seen[static_cast<std::size_t>(i)] = oklab(seen_by(vision, sample(ColourMap::Beacon, 1.0 * i / kSteps)));
-    const double slack = &vision == &kTritanopia ? 0.006 : 0.0;  // the lightest orange lies beyond what a screen shows of it
+    const double slack = &vision == &kTritanopia ? 0.006 : 0.0;  // the lightest orange lies beyond the screen's gamut
     for (std::size_t i = 0; i < kSteps; ++i) EXPECT_GT(seen[i].l + slack, seen[i + 1].l) << "the worse is the brighter, at " << i;
     for (std::size_t i = 0; i <= kSteps; ++i) {
       // A just noticeable difference is about 0.02.
@@ -130,7 +130,7 @@ TEST(ColourMap, OfDifferencesHasItsLightestInTheMiddleAndTwoLikeArms) {
     EXPECT_LT(at(i / 256.0).l, at((i + 1) / 256.0).l + 0.004) << i;
     EXPECT_LT(distance(at(i / 256.0), at((i + 1) / 256.0)), 0.03) << i;
   }
-  // Yellow against blue is what red-green blind eyes still tell apart.
+  // Yellow against blue is the contrast that remains for red-green blindness.
   EXPECT_GT(at(0.1).b, 0.05);
   EXPECT_LT(at(0.9).b, -0.05);
   for (const ColourMapInfo& info : colour_map_table()) EXPECT_NE(info.map, ColourMap::OrangeBlue) << "none of quality";

@@ -1,5 +1,4 @@
-// Frames whose positions and qualities stay on a device: the same pixels, marks and picks as those of whole frames, whichever way
-// they come.
+// Frames whose positions and qualities stay on a device: the pixels, marks and picks of whole frames, by either path.
 #include <map>
 
 #include <glad/gl.h>
@@ -83,7 +82,7 @@ TEST_F(Device, TheFirstFrameOfAMeshMayBeLight) {
 }
 
 TEST_F(Device, NothingThatMovedIsLeftOutWhereverOneLooks) {
-  // Two blocks and more of elements; the light frame's vertices are not where the boxes of the frame before say.
+  // Two blocks and more of elements; the light frame's vertices are outside the boxes of the frame before.
   const auto start = sheet(1, 0, 5, 400);
   auto moved = sheet(2, 0, 5, 400);
   for (Vec3& p : moved->positions) p.x += 300;

@@ -50,7 +50,7 @@ TEST(EglOrder, OneWayCanBeForced) {
   }
 }
 
-/// A context by a forced way; none where EGL does not have it.
+/// A context by a forced way; none if EGL lacks it.
 std::unique_ptr<Context> forced_context(const char* way) {
   ::setenv("DMOSCOPE_EGL", way, 1);
   std::unique_ptr<Context> context;

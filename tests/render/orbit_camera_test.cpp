@@ -1,4 +1,4 @@
-// Looking at a volume mesh: what is where in the picture, by geometry worked out by hand.
+// Views of a volume mesh: places in the picture, against geometry worked out by hand.
 #include "render/orbit_camera.h"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ void expect_straight(const OrbitCamera& camera) {
   EXPECT_NEAR(dot(camera.right, camera.up), 0.0, 1e-12);
 }
 
-/// A pixel as ray() and the mouse count it.
+/// The pixel of a point, in the coordinates of ray() and the mouse.
 Vec2<double> pixel_of(const OrbitCamera& camera, Vec3 point) {
   const auto place = camera.projection(kSize, kBox).place(point);
   return place ? Vec2<double>{0.5 * kSize.x + place->x, 0.5 * kSize.y - place->y} : Vec2<double>{-1e9, -1e9};
@@ -101,7 +101,7 @@ TEST(OrbitCamera, FitShowsTheWholeBoxAndTouchesTheMargin) {
   EXPECT_GT(camera.height, 0.0);
 }
 
-/// How far from each border of a part of the picture the nearest of the points is: left, right, below, above; less than 0 beyond it.
+/// Distance of the nearest of the points from each border of a part of the picture: left, right, below, above; less than 0 beyond it.
 std::array<double, 4> spaces(const OrbitCamera& camera, const std::vector<Vec3>& points, Vec2<double> size, const PicturePart& room) {
   Bounds3 box;
   for (const Vec3& p : points) box.include(p);
@@ -195,7 +195,7 @@ TEST(OrbitCamera, APartOfThePictureIsThatPart) {
   const Projection whole = camera.projection(kSize, kBox), cut = camera.projection(kSize, kBox, part);
   const Vec3 point{0.3, -0.4, 0.2};
   const Vec2<double> a = *whole.place(point), b = *cut.place(point);
-  // In pixels of the whole from its left upper corner.
+  // In pixels of the whole from its upper left corner.
   EXPECT_NEAR(150 + a.x, 110 + b.x, 1e-9);
   EXPECT_NEAR(100 - a.y, 70 - b.y, 1e-9);
   EXPECT_EQ(cut.viewport().x, 100.0);
@@ -224,7 +224,7 @@ TEST(OrbitCamera, TurningFollowsTheMouseAndStaysUpright) {
   EXPECT_NEAR(camera.back().z, 1.0, 1e-12);  // no farther than straight above
   const Vec3 right = camera.right;
   camera.turn({0, -20}, kSize);
-  expect_near(camera.right, right, 1e-9);  // comes back the way it went
+  expect_near(camera.right, right, 1e-9);  // comes back the same way
   for (int i = 0; i < 10000; ++i) camera.turn({13, i % 2 == 0 ? 31.0 : -30.0}, kSize);
   expect_straight(camera);
 }

@@ -67,7 +67,7 @@ TEST_F(WithContext, InvertedLiesAboveItsNeighbours) {
   below.elements.add(ElementKind::Quadrilateral, mesh.elements.corners(1));
   load(below, {0.5F, 0.9F}, {1, 0});
   const Image image = picture(unit_camera(), flat_style());
-  int stripes = 0, between = 0;  // of a square of two periods
+  int stripes = 0, between = 0;  // counts in a square of two periods
   for (int y = 27; y < 43; ++y)
     for (int x = 117; x < 133; ++x) {
       stripes += near_colour(image.at(x, y), kInvertedColour) ? 1 : 0;
@@ -222,7 +222,7 @@ TEST_F(WithContext, ReducedDetailLooksAlikeAndKeepsInvertedElements) {
   }
   EXPECT_GT(magenta, 0);
   EXPECT_EQ(picture(camera, flat_style(), {}, 0.1).rgba, coarse.rgba);
-  // Close up there are few elements: they are all drawn, whatever the detail.
+  // Close up there are few elements: all are drawn, at any detail.
   Camera2D close;
   close.look_at({20, 20}, 10, kViewport);
   EXPECT_EQ(picture(close, Style::dark(), {}, 0.1).rgba, picture(close, Style::dark()).rgba);

@@ -51,7 +51,7 @@ TEST_F(WithContext, CategoriesHaveThePalettesColoursAndInvertedElementsTheirOwn)
   EXPECT_GT(magenta, 20);
 }
 
-/// Every pixel well inside has the colour of the corner that is nearest to it.
+/// Every pixel well inside has the colour of the nearest corner.
 TEST_F(WithContext, VerticesColourWhatIsNearestToThem) {
   const Mesh mesh = triangle_and_quadrilateral();
   load(mesh, {0.25F, 0.8F});
@@ -143,7 +143,7 @@ TEST_F(WithContext, MembersCountAndTheOthersDoNotInSmallAndBigMeshes) {
   const Image image = picture(camera, flat_style());
   scene->set_selection({});
   int wrong = 0, drawn = 0;
-  constexpr int kEvery = testing::kSanitized ? 7 : 1;  // a pick there takes long
+  constexpr int kEvery = testing::kSanitized ? 7 : 1;  // a pick takes long there
   for (int y = 0; y < image.height; y += kEvery) {
     for (int x = 0; x < image.width; ++x) {
       const Index element = scene->pick(camera, kViewport, {x + 0.5, y + 0.5}).element;
@@ -224,7 +224,7 @@ TEST_F(WithContext, ALivePictureComesToRestAtTheFullOneWhateverHappensOnTheWay) 
   wish.refine = true;
   live.update(*scene, wish);
   quality.assign(quality.size(), 0.9F);
-  scene->update(mesh.positions, quality, {});  // in the midst of it
+  scene->update(mesh.positions, quality, {});  // during a picture in slices
   live.update(*scene, wish);
   settle();
   ASSERT_TRUE(live.complete());
@@ -240,7 +240,7 @@ TEST_F(WithContext, ALivePictureComesToRestAtTheFullOneWhateverHappensOnTheWay) 
   live.update(*scene, wish);
   EXPECT_FALSE(live.complete());
   EXPECT_GT(settle(), 0);
-  // Close up all are drawn at once.
+  // Close up all elements are drawn at once.
   std::get<Camera2D>(wish.camera).look_at({20, 20}, 10, kViewport);
   live.update(*scene, wish);
   EXPECT_TRUE(live.complete());

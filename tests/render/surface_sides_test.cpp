@@ -1,4 +1,4 @@
-// Pictures of surfaces: both sides are seen, and of a closed one the outside alone.
+// Pictures of surfaces: both sides are visible; of a closed surface the outside alone.
 
 #include <array>
 #include <cmath>
@@ -49,7 +49,7 @@ TEST_F(SurfacePicture, BothSidesOfASurfaceAreSeenTheBackALittleDarker) {
     EXPECT_TRUE(detail < 1.0 || near_colour(at(shot(), there), back, 1));
     const auto place = camera.projection(kViewport, space->bounds()).place(there);
     EXPECT_NE(space->pick(camera, kViewport, {0.5 * kWidth + place->x, 0.5 * kHeight - place->y}).element, kNoIndex);
-    // The inverted keep their colour, as on the front.
+    // Inverted elements keep their colour, as on the front.
     const std::vector<std::uint8_t> all_inverted(2, 1);
     space->update({square.positions, half, all_inverted, 0});
     EXPECT_TRUE(has(shot(flat_style(), detail), kInvertedColour));
@@ -97,7 +97,7 @@ TEST_F(SurfacePicture, TheBackOfAClosedSurfaceIsHidden) {
       space->set_mesh(shown.elements, sides);
       space->update({shown.positions, good, {}, 0});
       Image image = shot();
-      space->set_mesh(mesh.elements, faces);  // which outlives this one
+      space->set_mesh(mesh.elements, faces);  // they outlive the scene
       return image;
     };
     ASSERT_GT(front.elements.size(), 100U);

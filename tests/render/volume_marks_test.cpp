@@ -1,4 +1,4 @@
-// What is marked over pictures of volume meshes, and what of them is seen: rings, outlines, labels.
+// Marks over pictures of volume meshes, and the visible parts of these: rings, outlines, labels.
 #include <algorithm>
 #include <vector>
 
@@ -31,7 +31,7 @@ TEST_F(VolumePicture, MarksLieOverTheMesh) {
 TEST_F(VolumePicture, MarksOfWhatWasTakenAwayAreFaint) {
   Style style = flat_style();
   style.highlight_colour = {250, 250, 250, 255};
-  plain.worst = 7;  // in the half that is taken away
+  plain.worst = 7;  // in the half that is cut away
   const auto most_light = [&] {
     int light = 0;
     const Image image = shot(style);
@@ -59,7 +59,7 @@ TEST_F(VolumePicture, MarksOfWhatWasTakenAwayAreFaint) {
   EXPECT_GT(most_light(), 240);
 }
 
-/// From +x cells of odd numbers hide the others, in whose place a ring would seem to be of them.
+/// Seen from +x cells of odd numbers hide the others; a ring over a hidden cell would seem to belong to them.
 TEST_F(VolumePicture, AWorstCellBehindOthersHasAFaintRing) {
   const auto shown = [&] {
     std::vector<Index> cells;
@@ -83,7 +83,7 @@ TEST_F(VolumePicture, AWorstCellBehindOthersHasAFaintRing) {
   EXPECT_NE(shot().rgba, clear.rgba);
 }
 
-/// Which vertices are seen of a cube of 2 x 2 x 2 cells from a corner: those of the three sides that look there.
+/// Visible vertices of a cube of 2 x 2 x 2 cells from a corner: those of the three sides that look there.
 TEST_F(VolumePicture, NothingHidesTheVerticesOfTheSidesThatAreSeen) {
   camera.look_from(ViewPreset::Isometric);  // from (1, -1, 1)
   const auto expect_unhidden = [&](const char* what, int last_column, bool inner_seen) {
@@ -132,7 +132,7 @@ TEST_F(VolumePicture, LabelsStandWhereThereIsRoomAndNothingHidesWhatTheyName) {
     EXPECT_NEAR(label.point.x, place->x, 1e-9);
     EXPECT_NEAR(label.point.y, place->y, 1e-9);
   }
-  // Larger ones: vertices have room beside their neighbours, but those of two digits not beside the cells' ids, 25 pixels away.
+  // Larger digits: vertices have room beside their neighbours, but those of two digits not beside the cells' ids, 25 pixels away.
   wish.digit_width = 12.0;
   wish.line_height = 34.0;
   EXPECT_EQ(ids(false), (std::vector<Index>{1, 3, 5, 7}));

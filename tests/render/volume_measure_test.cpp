@@ -1,4 +1,4 @@
-// How long it takes to draw what is inside a mesh of a million cells. Disabled: it tells figures, and fails for none of them.
+// Time of drawing the inside of a mesh of a million cells. Disabled: it prints figures, and fails for none of them.
 //   test_render --gtest_also_run_disabled_tests --gtest_filter='*Milliseconds*'
 #include <algorithm>
 #include <cstdio>
@@ -17,7 +17,7 @@ class VolumeSpeed : public WithContext {
   void measure(ThreadPool* pool);
 };
 
-/// On the window's thread alone, or with others.
+/// Measures on the window's thread alone, or with others.
 void VolumeSpeed::measure(ThreadPool* pool) {
   std::printf("%u threads\n", pool == nullptr ? 1U : pool->size());
   const Mesh mesh = test::volume_grid(100, test::Fill::Hexahedra, 0.2);

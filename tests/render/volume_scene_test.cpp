@@ -1,4 +1,4 @@
-// Pictures of volume meshes: what is where, in which colour; and what the mouse finds there.
+// Pictures of volume meshes: places and colours; and the mouse's picks.
 #include "render/volume_scene.h"
 
 #include <algorithm>
@@ -51,7 +51,7 @@ TEST_F(VolumePicture, OcclusionDarkensCornersAndEdgesALittle) {
   inside.isolate = {0.0F, 1.0F};
   camera.look_from(ViewPreset::Isometric);
   camera.fit(space->bounds(), kViewport, 10.0);
-  // One cell of eight is gone: where it was there is a corner.
+  // One cell of eight is gone, and leaves a corner.
   quality[7] = 2.0F;
   show();
   space->set_view(inside);
@@ -74,7 +74,7 @@ TEST_F(VolumePicture, OcclusionDarkensCornersAndEdgesALittle) {
       lines += share(b) < 1.0 - static_cast<double>(kMostDarkened) - 0.01 ? 1 : 0;
       EXPECT_GE(share(b), (1.0 - static_cast<double>(kMostDarkened)) * (1.0 - static_cast<double>(kEdgeDarkened)) - 0.01);
       EXPECT_LE(b.g, a.g);
-      // All channels by one share: the hue stays.
+      // All channels are scaled alike: the hue stays.
       EXPECT_NEAR(static_cast<double>(b.r) / std::max(1, static_cast<int>(plain_colour.r)), share(b), 0.03);
     }
   EXPECT_GT(darker, mesh_pixels / 50);
@@ -122,14 +122,14 @@ TEST_F(VolumePicture, AClipPlaneUncoversWhatLiesBehind) {
     view.clip = {.on = true, .normal = {1, 0, 0}, .offset = 0.5, .flip = false, .mode = mode};
     space->set_view(view);
     EXPECT_TRUE(near_colour(at(shot(), {0.5, 0.25, 0.25}), of_quality(0.1)));
-    // Through the cells: whole ones are left, or their cuts are seen, in the same colour at another depth.
+    // A plane through the cells: whole ones remain, or their cuts are visible, in the same colour at another depth.
     view.clip.offset = 0.25;
     view.clip.normal = {1, 0, 0};
     space->set_view(view);
     camera.look_from(ViewPreset::PlusX);
     const Image image = shot();
     EXPECT_TRUE(near_colour(at(image, {0.25, 0.75, 0.75}), of_quality(0.7)));
-    // From the side it is seen where they end.
+    // The end of the cells is visible from the side.
     camera.look_from(ViewPreset::MinusY);
     const Image side = shot();
     const bool whole = at(side, {0.4, 0, 0.25}).r != 0x1b;
@@ -146,13 +146,13 @@ TEST_F(VolumePicture, PositionsAndQualitiesAreChangedInPlace) {
   show();
   const Image after = shot();
   EXPECT_TRUE(near_colour(at(after, {1, 0.25, 0.25}), of_quality(0.9)));
-  // Magenta, plain or in the dark of a stripe.
+  // Magenta, plain or in a dark stripe.
   const Rgba hatch = at(after, {1, 0.75, 0.25});
   EXPECT_TRUE(hatch.g < 10 && hatch.r > 70 && hatch.b == hatch.r);
   EXPECT_EQ(at(after, {1, 0.75, 0.75}), at(before, {1, 0.75, 0.75}));
   for (Vec3& p : mesh.positions) p.y *= 0.5;
   show();
-  EXPECT_EQ(at(shot(), {1, 0.75, 0.25}).r, 0x1b);  // nothing is there any more
+  EXPECT_EQ(at(shot(), {1, 0.75, 0.25}).r, 0x1b);  // nothing is left there
   EXPECT_TRUE(near_colour(at(shot(), {1, 0.1, 0.25}), of_quality(0.9)));
 }
 
@@ -191,7 +191,7 @@ TEST_F(VolumePicture, TheRestOfTheWorstIsAGhost) {
   EXPECT_EQ(at(shot(), {1, 0.75, 0.75}).r, 0x1b);
 }
 
-/// A quadrilateral's four edges are drawn, not the diagonal of its triangles.
+/// The four edges of a quadrilateral are drawn, not the diagonal of its triangles.
 TEST_F(VolumePicture, TheWireframeIsOfFaces) {
   Style style = flat_style();
   style.wireframe = true;
@@ -213,7 +213,7 @@ TEST_F(VolumePicture, TheMouseFindsWhatIsSeen) {
     camera.perspective = perspective;
     EXPECT_EQ(pick({1, 0.25, 0.25}).element, 1U);
     EXPECT_EQ(pick({1, 0.75, 0.75}).element, 7U);
-    EXPECT_EQ(pick({1, 0.25, 0.25}).vertex, kNoIndex);  // none within 8 pixels
+    EXPECT_EQ(pick({1, 0.25, 0.25}).vertex, kNoIndex);  // no vertex within 8 pixels
     EXPECT_EQ(pick({1, 0.02, 0.03}).vertex, 2U);
     EXPECT_EQ(pick({1, 0.52, 0.51}).vertex, 14U);
     EXPECT_EQ(pick({1, 3, 3}).element, kNoIndex);
@@ -226,7 +226,7 @@ TEST_F(VolumePicture, TheMouseFindsWhatIsSeen) {
   space->set_view(view);
   EXPECT_EQ(pick({1, 0.25, 0.25}).element, 0U);
   EXPECT_NEAR(space->point_at(camera, kViewport, pixel_of({1, 0.25, 0.25}))->x, 0.3, 1e-12);  // on the cut
-  EXPECT_EQ(pick({1, 0.01, 0.01}).vertex, 0U);                                                // vertices beyond the plane are not seen
+  EXPECT_EQ(pick({1, 0.01, 0.01}).vertex, 0U);                                                // vertices beyond the plane are hidden
   view.clip.on = false;
   view.shrink = 0.5;
   space->set_view(view);
@@ -234,7 +234,7 @@ TEST_F(VolumePicture, TheMouseFindsWhatIsSeen) {
   EXPECT_EQ(pick({1, 0.25, 0.25}).element, 1U);
 }
 
-/// What overlaps in one plane: the inverted are seen, wherever they stand in the order.
+/// Overlapping cuts in one plane: inverted cells are visible, at any place in the order.
 TEST_F(VolumePicture, OfCutsInOnePlaceTheInvertedOneIsSeen) {
   for (const bool first : {true, false}) {
     Mesh twice = test::volume_grid(1, test::Fill::Hexahedra);
@@ -305,7 +305,7 @@ TEST_F(VolumePicture, TilesMakeTheSamePictureAsOne) {
   EXPECT_TRUE(compare(whole, pieced).alike(0.002)) << compare(whole, pieced).off_share;
 }
 
-/// Fewer faces while something moves: the same picture, only coarser.
+/// Fewer faces during movement: the same picture, only coarser.
 TEST_F(VolumePicture, LittleDetailLooksMuchTheSame) {
   Mesh fine = test::volume_grid(40, test::Fill::Hexahedra);
   const FaceNeighbours neighbours(fine);
@@ -336,7 +336,7 @@ TEST_F(VolumePicture, ALivePictureComesToRestAtTheFullOne) {
   ASSERT_TRUE(live.complete());
   plain.triad = true;
   EXPECT_TRUE(compare(live.picture(), shot(Style::dark())).alike(0.0005));
-  // Another camera: a coarse picture at once, and no full one while it moves.
+  // A new camera: a coarse picture at once, and no full one during movement.
   std::get<OrbitCamera>(wish.camera).turn({5, 3}, kViewport);
   wish.refine = false;
   for (int turn = 0; turn < 5; ++turn) live.update(*space, wish);
@@ -370,7 +370,7 @@ TEST_F(VolumePicture, AFrameIsShownAndTheViewStays) {
   frame.reset();
   ASSERT_TRUE(space->show(next));
   EXPECT_TRUE(near_colour(at(shot(), {0.5, 0.25, 0.25}), of_quality(0.9)));
-  next.reset();  // the scene keeps what it shows
+  next.reset();  // the scene keeps the frame that it shows
   view.clip.on = false;
   space->set_view(view);
   EXPECT_TRUE(near_colour(at(shot(), {1, 0.25, 0.25}), of_quality(0.2)));

@@ -1,4 +1,4 @@
-// The search against an implementation of Algorithm 2 written here a second time, and against the exact optimum.
+// The search against a second implementation of Algorithm 2, and against the exact optimum.
 
 #include "core/search/grid_search.h"
 
@@ -16,7 +16,7 @@ namespace {
 
 using V = Vec2<double>;
 
-/// A fan of triangles around the origin with ring vertices at random radii: the origin sees all of the ring.
+/// A fan of triangles around the origin with ring vertices at random radii: the whole ring is visible from the origin.
 std::vector<V> random_ring(testing::Random& random, int valence) {
   std::vector<V> ring;
   for (int i = 0; i < valence; ++i) {

@@ -1,4 +1,4 @@
-// Ranks, which the fast search compares, order elements as their metrics do.
+// Ranks of the fast search order elements as their metrics do.
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 
 using V = Vec2<double>;
 
-/// Corners on a lattice of 128 a unit: floats hold not only them but all their products, so that float and double see the same signs.
+/// A corner on a lattice of 128 per unit: floats hold it and all products exactly, so that float and double see the same signs.
 V random_point(testing::Random& random, double reach) {
   return {std::round(random(-reach, reach) * 128) / 128, std::round(random(-reach, reach) * 128) / 128};
 }
@@ -30,7 +30,7 @@ std::vector<Judged> judged_elements() {
   std::vector<Judged> all;
   const auto cast = [](V p) { return Vec2<float>{static_cast<float>(p.x), static_cast<float>(p.y)}; };
   for (int trial = 0; trial < 20000; ++trial) {
-    const double reach = trial % 2 == 0 ? 1.0 : 0.1;  // the latter often degenerate
+    const double reach = trial % 2 == 0 ? 1.0 : 0.1;  // the smaller reach often degenerates
     const V a = random_point(random, 1), b = a + random_point(random, reach), c = a + random_point(random, reach),
             d = random_point(random, 1);
     const formulas::Triangle<V> t(a, b, c);
@@ -59,7 +59,7 @@ TEST(Rank, RisesWithTheMetricAndHasItsSign) {
       for (const Judged& element : all) {
         EXPECT_EQ(sign(element.rank), sign(element.metric)) << element.metric;
         EXPECT_EQ(sign(element.rank_in_float), sign(element.metric)) << element.metric;
-        // Both of a pair may err, in the metric's last digits too.
+        // Both numbers may err, in the metric's last digits too.
         EXPECT_GE(element.rank, highest - 2 * formulas::rank_doubt<M>(std::fabs(element.rank))) << element.metric;
         EXPECT_NEAR(element.rank_in_float, element.rank, 1e-7 + 2e-6 * std::fabs(element.rank)) << element.metric;
         highest = std::max(highest, element.rank);

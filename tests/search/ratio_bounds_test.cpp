@@ -1,4 +1,4 @@
-// Bounds of the mean ratio never say that a place falls short of what it reaches, and say it of most that do fall short.
+// Bounds of the mean ratio never exclude a place that reaches a value, and exclude most that do not.
 
 #include "core/smooth/kernels/ratio_bounds.h"
 
@@ -27,7 +27,7 @@ Vec3 random_point(dmoscope::Random& random, Vec3 size) {
   return {random.between(-size.x, size.x), random.between(-size.y, size.y), random.between(-size.z, size.z)};
 }
 
-/// A star around the origin and what grows of it: its lengths times `stretch`, its corners away from the vertex by 1, give or take `jolt`.
+/// A star around the origin and a copy for growth: its lengths times `stretch`, its corners away from the vertex by 1, give or take `jolt`.
 struct Sample {
   VolumeStar<double> star;
   Vec3 stretch;
@@ -55,7 +55,7 @@ struct Worth {
   double least = 1.0;
   std::vector<double> qualities;
   void add(double quality) { qualities.push_back(quality); }
-  /// A power mean of the qualities, by its exponent; the harmonic one with the steps that make a bad element dear.
+  /// A power mean of the qualities, by its exponent; the harmonic one with the steps that make a bad element count more.
   [[nodiscard]] double mean(double exponent) const {
     constexpr std::array kSteps{std::pair{0.4, 1e3}, std::pair{0.3, 16e3}, std::pair{0.2, 256e3}, std::pair{0.1, 4096e3}};
     double sum = 0.0;
@@ -90,7 +90,7 @@ double least_of_those_that_stay(const formulas::CorneredSolid<Vec3, Ideal, N, Co
   }
   return least;
 }
-/// Of each element that is no tetrahedron.
+/// Values of the elements that are not tetrahedra.
 std::vector<D> elsewhere(const VolumeStar<double>& star) {
   std::vector<D> result;
   lists_of(star).for_others(
@@ -98,7 +98,7 @@ std::vector<D> elsewhere(const VolumeStar<double>& star) {
   return result;
 }
 
-/// Is there hope of a place in the middle slot of a pack of it and of its neighbours?
+/// Whether the bounds allow a place in the middle slot of a pack of it and of its neighbours.
 bool hopes(Bounds& bounds, Vec3 from_centre) {
   const auto along = [](double a) { return F(static_cast<float>(a)); };
   return xsimd::any(bounds.may_reach({along(from_centre.x), along(from_centre.y), along(from_centre.z)}));
@@ -113,7 +113,7 @@ void PrintTo(const Case& each, std::ostream* out) { *out << each.name; }
 class RatioBounds : public testing::TestWithParam<Case> {};
 class CloseRatioBounds : public RatioBounds {};
 
-/// Calls f(star, bounds, centre, place, half) for places within grids around the vertex and around others where it is sound.
+/// Calls f(star, bounds, centre, place, half) for places within grids around the vertex and around other sound places.
 template <class F>
 void for_places(const Case& parameter, MeanKind kind, F f) {
   dmoscope::Random random(7);
@@ -164,7 +164,7 @@ TEST_P(CloseRatioBounds, LeaveNoneForMuchMore) {
   }
 }
 
-/// Inverted elements are worth nothing.
+/// Inverted elements have no bound to reach.
 TEST_P(CloseRatioBounds, LeaveNoneForInvertedElements) {
   int inverted = 0;
   for_places(GetParam(), MeanKind::Harmonic, [&](const auto& star, Bounds& bounds, Vec3 centre, Vec3 place) {
@@ -176,7 +176,7 @@ TEST_P(CloseRatioBounds, LeaveNoneForInvertedElements) {
   EXPECT_GT(inverted, 10);
 }
 
-/// In the plane: triangles and quadrilaterals around the origin, the latter with corners that no place of the vertex changes.
+/// A planar star: triangles and quadrilaterals around the origin, the latter with corners that no place of the vertex changes.
 Star<double> planar_star(dmoscope::Random& random, double stretch) {
   constexpr int kAround = 6;
   std::vector<Vec2<double>> ring;

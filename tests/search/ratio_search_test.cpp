@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/numeric/pack.h"
-// After the packs:
+// Included after the packs:
 #include "core/search/grid_search.h"
 #include "core/search/ratio_search.h"
 #include "tests/support/meshes.h"
@@ -19,10 +19,10 @@ namespace {
 
 using testing::Random;
 using F = Pack<float>;
-constexpr double kFloatError = 1e-6;  // of a quality
+constexpr double kFloatError = 1e-6;  // error of a quality
 
-/// `triangles` and then `quadrilaterals` around the origin, which sees all of their corners and lies away from the middle by up to
-/// `aside`. Coordinates are floats.
+/// A star of `triangles` and then `quadrilaterals` around the origin, which sees all of their corners and lies away from the middle by up
+/// to `aside`. Coordinates are floats.
 Star<double> random_star(Random& random, int triangles, int quadrilaterals, double aside = 0.25) {
   const int count = triangles + quadrilaterals;
   const Vec2<double> hub{random(-aside, aside), random(-aside, aside)};
@@ -53,7 +53,7 @@ Star<double> random_star(Random& random, int triangles, int quadrilaterals, doub
   return star;
 }
 
-/// The star's numbers in slot `slot` of packs, or as plain floats.
+/// Puts the star's numbers into slot `slot` of packs, or into plain floats.
 void put(double from, std::size_t /*slot*/, float& to) { to = static_cast<float>(from); }
 void put(double from, std::size_t slot, F& to) {
   alignas(64) float values[F::size];
@@ -107,8 +107,8 @@ struct Tally {
   double worst_loss = 0.0;
 };
 
-/// The rounds in float against the plain search in double over `box`. Whoever finds another candidate must have lost nothing; only from the
-/// second level on may a tie have led elsewhere, which the tally tells.
+/// Compares the rounds in float with the plain search in double over `box`. Another candidate must not be worse; from the second level on a
+/// tie may have led elsewhere, which the tally counts.
 template <Metric M>
 void compare(const Star<double>& star, Vec2<double> box, int levels, Tally& tally) {
   const Objective<M, false, double> objective(star);
@@ -153,7 +153,7 @@ TYPED_TEST(RatioSearchOf, FindsWhatThePlainSearchFinds) {
   EXPECT_LE(tally.worst_loss, kMetric == Metric::MeanRatio ? 1e-4 : 3e-3);
 }
 
-/// Four almost square quadrilaterals, of which one is drawn out to a kite.
+/// A star of four almost square quadrilaterals, one of them drawn out to a kite.
 Star<double> star_with_a_cap(Random& random) {
   const Vec2<double> hub{random(-0.6, 0.6), random(-0.6, 0.6)};
   const auto at = [&](double quarter, double radius) {
@@ -169,7 +169,7 @@ Star<double> star_with_a_cap(Random& random) {
   return star;
 }
 
-/// Where the corner opposite to the vertex is the worst, many candidates are as good as it: the first of them is wanted.
+/// If the corner opposite to the vertex is the worst, many candidates are equally good: the first of them is chosen.
 TEST(RatioSearch, TakesTheFirstOfAllCandidatesAtTheCap) {
   Random random(72);
   int capped = 0, same = 0;
@@ -196,7 +196,8 @@ TEST(RatioSearch, TakesTheFirstOfAllCandidatesAtTheCap) {
   EXPECT_GE(same, capped - capped / 50);
 }
 
-/// A lane of a GPU keeps other tables than the processor, and after a level's first round it looks only at columns that may hold something.
+/// Columns of a GPU's lane, which keeps other tables than the processor, and after a level's first round looks only at columns that may
+/// hold something.
 template <std::size_t N>
 void expect_the_same_of_a_lane(Random& random, int trials) {
   for (int trial = 0; trial < trials; ++trial) {
@@ -246,7 +247,7 @@ TEST(RatioSearch, ColumnsThatMayHoldMoreAreNeverLeftOut) {
       }
       left_out += looked_at ? 0 : 1;
     }
-    columns.keep(1e9F);  // of a later round: is not kept
+    columns.keep(1e9F);  // a later round's value is not kept
     columns.take_those_above(1e6F);
     EXPECT_EQ(columns.bits(), 0U);
   }
@@ -271,7 +272,7 @@ TEST(RatioSearch, BoxesWithoutWidthOrHeight) {
   }
 }
 
-/// Among two candidates that mirror each other the one with the lower index wins.
+/// Of two candidates that mirror each other the one with the lower index wins.
 TEST(RatioSearch, TiesGoToTheLowestIndex) {
   Random random(76);
   for (int trial = 0; trial < 100; ++trial) {
@@ -287,7 +288,7 @@ TEST(RatioSearch, TiesGoToTheLowestIndex) {
       const auto found = rounds<Metric::MeanRatio>(in_float(star), in_float(star).box, 1);
       const auto expected = grid_search<double>(Objective<Metric::MeanRatio, false, double>(star), star.box, {.levels = 1});
       EXPECT_LT(turned ? found.offset.x : found.offset.y, 0.0F) << "the lower of the two lines next to the axis";
-      // In double the lattice's lines are not each other's very mirror images: either may win.
+      // In double the lattice's lines are not exact mirror images of each other: either may win.
       EXPECT_NEAR(std::fabs(found.offset.x), std::fabs(expected.offset.x), 1e-6);
       EXPECT_NEAR(std::fabs(found.offset.y), std::fabs(expected.offset.y), 1e-6);
     }
@@ -313,7 +314,7 @@ void expect_same_bits(const Candidate<F>& pack, std::size_t slot, const Candidat
   EXPECT_EQ(std::bit_cast<std::uint32_t>(pack.objective.get(slot)), std::bit_cast<std::uint32_t>(one.objective));
 }
 
-/// As many stars of one form as a pack has slots, searched together by search(star in R).
+/// Stars of one form, as many as a pack has slots, searched together by search(star in R).
 template <class Search>
 void expect_lanes_alike(Random& random, int triangles, int quadrilaterals, Search search) {
   std::vector<Star<double>> stars;

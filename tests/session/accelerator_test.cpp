@@ -1,4 +1,4 @@
-// Runs on an accelerator: who is chosen and why, the same bits, positions that lie far, and what happens when the device fails.
+// Runs on an accelerator: the choice of it and its reason, the same bits, positions on the device, and failures of the device.
 
 #include <cstring>
 #include <functional>
@@ -87,7 +87,7 @@ TEST(Backend, TwoAimsAreADevicesUnlessSizesAreLookedUp) {
   RunParameters mean, metrics, sizes;
   mean.then_mean = PhaseBegin{};
   metrics.combination = {0.5, Metric::MinAngle};
-  metrics.search.precision = Precision::Double;  // that of two aims anyway
+  metrics.search.precision = Precision::Double;  // the precision of two aims anyway
   sizes.combination = {0.5, SizeFunction{SizeFunction::Kind::Distance, {0.3, 0.4, 0}, {}}};
   for (const RunParameters& parameters : {mean, metrics, sizes})
     EXPECT_EQ(run_with(parameters, acceleration(device)).backend(), Backend::Cuda);
@@ -173,7 +173,7 @@ TEST(BlockPlan, OfADeviceIsAWholeIterationUnlessThatTakesLong) {
   EXPECT_NEAR(static_cast<double>(far.visits()), 0.2 * kMillions, 1.0);
 }
 
-/// A volume's iteration may take a small device minutes: what a person cancels, or a display's watchdog, must not wait for it.
+/// A volume's iteration may take a small device minutes: a cancel by the user, or a display's watchdog, must not wait for it.
 TEST(BlockPlan, OfADevicesVolumeBeginsSmallAndGrowsToAWholeIteration) {
   constexpr std::uint64_t kMillions = 30'000'000;
   BlockPlan fast(BlockPlan::On::DeviceSolids), slow = fast;
@@ -221,7 +221,7 @@ TEST(History, KeepsFewPositionsOfAFarRunAndComputesTheOthersAgain) {
   Progress progress;
   const auto states = states_on_cpu(12);
   const auto device = std::make_shared<FakeDevice>();
-  device->store_takes = std::chrono::milliseconds(100);  // a hundred times what an iteration takes
+  device->store_takes = std::chrono::milliseconds(100);  // a hundred times the time of an iteration
   dmoscope::Run run = on_device(device);
   run.iterate(12, progress);
   EXPECT_LT(device->stores, 12U);
@@ -248,7 +248,7 @@ TEST(History, KeepsTheFarPositionsThatSomebodyAskedFor) {
   EXPECT_TRUE(run.history().kept(7));
 }
 
-/// In the n-th iteration, and whether somebody had asked for positions just before.
+/// The number of the failing iteration, and whether positions were asked for just before.
 class Failure : public ::testing::TestWithParam<std::tuple<std::uint64_t, bool>> {};
 
 TEST_P(Failure, WhileSteppingLeavesTheLastPositionsOfTheHostAndGoesOnOnTheCpu) {
@@ -314,7 +314,7 @@ TEST(Accelerated, AFailureWhileCopyingGoesBackToPositionsThatWereKept) {
   run.iterate(1, progress);
   (void)run.positions();
   device->store_takes = std::chrono::milliseconds(100);
-  run.iterate(3, progress);  // the first of them keeps what was asked for
+  run.iterate(3, progress);  // the first of them keeps the positions that were asked for
   const std::uint64_t kept = run.history().nearest(4).iteration;
   ASSERT_GE(kept, 1U);
   ASSERT_LT(kept, 4U);
@@ -337,7 +337,7 @@ TEST(Accelerated, AFailureWhileGoingOverThePastAgainGoesBackToTheLastThatWasKept
   run.iterate(4, progress, [](const dmoscope::Run& now) { (void)now.positions(); });
   run.seek({1, 0}, progress);
   ASSERT_TRUE(run.history().kept(3));
-  run.iterate(2, progress);  // nobody asks for positions
+  run.iterate(2, progress);  // positions are not asked for
   device->fail_at_visit = device->visits + 1;
   EXPECT_THROW(run.iterate(1, progress), DeviceError);
   EXPECT_EQ(run.moment(), (Moment{3, 0}));
@@ -419,7 +419,7 @@ TEST(Session, BackendIsACommandAndEveryRunSaysWhatItRunsOn) {
 TEST(Engine, OutlivesALostDevice) {
   for (const bool while_copying : {false, true}) {
     const auto device = std::make_shared<FakeDevice>();
-    device->store_takes = std::chrono::milliseconds(50);  // dear: only the end of a command copies
+    device->store_takes = std::chrono::milliseconds(50);  // expensive: only the end of a command copies
     Engine engine(2, acceleration(device));
     engine.post("generate grid 500");
     engine.post("run 2");

@@ -1,4 +1,4 @@
-// What is saved by itself: in time, also during a run; found after a bad end, gone after a good one.
+// Automatic saving: in time, also during a run; found after a crash, removed after a regular end.
 #include "core/engine/autosave.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ class AutosaveTest : public ::testing::Test {
     engine_ = std::make_unique<Engine>(2U);
     engine_->autosave({folder_.path(), every});
   }
-  /// As a process that was killed leaves it.
+  /// Leaves the session as a killed process does.
   void lose() { engine_.reset(); }
   void good(const std::string& line) {
     engine_->post(line);
@@ -40,7 +40,7 @@ class AutosaveTest : public ::testing::Test {
       if (entry.path().extension() == ending && !entry.path().filename().string().starts_with('.')) found.push_back(entry.path());
     return found;
   }
-  /// Patiently: nothing is said about how long it takes.
+  /// Waits patiently: no time is promised.
   [[nodiscard]] static bool comes(const std::function<bool()>& what) {
     for (int k = 0; k < 6000; ++k) {
       if (what()) return true;
@@ -79,7 +79,7 @@ TEST_F(AutosaveTest, AtRestIsRecoveredBitForBit) {
   EXPECT_EQ(positions(), before);
   EXPECT_EQ(engine_->view()->runs.size(), 2U);
   EXPECT_TRUE(engine_->view()->runs[0].unsaved);
-  // Saved by itself again, the old file is not needed any more.
+  // After the next automatic save the old file is not needed any more.
   EXPECT_TRUE(comes([&] { return !std::filesystem::exists(found[0].names.session); }));
   EXPECT_TRUE(saved());
 }
@@ -99,7 +99,7 @@ TEST_F(AutosaveTest, ALongRunIsSavedOnItsWay) {
   EXPECT_NE(at, Moment{});
   EXPECT_EQ(found[0].iteration, at.iteration);
   good("generate coast 2000");
-  // A slow machine is saved in the midst of an iteration.
+  // On a slow machine the save may fall into an iteration.
   if (at.iteration > 0) good("run " + std::to_string(at.iteration));
   if (at.visits > 0) good("step vertex " + std::to_string(at.visits));
   EXPECT_EQ(engine_->view()->runs[0].moment, at);
@@ -123,7 +123,7 @@ TEST_F(AutosaveTest, InTheMidstOfAnIterationThatIsNoLongerKept) {
   EXPECT_GT(engine_->view()->runs[0].moment.visits, 0U);
 }
 
-/// A session whose history keeps nothing, saved by itself between any two blocks of visits and at no other time.
+/// A session whose history keeps nothing, saved automatically between any two blocks of visits and at no other time.
 class AutosaveOnItsWayTest : public testing::SpokenSession {
  protected:
   AutosaveOnItsWayTest() {
@@ -137,7 +137,7 @@ class AutosaveOnItsWayTest : public testing::SpokenSession {
     const auto now = session_.active().positions();
     return {now.begin(), now.end()};
   }
-  /// As a process that was killed leaves it; opens what is found.
+  /// Leaves the session as a killed process does; opens the file that is found.
   void lose_and_recover() {
     ASSERT_TRUE(safe_->flush(60s));
     session_.observe({});
@@ -180,7 +180,7 @@ TEST_F(AutosaveOnItsWayTest, OfARunThatWaitsInTheMidstOfAnIterationWhileAnotherO
   EXPECT_EQ(positions(), there);
 }
 
-/// What was noted while nobody looked at what became of the path since then.
+/// Noted starts of iterations, while the path since then is not looked at.
 class IterationStartsTest : public testing::SpokenSession {};
 
 TEST_F(IterationStartsTest, ABeginOfAPathThatWasLeftIsNotTakenForThisOne) {
@@ -245,7 +245,7 @@ TEST_F(AutosaveTest, AFolderThatIsGoneIsSaidOnceAndStopsNothing) {
   EXPECT_EQ(said, 1U);
   EXPECT_EQ(engine_->view()->runs[0].moment.iteration, 5U);
   std::filesystem::create_directories(folder_.path());
-  EXPECT_TRUE(saved());  // and is made up for
+  EXPECT_TRUE(saved());  // and a replacement is computed
 }
 
 TEST_F(AutosaveTest, AFileOfAPersonIsRecoveredAndStays) {

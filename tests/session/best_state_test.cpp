@@ -1,4 +1,4 @@
-// The best of the iterations that a run passes through, and that a converged run goes back to it.
+// The best of the iterations that a run passes through, to which a converged run goes back.
 
 #include "core/run/best_state.h"
 
@@ -56,7 +56,7 @@ TEST(BestState, AMeanIsNotPaidForByWhatRoundingAddsToTheMinimum) {
   EXPECT_EQ(best_iteration(best, course({{1e-7, 0.8}, {2e-7, 0.5}})), 1U) << "twice as good, however small";
 }
 
-/// As where the worst element has a corner between three vertices that stay.
+/// The worst element has a corner between three vertices that stay; raises of others by joint moves count.
 TEST(BestState, WhatJointMovesRaiseCountsThoughAnotherElementStaysWorse) {
   RunParameters dmo;
   dmo.then_joint.emplace();
@@ -95,7 +95,7 @@ TEST(BestState, NothingOfTheMinimumIsGivenUpWhereAPhaseFollows) {
   }
 }
 
-/// Its mean never falls, and the statistics' mean may.
+/// The raised mean never falls, but the statistics' mean may.
 TEST(BestState, OfThePhaseThatRaisesAMeanTheLastIsTheBest) {
   RunParameters mean;
   mean.then_mean.emplace();
@@ -115,7 +115,7 @@ TEST(BestState, OfOtherMethodsEveryValueCountsInTurn) {
 
 class EndAtBest : public testing::SpokenSession {
  protected:
-  /// Of which it is known that the mean falls on after the minimum's last rise.
+  /// Opens a mesh whose mean goes on falling after the minimum's last rise.
   void open() { say("generate random 400"); }
   const dmoscope::Run& run() { return session_.active(); }
 };
@@ -133,7 +133,7 @@ TEST_F(EndAtBest, AConvergedRunGoesBackAndSaysSo) {
   const Statistics here = run().statistics(), end = run().history().records().back().statistics;
   EXPECT_GT(here.mean, end.mean);
   EXPECT_GT(here.minimum, end.minimum - kLeastRise);
-  // It is that iteration, bit for bit.
+  // The positions are those of that iteration, bit for bit.
   const std::vector<Vec3> gone_back(run().positions().begin(), run().positions().end());
   say("reset");
   say("run " + std::to_string(best));

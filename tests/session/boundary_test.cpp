@@ -1,4 +1,4 @@
-// A boundary that slides, as a person steps it in a session.
+// Sliding boundaries in a session, step by step.
 
 #include <fstream>
 
@@ -84,7 +84,7 @@ TEST_F(BoundaryInASession, StateFilesKeepIt) {
   say("run 3");
   say("step vertex");
   EXPECT_EQ(positions(), there) << "computed again";
-  // Of before there were any, boundaries are fixed.
+  // Files from before there were sliding boundaries have fixed ones.
   say("generate coast 300 2");
   say("run 1");
   say("save-state " + file);

@@ -1,4 +1,4 @@
-// A run until it has converged ends where it is certified that nothing raises the worst element, with the result of one that goes on.
+// A run until it has converged ends once it is certified that nothing raises the worst element, with the result of one that goes on.
 
 #include <memory>
 

@@ -82,7 +82,7 @@ TEST_F(Comparison, EveryMetricIsOneRunAndTheSameIteration) {
   say("generate random 200");
   say("levels 2");
   say("run 2");
-  say("compare metrics");  // as far as the active run is
+  say("compare metrics");  // with as many iterations as the active run
   EXPECT_EQ(session_.run_count(), metrics_of_triangles());
   EXPECT_EQ(session_.active_index(), 0U);
   std::set<Metric> metrics;
@@ -92,7 +92,7 @@ TEST_F(Comparison, EveryMetricIsOneRunAndTheSameIteration) {
     EXPECT_EQ(session_.run(k).moment(), Moment{2});
   }
   EXPECT_EQ(metrics.size(), metrics_of_triangles());
-  say("compare metrics 3");  // nothing is there twice
+  say("compare metrics 3");  // nothing occurs twice
   EXPECT_EQ(session_.run_count(), metrics_of_triangles());
   for (const std::uint64_t iteration : iterations()) EXPECT_EQ(iteration, 3U);
   say("undo");
@@ -123,7 +123,7 @@ TEST_F(Comparison, EveryMethodThatCanBe) {
   std::size_t possible = 0;
   for (const MethodInfo& method : method_table()) possible += method.joint ? 0U : 1U;
   EXPECT_EQ(session_.run_count(), possible);
-  EXPECT_EQ(messages_.size(), method_table().size() - possible);  // a reason each
+  EXPECT_EQ(messages_.size(), method_table().size() - possible);  // a reason for each
 }
 
 TEST_F(Comparison, OrdersDifferInNothingElse) {

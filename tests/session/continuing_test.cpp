@@ -1,4 +1,4 @@
-// Runs that go on from the best state of another one, and sessions with such runs.
+// Runs that continue from the best state of another one, and sessions with such runs.
 
 #include <algorithm>
 #include <fstream>
@@ -115,7 +115,7 @@ TEST_F(Continuing, WhatHasMovedIsNotHeldMoreFirmly) {
   EXPECT_THAT(why("continue-with boundary fixed"), HasSubstr("has moved"));
   EXPECT_EQ(session_.run_count(), 1U);
   EXPECT_EQ(places(), before);
-  say("grid 9");  // is no continuation after what failed
+  say("grid 9");  // after a failure it is no continuation
   EXPECT_FALSE(session_.active().begin());
   EXPECT_THAT(why("continue-with run 3"), HasSubstr("changes no parameter"));
   EXPECT_THAT(why("continue-with boundary"), HasSubstr("too few arguments"));

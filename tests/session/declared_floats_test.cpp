@@ -1,4 +1,4 @@
-// Text files that declare their points as float: every state of a run stands on such numbers, and is as sound as who reads floats sees it.
+// Text files that declare their points as float: every state of a run has such numbers, and is as sound as a reader of floats finds it.
 
 #include <bit>
 #include <fstream>

@@ -78,7 +78,7 @@ TEST_F(DefinedMetricsInASession, WhatCannotBeChangesNothing) {
   EXPECT_THAT(why("target nonsense"), HasSubstr("is no target"));
   EXPECT_EQ(metric(), "mean-ratio");
   EXPECT_EQ(session_.shown(), Metric::MeanRatio);
-  // Another mesh may lack what the metric needs: it begins with one that it has.
+  // Another mesh may lack data that the metric needs: it begins with a metric that it supports.
   say("generate anisotropic 200");
   say("target field");
   say("generate quads 100");
@@ -105,7 +105,7 @@ TEST_F(DefinedMetricsInASession, CombinationsHaveColonsOfTheirOwn) {
   EXPECT_EQ(p.combination->threshold, 0.25);
   EXPECT_EQ(info(std::get<Metric>(p.combination->second)).name, "shape-size@aspect:2:30");
   EXPECT_THAT(why("combine mean-ratio:2:min-angle"), HasSubstr("threshold"));
-  // Also where a target has a number that could be a threshold.
+  // The target has a number that could be a threshold.
   say("combine \"formula:det/norm^2:0.4:aspect@layers:input\"");
   say("target aspect:4:0.5");
   const std::string file = (folder_.path() / "c.dmoscope").string();

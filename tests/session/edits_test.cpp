@@ -1,4 +1,4 @@
-// Visits of chosen vertices: what a normal visit would do, part of the run's path for ever, found again bit for bit.
+// Visits of chosen vertices: they do the same as a normal visit, stay part of the run's path, and are found again bit for bit.
 
 #include <algorithm>
 #include <cstring>
@@ -36,7 +36,7 @@ dmoscope::Run edited_run(RunParameters parameters = {}, std::size_t budget = std
   return {mesh(), std::move(parameters), std::make_shared<ThreadPool>(2), budget, std::move(device)};
 }
 
-/// What a smoother that knows no other vertices makes of the positions.
+/// The positions after visits by a smoother that knows no other vertices.
 Positions smoothed(Positions positions, const dmoscope::Run& run, const std::vector<Index>& vertices) {
   auto restricted = std::make_shared<Colouring>();
   restricted->class_offsets.push_back(0);
@@ -88,7 +88,7 @@ TEST(Edits, AreTheVisitsOfASmootherThatKnowsOnlyThose) {
   }
 }
 
-/// Steps, edits and steps again; the positions after every step with their moments.
+/// Steps, edits and steps again; returns the positions after every step with their moments.
 std::vector<std::pair<Moment, Positions>> tour(dmoscope::Run& run, Progress& progress) {
   std::vector<std::pair<Moment, Positions>> trail{{run.moment(), copy(run)}};
   const auto note = [&] { trail.emplace_back(run.moment(), copy(run)); };
@@ -184,7 +184,7 @@ TEST(Edits, ForgetTheFutureOfBefore) {
   fresh.visit_vertices(std::vector<Index>{51, 50, 51}, progress);
   fresh.iterate(4, progress);
   EXPECT_TRUE(same_bits(copy(fresh), with_edit));
-  // An earlier edit takes the later one's place.
+  // An earlier edit replaces the later one.
   run.seek({1}, progress);
   run.visit_vertices(std::vector<Index>{70}, progress);
   EXPECT_EQ(run.edits().all().size(), 1U);
@@ -219,7 +219,7 @@ TEST(Edits, ManyAreSeveral) {
   iteration.iterate(1, progress);
   EXPECT_TRUE(same_bits(copy(run), copy(iteration))) << "all of them, in the order of an iteration";
 
-  // A cancel in the midst: by the observer of the device, as if by another thread.
+  // A cancel during the work: by the observer of the device, as if by another thread.
   const auto device = std::make_shared<FakeDevice>();
   dmoscope::Run far(large, {}, std::make_shared<ThreadPool>(2), std::size_t{1} << 28U, acceleration(device));
   far.iterate(1, progress);

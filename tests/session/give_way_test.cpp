@@ -1,4 +1,4 @@
-// Who computes lets those go first who draw: told by the priorities of the threads, which Linux has.
+// Computing threads give way to drawing ones: checked by the priorities of the threads, on Linux.
 #include "core/engine/give_way.h"
 
 #ifdef __linux__

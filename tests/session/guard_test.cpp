@@ -1,4 +1,4 @@
-// The guard: whatever metric is raised, by whatever method, the least of another one falls no further.
+// The guard: the least of the guarded metric never falls further, for any raised metric and any method.
 
 #include "core/run/guard.h"
 
@@ -30,7 +30,7 @@ double least(const dmoscope::Run& run, Metric metric) {
   return compute_statistics(run.input().quality_context(), run.positions(), metric, run.immovable(), nullptr).movable_minimum;
 }
 
-/// A lattice stretched so that the scaled Jacobian, which is blind to how long an element is, lets elements collapse.
+/// A lattice stretched so that the scaled Jacobian, which does not depend on an element's length, lets elements collapse.
 Mesh stretched(Cells cells, std::uint64_t seed) {
   Mesh mesh = lattice(10, 0.35, seed, cells);
   for (Vec3& p : mesh.positions) p.y *= 0.3;

@@ -1,4 +1,4 @@
-// What holds a run's minimum as a session knows it: by its command, for each moment anew, and worked out by the engine at rest.
+// The hold of a run's minimum in a session: by its command, anew for each moment, and found by the engine at rest.
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-// What is said of groups and fields that changed since a session was saved.
+// Messages about groups and fields that changed since a session was saved.
 
 #include "core/session/input_marks.h"
 

@@ -1,4 +1,4 @@
-// What colours start from: the input's qualities, by counting.
+// Initial range of the colours: the input's qualities, by counting.
 
 #include "core/view/input_spread.h"
 
@@ -18,7 +18,7 @@ using Pair = std::pair<double, double>;
 
 TEST(InputSpread, IsOfTheSoundElements) {
   Mesh mesh = testing::lattice(12, 0.45, 5);
-  mesh.positions[80] = mesh.positions[0];  // far over others
+  mesh.positions[80] = mesh.positions[0];  // far over other elements
   const auto input = testing::input(std::move(mesh));
   for (const Metric metric : {Metric::MeanRatio, Metric::MinAngle}) {
     const QualityContext context = input->quality_context();

@@ -1,4 +1,4 @@
-// Interfaces keep their place in runs, through every format that carries groups, and are given back on request.
+// Interfaces are kept in runs, through every format that carries groups, and are freed on request.
 
 #include <cmath>
 #include <fstream>
@@ -147,7 +147,7 @@ TEST_F(InterfacesInASession, StateFilesKeepTheRuleAndThoseFromBeforeItHaveFreeOn
   EXPECT_EQ(interfaces(), "free");
   EXPECT_TRUE(std::ranges::equal(session_.active().positions(), moved));
   auto json = nlohmann::ordered_json::parse(std::ifstream(file));
-  json["version"] = 1;  // from before there were checksums, too
+  json["version"] = 1;  // also from before there were checksums
   json.erase("checksums");
   json["runs"][0].erase("checksums");
   auto& parameters = json["runs"][0]["parameters"];
@@ -162,7 +162,7 @@ TEST_F(InterfacesInASession, StateFilesKeepTheRuleAndThoseFromBeforeItHaveFreeOn
 }
 
 TEST_F(InterfacesInASession, TheInputIsJudgedByWhatStaysInTheActiveRun) {
-  // A square of bad elements whose corners all lie on the interface: they can move only where that is free.
+  // A square of bad elements whose corners all lie on the interface: they can move only if that is free.
   Mesh mesh = testing::lattice(5, 0.0, 1, testing::Cells::Quadrilaterals);
   mesh.groups = {{.name = "core", .role = "physical group", .code = 1, .dimension = 2, .members = {12}}};
   for (const Index v : {14U, 15U}) mesh.positions[v] = mesh.positions[v] + Vec3{v == 14U ? 0.08 : -0.08, 0.0, 0.0};

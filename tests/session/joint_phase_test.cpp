@@ -1,4 +1,4 @@
-// The phase of joint moves: when it begins and ends, what it keeps, and that it is stepped, undone, cancelled and saved like any other.
+// The phase of joint moves: its start and end, its promises, and stepping, undoing, cancelling and saving like in any other.
 
 #include <memory>
 #include <optional>
@@ -74,9 +74,9 @@ TEST_P(JointPhaseOf, NoChainOfPhasesEndsBelowTheFirstAlone) {
     mean.then_mean = PhaseBegin{};
     const double alone = minimum({}), joint = minimum(then_joint());
     EXPECT_GE(minimum(mean), alone - 1e-6) << seed;
-    // Alone a tangled mesh has its worst element raised jointly, too; what can be reached is found within a gap.
+    // A first phase alone raises the worst element of a tangled mesh jointly, too; the possible minimum is found within a gap.
     EXPECT_GE(joint, alone * (1.0 - RunParameters{}.joint_gap)) << seed;
-    // The mean that comes next may have the gap.
+    // The mean of the next phase may have the gap.
     EXPECT_GE(minimum(then_joint(true)), joint * (1.0 - RunParameters{}.joint_gap)) << seed;
   }
 }
@@ -110,7 +110,7 @@ TEST_P(JointPhaseOf, HasTheSameBitsWhicheverWayItIsReached) {
   }
 }
 
-/// Some iterations of joint moves, saved and opened: `beyond`: once the second of two aims is raised.
+/// Does some iterations of joint moves, saves and opens the run: `beyond`: once the second of two aims is raised.
 void expect_the_same_after_it_was_saved(const RunParameters& parameters, bool beyond) {
   const test::TemporaryFolder folder;
   const std::string file = (folder / "session.json").string();

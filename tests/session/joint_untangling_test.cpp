@@ -1,4 +1,5 @@
-// Where no single vertex untangles anything, those around inverted elements are moved together, as one iteration like any other.
+// Joint untangling: if no single vertex untangles anything, those around inverted elements are moved together, as one iteration like any
+// other.
 
 #include <algorithm>
 #include <memory>
@@ -55,7 +56,7 @@ TEST(JointUntangling, IsAnIterationLikeAnyOther) {
   ASSERT_NE(turned, records.end());
   EXPECT_EQ(turned->moved, 4U);
   const std::vector<Vec3> end(there.positions().begin(), there.positions().end());
-  // Nothing is kept: it is done again.
+  // Nothing is kept: it is computed again.
   there.seek({turned->iteration - 1}, progress);
   EXPECT_TRUE(same_bits(there.positions(), mesh->mesh.positions));
   EXPECT_EQ(there.step(StepUnit::Vertex, progress), 4U) << "it is one step, whatever the unit";

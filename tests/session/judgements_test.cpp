@@ -1,4 +1,4 @@
-// Courses of runs, judged by the metrics of others.
+// Curves of runs, judged by the metrics of others.
 #include "core/view/judgements.h"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ class JudgedCourses : public testing::SpokenSession {
   Judgements judgements_;
 };
 
-/// Nothing is judged in between, when what is no more would be forgotten.
+/// Nothing is judged in between, when values of the abandoned path would be forgotten.
 TEST_F(JudgedCourses, APathThatIsTakenAnewIsJudgedAnew) {
   say("generate random 400 3");
   say("compare with dmo:min-angle 6");

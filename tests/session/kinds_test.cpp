@@ -1,4 +1,4 @@
-// Corners and feature edges that a person says, as commands, in saved sessions, and back.
+// Corners and feature edges that the user sets, as commands, in saved sessions, and back.
 
 #include <fstream>
 
@@ -127,7 +127,7 @@ TEST_F(KindsInASession, StateFilesKeepThem) {
   say("run 2");
   say("step vertex");
   EXPECT_EQ(positions(), there) << "computed again";
-  // Old ones have none; damaged ones are refused.
+  // Old sessions have none; damaged ones are refused.
   const auto reopened = [&](const auto& change) {
     auto json = nlohmann::ordered_json::parse(std::ifstream(file));
     json["version"] = 1;

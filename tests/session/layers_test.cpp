@@ -1,4 +1,4 @@
-// Boundary layers that somebody has made stay unless told otherwise.
+// Boundary layers of the input stay unless told otherwise.
 
 #include <algorithm>
 #include <memory>
@@ -78,7 +78,7 @@ TEST(Layers, AreNotADistortedGrid) {
 TEST(Layers, OfInvertedElementsAreFree) {
   Mesh mesh = with_layers(5, 1.5, 0.01);
   const Index v = 9 + 4;
-  mesh.positions[v].y = 0.5;  // above what lies above it
+  mesh.positions[v].y = 0.5;  // above its upper neighbour
   const auto tangled = input(std::move(mesh));
   EXPECT_LT(tangled->layers.size(), 6U * 9U);
   EXPECT_FALSE(std::ranges::binary_search(tangled->layers, v));

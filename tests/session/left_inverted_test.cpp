@@ -1,5 +1,4 @@
-// What is said of elements that stay inverted, which state is the best of a run, and by what rule each iteration is done: told from
-// records alone.
+// Messages about elements that stay inverted, the best state of a run, and the rule of each iteration, from records alone.
 
 #include <tuple>
 
@@ -87,7 +86,7 @@ TEST_F(BestIteration, IsByInvertedElementsMinimumAndMean) {
       const auto& records = session_.active().history().records();
       if (method == "laplace") {
         EXPECT_EQ(found, expected);
-      } else {  // rises too small to count may have been left for a better mean
+      } else {  // rises too small to count may have been given up for a better mean
         const Statistics &here = records[found].statistics, &there = records[expected].statistics;
         EXPECT_EQ(here.inverted, there.inverted);
         EXPECT_GT(here.minimum, there.minimum - 1e-6);

@@ -23,7 +23,7 @@ std::shared_ptr<FakeDevice> drawn_device() {
   return device;
 }
 
-/// Views of a run without end until one of them is as wanted; then the run is cancelled. None: it never came.
+/// Steps a run without end until one of its views is as wanted, and cancels it; none if no view was.
 template <class Wanted>
 std::shared_ptr<const SessionView> view_while_running(Engine& engine, Wanted wanted) {
   engine.post("run 100000000");
@@ -50,7 +50,7 @@ TEST(LiveFrames, StayOnTheDeviceAndTheLastOneIsWhole) {
   EXPECT_EQ(start->runs[0].backend, Backend::Cuda);
 
   const auto live = view_while_running(engine, [](const Frame& frame) {
-    return frame.device != nullptr && frame.moment.visits == 0;  // a slow machine may be seen in the midst of an iteration
+    return frame.device != nullptr && frame.moment.visits == 0;  // on a slow machine a frame may show an unfinished iteration
   });
   ASSERT_NE(live, nullptr);
   const Frame& light = *live->frame;
@@ -69,7 +69,7 @@ TEST(LiveFrames, StayOnTheDeviceAndTheLastOneIsWhole) {
   const auto end = engine.view();
   EXPECT_EQ(end->frame->device, nullptr);
   EXPECT_EQ(end->frame->positions.size(), end->frame->vertex_count());
-  // What a patch says of the light frame is what a run on the CPU says of that iteration.
+  // Values of a patch for the light frame are those of a run on the CPU at that iteration.
   Engine cpu(1, {}, Backend::Cpu);
   cpu.post("generate annulus 3000");
   cpu.post("run " + std::to_string(light.moment.iteration));
@@ -105,7 +105,7 @@ TEST(LiveFrames, ADeviceLostAtTheEndLeavesAFrameOfTheHost) {
   const auto device = drawn_device();
   Engine engine(1, acceleration(device), Backend::Cuda);
   engine.post("generate annulus 500");
-  engine.post("history 0");  // nothing is brought to the host while it runs
+  engine.post("history 0");  // nothing is copied to the host while it runs
   engine.wait_idle();
   device->fail_at_store = device->stores + 1;
   const auto live = view_while_running(engine, [](const Frame& frame) { return frame.moment > Moment{}; });

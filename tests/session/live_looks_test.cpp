@@ -1,4 +1,4 @@
-// What only changes what is shown passes a run that computes.
+// Commands that only change the view overtake a run that computes.
 #include <algorithm>
 #include <chrono>
 #include <functional>
@@ -23,7 +23,7 @@ class LiveLooks : public ::testing::Test {
     engine.post(mesh);
     engine.wait_idle();
   }
-  /// Until a view is so; null when that takes too long, or when nothing is at work any more.
+  /// Waits for a view with the property; null if that takes too long, or if no work is left.
   std::shared_ptr<const SessionView> wait_for(const std::function<bool(const SessionView&)>& wanted) {
     std::shared_ptr<const SessionView> last;
     for (const auto until = steady_clock::now() + kPatience; steady_clock::now() < until;) {
@@ -56,7 +56,7 @@ class LiveLooks : public ::testing::Test {
   int views = 0;
 };
 
-/// What a frame says of the shown metric, against the definition.
+/// Expects a frame's values of the shown metric to agree with its definition.
 void expect_true_of_its_metric(const Frame& frame, const SessionView& view) {
   const QualityContext context = frame.input->quality_context();
   ASSERT_EQ(frame.quality.size(), frame.element_count());
@@ -182,7 +182,7 @@ TEST_F(LiveLooks, WhatCannotBeShownIsSaidAtOnceAndStopsNothing) {
 TEST_F(LiveLooks, WaitForAMeshThatWasAskedForBefore) {
   open("generate random 5000");
   ASSERT_TRUE(begin_endless_run());
-  engine.post("step iteration");  // this one it may pass
+  engine.post("step iteration");  // the command may overtake this one
   engine.post("show min-angle");
   engine.post("generate quads 100");
   engine.post("show scaled-jacobian");

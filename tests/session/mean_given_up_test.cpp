@@ -1,4 +1,4 @@
-// What max-min costs the mean is said, and what is said holds.
+// The cost of max-min for the mean is reported, and the report holds.
 
 #include <algorithm>
 
@@ -25,7 +25,7 @@ class MeanGivenUp : public testing::SpokenSession {
 };
 
 TEST_F(MeanGivenUp, IsToldWithWhatTheMeanWasAndIs) {
-  say("generate random 400");  // whose boundary has thin triangles: the rest is drawn after them
+  say("generate random 400");  // its boundary has thin triangles: the others follow them
   say("until-converged best");
   const dmoscope::Run& run = session_.active();
   const auto& records = run.history().records();
@@ -37,7 +37,7 @@ TEST_F(MeanGivenUp, IsToldWithWhatTheMeanWasAndIs) {
   EXPECT_THAT(fell, HasSubstr(fmt::format("to {:.3f} ", here.mean)));
   EXPECT_THAT(fell, HasSubstr(best == records.begin() ? "(the input)" : fmt::format("(iteration {})", best - records.begin())));
 
-  // And it is true that a second phase raises it and keeps the minimum.
+  // A second phase raises the mean and keeps the minimum, as reported.
   const Statistics before = run.statistics();
   say("then mean");
   say("until-converged best");
@@ -85,7 +85,7 @@ TEST_F(MeanGivenUp, OneCommandRaisesItInARunBeside) {
   EXPECT_EQ(session_.run_count(), 1U);
 }
 
-/// A dart with a vertex in its upper part, below which the mean of its corners lies, outside.
+/// A dart with a vertex in its upper part: the mean of its corners lies below, outside.
 TEST_F(MeanGivenUp, AMethodThatPromisesNothingIsToldToHaveMadeElementsWorse) {
   Mesh dart;
   dart.positions = {{-4, -4, 0}, {0, 0, 0}, {4, -4, 0}, {0, 2, 0}, {0, 1, 0}};

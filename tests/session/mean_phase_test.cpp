@@ -1,4 +1,4 @@
-// The phase that raises the mean: when it begins, what it keeps, and that a run goes over its beginning both ways with the same bits.
+// The phase that raises the mean: its start, its promises, and the same bits of a run that passes its start both ways.
 
 #include <cstring>
 #include <limits>
@@ -24,7 +24,7 @@ using ::testing::HasSubstr;
 using testing::input;
 using testing::lattice;
 
-/// Records with these minima, of which the movable ones are the same; some vertex moved in each.
+/// Records with these minima, equal to the movable ones; some vertex moved in each.
 std::vector<IterationRecord> records(std::initializer_list<double> minima) {
   std::vector<IterationRecord> all;
   for (const double minimum : minima) {
@@ -45,7 +45,7 @@ TEST(PhaseSwitchDetector, AMethodOfDirectionsIsNotAtRestWhileAnotherOneIsLeft) {
   EXPECT_EQ(PhaseSwitchDetector().find(patient, rising, std::nullopt), std::nullopt);
 }
 
-/// A vertex that stands right along x and wrong along y: the first sweep finds nothing to do.
+/// A vertex that is at its best along x but not along y: the first sweep finds nothing to do.
 TEST(PhaseSwitchDetector, DvrAlongTheAxesGoesOnAfterASweepThatFoundNothing) {
   Mesh mesh;
   mesh.positions = {{1, 0, 0},  {0.5, 0.8660254, 0}, {-0.5, 0.8660254, 0}, {-1, 0, 0}, {-0.5, -0.8660254, 0}, {0.5, -0.8660254, 0},
@@ -95,11 +95,11 @@ TEST(PhaseSwitchDetector, FollowsAnotherPath) {
 TEST(PhaseSwitchDetector, DoesNotComeWhileElementsAreInverted) {
   auto tangled = records({-0.3, -0.3, -0.3, -0.3, 0.1, 0.1, 0.1});
   for (std::size_t i = 0; i < 4; ++i) tangled[i].statistics.inverted = 2;
-  tangled[2].moved = 0;  // nor where nothing moves
+  tangled[2].moved = 0;  // nor if nothing moves
   EXPECT_EQ(PhaseSwitchDetector().find({.patience = 2}, tangled), 6U);
 }
 
-/// What rises little by little rises: a first phase alone would go on, too.
+/// Small rises that add up count: a first phase alone would go on, too.
 TEST(PhaseSwitchDetector, AddsUpSmallRises) {
   const auto slow = records({0.1, 0.1 + 4e-7, 0.1 + 8e-7, 0.1 + 12e-7, 0.1 + 16e-7, 0.1 + 20e-7, 0.1 + 20e-7, 0.1 + 20e-7});
   EXPECT_EQ(PhaseSwitchDetector().find({.patience = 3}, slow), 6U) << "the last rise of 1e-6 is in iteration 3";
@@ -161,7 +161,7 @@ TEST_P(MeanPhaseOf, IsTheFirstPhaseBeforeItBegins) {
 class MeanPhaseAfterWear : public ::testing::TestWithParam<Cells> {};
 INSTANTIATE_TEST_SUITE_P(Meshes, MeanPhaseAfterWear, ::testing::Values(Cells::Triangles, Cells::Mixed));
 
-/// The best of a first phase: of the iterations of greatest minimum the one of greatest mean, the last of these.
+/// The best of a first phase: the last of the iterations of greatest mean among those of greatest minimum.
 std::uint64_t best_by_hand(std::span<const IterationRecord> all) {
   const auto worth = [](const IterationRecord& record) { return std::pair(record.statistics.movable_minimum, record.statistics.mean); };
   std::size_t best = 0;
@@ -188,7 +188,7 @@ TEST_P(MeanPhaseAfterWear, BeginsWithTheBestStateOfTheFirst) {
   one.seek({best}, progress);
   two.seek({since}, progress);
   EXPECT_TRUE(same_bits(one.positions(), two.positions()));
-  // Over the end of the first phase and back, where nothing is kept, and with other threads.
+  // Over the end of the first phase and back, with nothing kept, and with other threads.
   poor.iterate(since + 3, progress);
   two.seek({since + 3}, progress);
   EXPECT_TRUE(same_bits(poor.positions(), two.positions()));
@@ -198,7 +198,7 @@ TEST_P(MeanPhaseAfterWear, BeginsWithTheBestStateOfTheFirst) {
             poor.history().records()[since + 3].statistics.mean);
 }
 
-/// Read in the first phase, after its best iteration: whose positions nobody has.
+/// The run is read in the first phase, after its best iteration, whose positions are lost.
 TEST_P(MeanPhaseAfterWear, BeginsWithTheSameStateAfterItWasRead) {
   const auto mesh = input(lattice(14, 0.45, 8, GetParam()));
   auto whole = make_run(mesh, two_phases(40)), read = make_run(mesh, two_phases(40), 0);
@@ -224,7 +224,7 @@ TEST(MeanPhase, ACancelledWayToTheBestStateIsGoneAgain) {
   const std::uint64_t since = go_beyond(whole);
   Progress progress;
   cancelled.iterate(since + 2, progress);
-  cancelled.set_history_budget(0);  // lets go of what was held
+  cancelled.set_history_budget(0);  // releases kept positions
   bool was_there = false;
   cancelled.set_observer([&](const dmoscope::Run& run) {
     was_there = was_there || run.moment().iteration + 1 == since;
@@ -251,7 +251,7 @@ TEST_P(MeanPhaseOf, HasTheSameBitsWhicheverWayItIsReached) {
   while (stepped.moment().iteration < since + 5)
     stepped.step(stepped.moment().visits % 5 == 0 ? StepUnit::Vertex : StepUnit::Class, progress);
   EXPECT_TRUE(same_bits(stepped.positions(), end)) << "steps";
-  // Back into the midst of the first phase and forth, and so from the midst of the second.
+  // Back into the first phase and forth, and also from the middle of the second.
   for (const Moment& moment : {Moment{since + 5}, {since - 1, 7}, {since + 2, 11}, {since, 3}, {since + 5}}) sought.seek(moment, progress);
   EXPECT_TRUE(same_bits(sought.positions(), end)) << "seeks";
 }
@@ -300,9 +300,9 @@ TEST(MeanPhase, UntilConvergedGoesThroughBoth) {
   EXPECT_TRUE(all.back().moved == 0 || last_rise < 1e-6) << "while it rises there is no end: " << last_rise;
 }
 
-/// Random directions never prove that nothing will move any more; the second phase looks all around.
+/// Random directions never prove that nothing will move any more; the second phase looks in all directions.
 TEST(MeanPhase, NothingMovesAnyMoreAlsoAfterDvr) {
-  Mesh mesh;  // whose only free vertex stands in the middle already
+  Mesh mesh;  // its only free vertex is in the middle already
   mesh.positions = {{1, 0, 0}, {0.5, 0.75, 0}, {-0.5, 0.75, 0}, {-1, 0, 0}, {-0.5, -0.75, 0}, {0.5, -0.75, 0}, {0, 0, 0}};
   for (Index i = 0; i < 6; ++i) testing::add(mesh, {i, (i + 1) % 6, 6});
   RunParameters parameters = two_phases(3);
@@ -314,7 +314,7 @@ TEST(MeanPhase, NothingMovesAnyMoreAlsoAfterDvr) {
   EXPECT_TRUE(outcome.phases.mean_since);
 }
 
-/// A session that is told what to do.
+/// A session that is driven by commands.
 struct Told {
   Session session{1};
   Progress progress;
@@ -324,7 +324,7 @@ struct Told {
   void say(const std::string& line) { commands.execute(line); }
 };
 
-/// However little patience the phase has of its own: a run that converges gives up nothing that it would gain alone.
+/// The phase's own patience does not matter: a run that converges gives up nothing that it would gain alone.
 TEST(MeanPhase, UntilConvergedDoesNotBeginItBeforeTheFirstHasConverged) {
   Told alone, hasty, patient;
   for (Told* told : {&alone, &hasty, &patient}) told->say("generate random 400");
@@ -340,7 +340,7 @@ TEST(MeanPhase, UntilConvergedDoesNotBeginItBeforeTheFirstHasConverged) {
   EXPECT_GE(*run.mean_since(), alone.session.active().last_outcome()->last_rise + 60);
   EXPECT_GE(run.statistics().minimum, best.minimum);
   EXPECT_GE(run.statistics().mean, best.mean);
-  // Once it has begun it stays where it began.
+  // Once it has begun its start stays.
   const std::uint64_t since = *run.mean_since();
   patient.say("until-converged 100");
   EXPECT_EQ(run.mean_since(), since);
@@ -367,13 +367,13 @@ TEST(MeanPhase, IsUndoneAndSaved) {
   EXPECT_EQ(other.session.active().phases().mean_from, told.session.active().phases().mean_from);
   ASSERT_TRUE(told.session.active().phases().mean_from) << "else this test shows less";
   EXPECT_TRUE(same_bits(other.session.active().positions(), end));
-  // What was saved in the second phase has no positions of the first: they are computed again, and its beginning with them.
+  // A run saved in the second phase has no positions of the first: they are computed again, and the start with them.
   const std::uint64_t since = *told.session.active().mean_since();
   for (const std::uint64_t iteration : {since, since - 1, since + 1}) {
     for (Told* one : {&told, &other}) one->say(fmt::format("seek {}", iteration));
     EXPECT_TRUE(same_bits(told.session.active().positions(), other.session.active().positions())) << iteration;
   }
-  for (Told* one : {&told, &other}) one->say("undo");  // of all three: seeks in a row are one
+  for (Told* one : {&told, &other}) one->say("undo");  // of all three: consecutive seeks are one
   EXPECT_TRUE(same_bits(told.session.active().positions(), end));
   for (Told* one : {&told, &other}) one->say(fmt::format("seek {}", since - 1));
   for (Told* one : {&told, &other}) one->say("run 2");

@@ -1,4 +1,4 @@
-// Damaged sessions and scripts of garbage: refused or sound, and never a crash.
+// Damaged sessions and random scripts: refused or sound, and never a crash.
 
 #include <random>
 
@@ -9,7 +9,7 @@
 namespace dmoscope::testing {
 namespace {
 
-/// A few bytes changed, left out, or doubled.
+/// Changes, omits or doubles a few bytes.
 std::string mutated(std::string bytes, std::mt19937_64& random) {
   constexpr std::string_view kNasty = "0123456789-+.e\"{}[],: \n\t#\xff";
   const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };

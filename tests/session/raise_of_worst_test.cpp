@@ -1,4 +1,4 @@
-// A run until it has converged on a mesh that came tangled: where single vertices are stuck those around the worst element move together.
+// A run until it has converged on a tangled mesh: if single vertices are stuck those around the worst element move together.
 
 #include <algorithm>
 #include <memory>
@@ -50,7 +50,7 @@ TEST(RaiseOfWorst, ReachesWhatThePhaseOfJointMovesReaches) {
   }
 }
 
-/// The mean begins to be raised from the very state that the method's phase alone ends in.
+/// The mean is raised from the state in which the method's phase alone ends.
 TEST(RaiseOfWorst, ComesBeforeTheMeanIsRaised) {
   Progress progress;
   for (const auto& mesh : {tangled(), tangled("tangled", 300)}) {
@@ -88,7 +88,7 @@ TEST(RaiseOfWorst, IsAnIterationLikeAnyOther) {
   EXPECT_TRUE(raises(single).empty()) << "iterations that were counted out have none";
 }
 
-/// From a moment before it, and from one after it.
+/// Runs saved before it, and after it.
 TEST(RaiseOfWorst, IsTheSameOfARunThatWasSavedOnItsWay) {
   const auto mesh = tangled();
   Progress progress;

@@ -1,4 +1,4 @@
-// What a run made of a mesh as a whole, against figures worked out here.
+// The report card of a run, against figures worked out here.
 
 #include "core/run/report_card.h"
 
@@ -76,7 +76,7 @@ TEST(ReportCard, IsBetterWhereNothingIsWorse) {
 TEST(ReportCard, CountsInvertedElements) {
   const auto mesh = input(lattice(6, 0.0, 1));
   std::vector<Vec3> after(mesh->mesh.positions);
-  after[7 + 1] = after[3 * 7 + 3];  // far out of its star
+  after[7 + 1] = after[3 * 7 + 3];  // far outside its star
   const ReportCard card = card_of(*mesh, after);
   const auto inverted = count_inverted(mesh->quality_context(), after).all;
   ASSERT_GT(inverted, 0U);
@@ -84,7 +84,7 @@ TEST(ReportCard, CountsInvertedElements) {
   EXPECT_EQ(figure(card, "", "inverted").verdict, Verdict::Worse);
 }
 
-/// Layers of heights 0.01, 0.02, 0.04 ... on a wall of width 1, whose first line goes up by half.
+/// Layers of heights 0.01, 0.02, 0.04 ... on a wall of width 1, whose first line rises by half.
 TEST(ReportCard, TellsHowHighWallCellsHaveBecome) {
   Mesh layers;
   constexpr Index kAlong = 6, kUp = 6;

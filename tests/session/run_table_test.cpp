@@ -1,4 +1,4 @@
-// The table of runs: what its cells tell against sums and sorting done here, its order, its text.
+// The table of runs: its cells against sums and sorting done here, its order, its text.
 
 #include "core/view/run_table.h"
 
@@ -15,7 +15,7 @@
 namespace dmoscope {
 namespace {
 
-/// The value that a share of the elements is not better than, by sorting.
+/// The value that a share of the elements does not exceed, by sorting.
 double by_rank(std::vector<double> qualities, double share) {
   std::sort(qualities.begin(), qualities.end());
   return qualities[static_cast<std::size_t>(std::ceil(share * static_cast<double>(qualities.size()) - 1e-9)) - 1];
@@ -86,7 +86,7 @@ TEST(RunTable, APublishedRunHasTheSameRow) {
   tell(engine, "show radius-ratio");
   const auto view = engine.view();
   const RunRow shown = row_of(view->runs[0], Metric::RadiusRatio);
-  // The same run done apart.
+  // Does the same run separately.
   Progress progress;
   const auto pool = std::make_shared<ThreadPool>(1);
   dmoscope::Run apart(generate_input("random 400", progress), {}, pool, 0);

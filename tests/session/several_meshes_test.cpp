@@ -38,7 +38,7 @@ class SeveralMeshes : public testing::SpokenSession {
     commands.execute(line);
     commands.execute("export " + file.string());
   }
-  /// What a run comes to in a session of its own.
+  /// The positions of a run in a session of its own.
   static std::vector<Vec3> alone(const std::filesystem::path& file, const std::vector<std::string>& lines) {
     Session session(1);
     Progress progress;
@@ -68,7 +68,7 @@ TEST_F(SeveralMeshes, EachIsSmoothedAsIfItWereAlone) {
   EXPECT_EQ(session_.input()->mesh.name, "second.off");
   EXPECT_EQ(session_.inputs().size(), 2U);
   say("run 3");
-  say("metric min-angle");  // a run of its own, on the same mesh
+  say("metric min-angle");  // a separate run on the same mesh
   say("run 1");
   EXPECT_EQ(session_.inputs().size(), 2U);
   say("select-run 1");

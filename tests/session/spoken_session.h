@@ -25,7 +25,7 @@ class SpokenSession : public ::testing::Test {
     }
     return false;
   }
-  /// What the command says is wrong; empty: it succeeds.
+  /// The error message of the command; empty: it succeeds.
   [[nodiscard]] std::string why(const std::string& line) {
     try {
       say(line);

@@ -1,4 +1,4 @@
-// Sessions saved and opened: every run where it stood, bit for bit; nothing half opened; no file does harm.
+// Sessions saved and opened: every run at its moment, bit for bit; nothing half opened; no file does harm.
 
 #include "core/session/state_file.h"
 
@@ -28,7 +28,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using Json = nlohmann::ordered_json;
 
-/// As it was saved before there were checksums, which would be the first to refuse.
+/// The session as saved before there were checksums, which would be the first to refuse.
 Json unsealed(Json json) {
   json["version"] = 1;
   json.erase("checksums");
@@ -45,7 +45,7 @@ class StateFile : public ::testing::Test {
     return {std::istreambuf_iterator<char>(stream), {}};
   }
   void write(const std::string& text) const { std::ofstream(file_) << text; }
-  /// What opening says is wrong; empty: it opens.
+  /// The error message of opening; empty: it opens.
   std::string refusal() {
     Session other(1);
     try {
@@ -128,7 +128,7 @@ TEST_F(StateFile, FindsTheMeshAgainAndRefusesAnother) {
   say("run 2");
   say("save-state " + file_.string());
   EXPECT_EQ(refusal(), "");
-  // Both were moved elsewhere.
+  // Both files were moved elsewhere.
   const auto elsewhere = folder_ / "elsewhere";
   std::filesystem::create_directories(elsewhere);
   std::filesystem::rename(mesh, elsewhere / "mesh.off");
@@ -277,7 +277,7 @@ TEST_F(StateFile, MalformedFilesAreRefusedWithAReason) {
     write(other);
     EXPECT_NE(refusal(), "") << other;
   }
-  // Every value anywhere in turn becomes something else, or goes away.
+  // Every value in turn is replaced, or removed.
   const Json flat = json.flatten();
   const std::vector<Json> wrong{Json(), Json(-1), Json(1e300), Json("x"), Json::array(), Json::object(), Json(18446744073709551615ULL)};
   std::size_t refused = 0, tried = 0;
@@ -304,7 +304,7 @@ TEST_F(StateFile, MalformedFilesAreRefusedWithAReason) {
     }
   }
   EXPECT_GT(refused * 10, tried * 6) << "most of them matter";
-  // And cut off anywhere.
+  // The file is cut off anywhere.
   for (std::size_t length = 0; length < good.size() - 2; length += 1 + good.size() / 97) {
     write(good.substr(0, length));
     EXPECT_NE(refusal(), "") << length;
@@ -378,7 +378,7 @@ TEST_F(StateFile, NoChangedCharacterPasses) {
   for (std::size_t i = 0; i < good.size(); i += 7) {
     std::string bad = good;
     bad[i] = bad[i] == '4' ? '5' : '4';
-    if (Json::parse(bad, nullptr, false) == Json::parse(good)) continue;  // the last digit of a number, which is no other one
+    if (Json::parse(bad, nullptr, false) == Json::parse(good)) continue;  // the last digit of a number without effect
     write(bad);
     EXPECT_NE(refusal(), "") << i << ": " << good.substr(i - std::min<std::size_t>(i, 20), 40);
   }
@@ -393,7 +393,7 @@ TEST_F(StateFile, OfBeforeThereWereChecksumsOpensWithANote) {
   const Json json = unsealed(Json::parse(text()));
   write(json.dump());
   EXPECT_THAT(open_state(file_, other, progress_), HasSubstr("without checksums"));
-  // Even then the positions must have the quality that the record says.
+  // Even then the positions must have the quality of the record.
   std::vector<Vec3> moved(other.active().positions().begin(), other.active().positions().end());
   const Index free = other.active().colouring().order.front();
   moved[free].x += 0.01;

@@ -1,4 +1,4 @@
-// Undo and redo of everything that changes mesh or runs.
+// Undo and redo of all changes of meshes and runs.
 
 #include <cstring>
 #include <string>
@@ -19,7 +19,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// All of a session that undo is about.
+/// The state of a session as far as undo restores it.
 struct State {
   std::shared_ptr<const InputMesh> input;
   struct OfRun {
@@ -247,7 +247,7 @@ TEST_F(Undo, OfACancelledCommandThatMoved) {
 }
 
 TEST_F(Undo, CancelledInTheMidstCanBeAskedForAgain) {
-  session_.set_history_budget(0);  // so that it has to smooth
+  session_.set_history_budget(0);  // so that it has to be computed again
   say("generate random 400");
   say("run 10");
   const State before = state_of(session_);
@@ -256,13 +256,13 @@ TEST_F(Undo, CancelledInTheMidstCanBeAskedForAgain) {
   EXPECT_THROW(say("undo"), Cancelled);
   progress_.clear_cancel();
   EXPECT_EQ(next_undo(), "reset");
-  say("step class");  // the session is whole
+  say("step class");  // the session is intact
   say("undo");
   say("undo");
   expect_same(state_of(session_), before, "undo");
 }
 
-/// Seeded sequences of everything.
+/// Random sequences of all commands, by a seed.
 class RandomUndo : public Undo, public ::testing::WithParamInterface<int> {};
 
 std::string random_line(testing::Random& random, Session& session) {
@@ -334,7 +334,7 @@ TEST_P(RandomUndo, AllTheWayBackIsTheInputAndAllTheWayForwardsTheEnd) {
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomUndo, ::testing::Range(1, 25));
 
-/// The same on a device.
+/// Undo on a device.
 class DeviceUndo : public Undo {
  protected:
   DeviceUndo() : DeviceUndo(std::make_shared<testing::FakeDevice>()) {}

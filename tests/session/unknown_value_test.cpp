@@ -1,4 +1,4 @@
-// Every word that a person may get wrong is answered by the same sentence.
+// The same sentence answers every word that may be wrong.
 
 #include "core/base/unknown_value.h"
 

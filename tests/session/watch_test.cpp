@@ -1,4 +1,4 @@
-// Frames of what a window watches besides the active run.
+// Frames that a window shows besides the active run.
 
 #include <chrono>
 #include <set>
@@ -22,7 +22,7 @@ class Watching : public ::testing::Test {
     engine_.wait_idle();
     for (const Message& message : engine_.take_messages()) ASSERT_NE(message.kind, Message::Kind::Error) << line << ": " << message.text;
   }
-  /// Three runs on one mesh, of which the last is active.
+  /// Opens three runs on one mesh, the last of which is active.
   void open_three() {
     say("generate annulus 600");
     say("add-run dmo:scaled-jacobian");
@@ -34,7 +34,7 @@ class Watching : public ::testing::Test {
     engine_.wait_idle();
     return engine_.view()->watched;
   }
-  /// What a run made apart from the engine's comes to.
+  /// The positions of a run made apart from the engine's.
   [[nodiscard]] std::vector<Vec3> after(Metric metric, std::uint64_t iterations) {
     dmoscope::Run run(engine_.view()->input, {.metric = metric}, std::make_shared<ThreadPool>(1), std::size_t{64} << 20U);
     Progress progress;
@@ -148,7 +148,7 @@ TEST(Past, IsThePathWithItsEditsAndStopsWhenItShall) {
   EXPECT_EQ(run.moment(), Moment{5});
 }
 
-/// Steps runs by turns, as a verb may that is about all of them.
+/// Steps runs by turns, as a verb about all of them may.
 TEST(WatchedFrames, OfARunThatStepsWithoutBeingActiveFollow) {
   Session session(1);
   Progress progress;

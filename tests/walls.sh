@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The walls between the modules: what each folder must not include or call. Prints every breach as file:line.
+# Checks the walls between the modules: includes and calls that are forbidden in a folder. Prints every breach as file:line.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -40,7 +40,8 @@ breach "only gpu includes CUDA" "${include}${cuda}" app $(find tests -mindepth 1
 
 breach "ui's state, analysis and commands know no ImGui" "${include}${imgui}" ui/state ui/analysis ui/commands
 
-# layers MODULE FOLDER...: within a module, sources include headers of their own folder and of those named before it. "." is the module itself.
+# layers MODULE FOLDER...: within a module, sources include headers of their own folder and of those named before it. "." is the module
+# itself.
 layers() {
   local module=$1 found
   shift

@@ -31,7 +31,7 @@ struct JudgedRun {
   std::string held;  // the hold of the minimum in words, without a full stop, for joint runs with hints; else empty
   ReportCard card;
   std::vector<IterationRecord> records;  // with the judge's statistics; the first is the input
-  std::vector<double> qualities;         // of all elements by the judge, ascending
+  std::vector<double> qualities;         // qualities of all elements by the judge, ascending
   std::vector<Vec3> positions;
   [[nodiscard]] const Statistics& before() const { return records.front().statistics; }
   [[nodiscard]] bool converged_or_done(const Goal& goal) const {

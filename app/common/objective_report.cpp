@@ -44,7 +44,7 @@ void add_composite(Json& object, const Run& run) {
 void print_composite(const Run& run) {
   if (!run.size_field()) return;
   const auto [before, after] = size_course_of(run);
-  if (std::isnan(after.sizes)) return;  // the same size everywhere
+  if (std::isnan(after.sizes)) return;  // every size is the same
   print("  {:<16} {:>10} -> {}    (correlation of local edge length and target size)\n", "size", brief(before.sizes), brief(after.sizes));
   print("  {:<16} {:>10} -> {}    (the same of their logarithms)\n", "log size", brief(before.logarithms), brief(after.logarithms));
 }

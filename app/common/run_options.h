@@ -36,7 +36,7 @@ struct RunOptions {
   std::vector<std::string> fix;                                                     // for vertices_to_fix()
   std::vector<std::string> slide;                                                   // for vertices_to_slide()
   KindWords kinds;                                                                  // for kinds_of()
-  std::map<std::string, std::string, std::less<>> parameters = usual_parameters();  // of parameter_table(): name, value
+  std::map<std::string, std::string, std::less<>> parameters = usual_parameters();  // names and values of parameter_table()
 };
 
 /// Declares --backend.

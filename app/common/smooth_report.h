@@ -33,7 +33,7 @@ struct SmoothReport {
   std::uint64_t inside_alone_before = 0;    // elements that are inverted inside alone
   std::optional<LeftInverted> left{};       // in the positions that are written
   std::optional<CrossingFaces> crossing{};  // in the positions that are written
-  std::optional<ReportCard> card{};         // of the positions that are written; none with many processes
+  std::optional<ReportCard> card{};         // about the positions that are written; none with many processes
   std::optional<HeldMinimum> held{};        // at the positions that are written
   MovedFields fields{};                     // nodal fields that are written
   std::vector<std::string> warnings{};

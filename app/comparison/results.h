@@ -25,7 +25,7 @@ struct Comparison {
   Metric judge = Metric::MeanRatio;
   std::uint64_t free = 0;           // free vertices
   std::vector<JudgedRun> runs;      // in the order of the request; without qualities, which the curves replace
-  std::vector<JudgedRun> shuffled;  // the same runs in other orders; without positions
+  std::vector<JudgedRun> shuffled;  // runs in other orders; without positions
   std::vector<OrderSpread> orders;  // one per run, if orders were shuffled
   std::vector<SortedCurve> curves;  // curves of all runs
   std::vector<float> input_curve;

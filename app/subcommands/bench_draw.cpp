@@ -69,7 +69,7 @@ void print_row(const Row& row) {
 Row measure(Session& session, const BenchPlan& plan, const Acceleration& acceleration, std::uint64_t frames, Progress& progress) {
   RunParameters parameters = session.active().parameters();
   parameters.metric = plan.metrics.front();
-  parameters.interfaces = InterfaceRule::Free;  // as in all benchmarks
+  parameters.interfaces = InterfaceRule::Free;  // like all benchmarks
   session.change(std::move(parameters));
   session.show(plan.metrics.front());
   session.set_history_budget(0);

@@ -56,7 +56,7 @@ struct BenchElements {
 /// The options, parsed; no list has the same entry twice.
 struct BenchPlan {
   std::vector<std::size_t> sizes;               // numbers of vertices of the meshes to generate; empty if a file is given
-  std::vector<BenchElements> elements;          // of the meshes to generate
+  std::vector<BenchElements> elements;          // mixes of elements to generate
   std::vector<Metric> metrics;                  // left out for meshes with elements for which they are not defined
   std::optional<CompositeTerms> combination{};  // the one metric with a second aim
   bool all_metrics;                             // asked for as "all", not by their names

@@ -13,7 +13,7 @@
 namespace dmoscope::app {
 namespace {
 
-constexpr std::size_t kDotted = 3;  // of PlotSeries::dash
+constexpr std::size_t kDotted = 3;  // a value of PlotSeries::dash
 
 constexpr std::string_view kReference =
     "the plain scalar search in double on one thread, measured in turn with the others; where a mesh has more than 20000 free vertices (a "

@@ -11,7 +11,7 @@
 namespace dmoscope::app {
 
 struct DrawSubject {
-  Session& session;  // has a mesh; its active run is stepped
+  Session& session;  // must have a mesh; its active run is stepped
   Acceleration acceleration;
   std::uint64_t frames = 0;
   int width = 1280, height = 800;  // pixels

@@ -34,9 +34,9 @@ class KeyQueue {
   struct Event {
     enum class Kind { Press, Release, Text, Click };
     Kind kind = Kind::Press;
-    ui::KeyChord chord{};       // of a Press; the code of a Release
-    bool repeated = false;      // of a Press
-    char32_t character = 0;     // of a Text, or of a Press that makes one; 0: none
+    ui::KeyChord chord{};       // key and modifiers of a Press; the code of a Release
+    bool repeated = false;      // whether a Press is a repeat
+    char32_t character = 0;     // character of a Text, or of a Press that makes one; 0: none
     bool judged = false;        // whether for_commands is known
     bool for_commands = false;  // whether commands had the keyboard at the time
   };

@@ -13,7 +13,7 @@ namespace dmoscope::app {
 /// Seconds of each seek or frame.
 struct SeekFigure {
   std::vector<double> seeks;        // from the command to the view that shows it
-  std::vector<double> drawn;        // until the picture is drawn, too
+  std::vector<double> drawn;        // times until the picture is drawn, too
   std::vector<double> full_frames;  // drawing of any whole frame of the mesh
   std::string renderer;
 };

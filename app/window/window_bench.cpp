@@ -132,7 +132,7 @@ class Subject {
     app().engine().wait_idle();
     frames_until([&] { return complete() && std::isinf(app().redraw_in()); });
   }
-  /// The mouse in the middle of the mesh, after a few frames there.
+  /// Moves the mouse to the middle of the mesh, and draws a few frames there.
   void hover() {
     const ui::Rect rect = app().panes().front().rect;
     x_ = std::round(rect.x + rect.w / 2);
@@ -157,7 +157,7 @@ class Subject {
     if (state().in_space) return state().orbit;
     return state().camera;
   }
-  /// Frames until `changed`, and the one that shows it.
+  /// Draws frames until `changed`, including the one that shows it.
   template <class Changed>
   [[nodiscard]] WindowCost answer(const Changed& changed) {
     const Timer timer;
@@ -178,7 +178,7 @@ class Subject {
   double longest_ = 0.0;
 };
 
-/// The mean of some answers; `rest`: whether the full picture is there before each.
+/// Measures some answers and returns their mean; `rest`: whether the full picture is there before each.
 template <class Once>
 WindowCost mean_of(Subject& subject, bool rest, const Once& once) {
   WindowCost sum;
@@ -200,7 +200,7 @@ void measure_answers(Subject& subject, WindowFigure& figure) {
   };
   figure.zoom = mean_of(subject, true, zoom);
   figure.zoom_in_midst = mean_of(subject, false, [&](int k) {
-    // Behind the rest that follows a movement, and before the full picture.
+    // Later than the rest that follows a movement, and before the full picture.
     constexpr int kFramesOfRest = 20;
     for (int i = 0; i < kFramesOfRest && !subject.complete(); ++i) subject.frame();
     return zoom(k);
@@ -232,7 +232,7 @@ void measure_answers(Subject& subject, WindowFigure& figure) {
   figure.longest = subject.longest();
 }
 
-/// Until another metric is seen while a run goes on.
+/// Measures the time until another metric is shown while a run goes on.
 void measure_metric(Subject& subject, WindowFigure& figure) {
   subject.app().execute("run 1000000");
   const std::array metrics{Metric::MinAngle, Metric::ScaledJacobian, Metric::RadiusRatio, Metric::MeanRatio};

@@ -141,7 +141,7 @@ class PvtuFile final : public SharedMeshFile {
   /// Adds the fields of a piece. Fields that not all of a rank's pieces have are left out, as are those that not all ranks have.
   void add_fields(const Mesh& piece, const PieceIds& ids, const FieldFilter& filter, Pieces& mine) {
     const bool is_first = mine.positions.size() == piece.positions.size();
-    std::set<std::pair<std::string, Field::On>> met;  // of a name that occurs twice the first counts
+    std::set<std::pair<std::string, Field::On>> met;  // the first of two fields of one name counts
     for (const Field& field : piece.fields) {
       if (!met.emplace(field.name, field.on).second) continue;
       if (field.on == Field::On::Vertices && !holds_whole_numbers(field) &&

@@ -31,7 +31,7 @@ struct MeshBlock {
   std::vector<Vec3> positions;      // positions of this rank's vertices
   std::vector<ElementKind> kinds;   // kinds of this rank's elements
   std::vector<WholeIndex> corners;  // corners of this rank's elements, one after the other, in the program's order
-  std::vector<BlockField> fields;   // those that FieldFilter selects
+  std::vector<BlockField> fields;   // fields that FieldFilter selects
   std::vector<VertexString> strings;
   bool single_precision = false;  // see Mesh
 };

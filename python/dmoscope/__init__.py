@@ -406,7 +406,7 @@ def metrics() -> Dict[str, Metric]:
 class Smoothed:
     """What smooth() gives back."""
 
-    mesh: Any  # of the class of the mesh that was given
+    mesh: Any  # mesh of the class that was given
     history: Dict[str, np.ndarray] = field(repr=False)  # by iteration, 0 the input: iteration, minimum, mean, movable_minimum, inverted, moved, seconds
     iteration: int  # number of the iteration whose end is `mesh`
     converged: bool

@@ -41,7 +41,7 @@ TEST(InterfacesOnTheCommandLine, StayUnlessFreeAndAreSaid) {
   EXPECT_EQ(run({"smooth", in, "-o", folder / "d.msh", "--interfaces", "up"}).code, 2);
 }
 
-/// 4 x 4 squares, the middle vertex of the left ones off its place; the two halves have different numbers.
+/// 4 x 4 squares, the middle vertex of the left ones misplaced; the two halves have different numbers.
 std::string two_materials(const Folder& folder, const std::string& field) {
   std::string text = "# vtk DataFile Version 3.0\ntwo\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 25 double\n";
   for (int v = 0; v < 25; ++v) text += fmt::format("{} {} 0\n", v % 5 + (v == 12 ? 0.3 : 0.0), v / 5);
@@ -120,7 +120,7 @@ TEST(GroupLists, InfoAndQualityTellKindDimensionNumberNameAndCounts) {
                               HasSubstr("20 vertices on the interface between groups stay")));
   for (const auto& listed : {json_of(run({"info", in, "--json"})), json_of(run({"quality", in, "--json"}))}) {
     ASSERT_EQ(listed["groups"].size(), 2U);
-    const auto& inner = listed["groups"][1];  // whose elements come after the outer ones
+    const auto& inner = listed["groups"][1];  // its elements come after the outer ones
     EXPECT_EQ(inner["kind"], "physical group");
     EXPECT_EQ(inner["dimension"], 2);
     EXPECT_EQ(inner["id"], 1);

@@ -13,7 +13,7 @@ using ::testing::HasSubstr;
 
 class KindsOnTheCommandLine : public ::testing::Test {
  protected:
-  /// Of 64 hexahedra or so; the number of a vertex counts x first.
+  /// Makes a mesh of about 64 hexahedra; the number of a vertex counts x first.
   KindsOnTheCommandLine() { EXPECT_EQ(run({"generate", "hexahedra", "--size", "125", "-o", in_}).code, 0); }
   [[nodiscard]] Output smoothed(std::vector<std::string> more) const {
     std::vector<std::string> words{"smooth", in_, "-o", folder_ / "b.vtk", "--iterations", "3", "--boundary", "slide"};

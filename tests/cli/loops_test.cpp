@@ -18,7 +18,7 @@ using ::testing::Not;
 
 constexpr int kRound = 48;
 
-/// Rings of triangles between circles about (x, 0), whose inner corners stand askew, as an OFF file, which names nothing.
+/// Writes rings of triangles between circles about (x, 0), with misplaced inner corners, as an OFF file, which has no names.
 void write_annuli(const std::string& path, const std::vector<double>& middles, double inner, double outer, int layers) {
   std::ofstream file(path);
   file.precision(17);

@@ -7,7 +7,7 @@
 
 namespace dmoscope::test {
 
-/// What is wrong with the page as XML; empty when nothing is.
+/// Describes what is wrong with the page as XML; empty if nothing is.
 inline std::string markup_fault(const std::string& text) {
   std::vector<std::string> open;
   for (std::size_t at = 0; at < text.size(); ++at) {

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# nothing_lost.sh PROGRAM: windows of a person on a virtual display that end as nobody wished. One is killed (SIGKILL) in a long run, and the
-# next start recovers it; one gets SIGTERM; one is to be closed in the midst of a run, and asks. What was recovered must have the very
-# bits of the same visits done elsewhere. Exits 77 (skipped) where there is no Xvfb or no xdotool.
+# nothing_lost.sh PROGRAM: tests that windows on a virtual display lose no work when they end unexpectedly. One is killed (SIGKILL) in a
+# long run, and the next start recovers it; one gets SIGTERM; one is to be closed during a run, and asks. Recovered positions must have the
+# bits of the same visits done elsewhere. Exits 77 (skipped) without Xvfb or xdotool.
 set -euo pipefail
 program=$1
 for tool in xvfb-run Xvfb xauth xdotool; do
@@ -19,10 +19,10 @@ kept=$XDG_STATE_HOME/dmoscope/autosave
 fail() { echo "$*"; [[ -z ${id:-} ]] || kill -9 "$id" 2>/dev/null || true; exit 1; }
 until_true() { for _ in $(seq 600); do eval "$1" && return 0; sleep 0.1; done; fail "not within a minute: $1"; }
 saved() { compgen -G "$kept/window-*.json" >/dev/null; }
-# Of the session itself: what is told of it is written after it, and the kill may come between.
+# Reads the moment from the session itself: the note about it is written after it, and the kill may come between.
 moment() { tr -d '\n ' <"$1" | grep -o '"moment":\[[0-9,]*' | head -n 1 | sed 's/.*\[//; s/,/ /g'; }
 title() { xdotool getwindowname "$window" 2>/dev/null || true; }
-# A dialog that a slow machine has not drawn yet hears no key.
+# Presses Return again, for a dialog that a slow machine has not drawn yet receives no key.
 enter_until() { for _ in $(seq 60); do eval "$1" && return 0; sleep 1; eval "$1" && return 0; press Return; done; fail "not within minutes: $1"; }
 press() { xdotool key --window 0 "$@"; sleep 0.4; }
 start() {  # opens a window; its process is $id, its window $window
@@ -31,10 +31,10 @@ start() {  # opens a window; its process is $id, its window $window
   xdotool windowfocus "$window"
   sleep 1
 }
-# The same visits done elsewhere, without a window.
+# Does the same visits elsewhere, without a window.
 elsewhere() { printf 'open "%s"\nseek %s\nexport "%s"\n' "$folder/mesh.off" "$1" "$2" | "$program" script - >/dev/null; }
 
-# Killed in a long run.
+# A window that is killed in a long run.
 start "$folder/mesh.off"
 until_true '[[ $(title) == "mesh"*" – dmoscope" ]]'
 press u
@@ -46,7 +46,7 @@ kill -9 "$id"; wait "$id" 2>/dev/null || true
 n=$(moment "$kept"/window-*.dmoscope)
 [[ $n != "0 0 0" ]] || fail "nothing was saved on the way"
 
-# The next start offers it; Enter takes it, and it is exported.
+# The next start offers recovery; Enter accepts it, and the result is exported.
 start
 enter_until '[[ $(title) == "• mesh"* ]]'
 press ctrl+s
@@ -55,11 +55,11 @@ until_true '[[ $(title) == "mesh"* ]]'
 elsewhere "$n" "$folder/elsewhere.off"
 cmp "$folder/mesh-smoothed.off" "$folder/elsewhere.off" || fail "moment $n is another one"
 echo "killed at moment $n or later: recovered bit for bit"
-until_true '! kill -0 "$id" 2>/dev/null || { sleep 1; press ctrl+q || true; false; }'  # without a window manager one may be lost
+until_true '! kill -0 "$id" 2>/dev/null || { sleep 1; press ctrl+q || true; false; }'  # without a window manager a key may be lost
 wait "$id" || fail "the window ended with $?"
 [[ -z $(ls "$kept") ]] || fail "a good end left $(ls "$kept")"
 
-# SIGTERM.
+# A window that gets SIGTERM.
 rm -f "$XDG_CONFIG_HOME/dmoscope/settings.json"
 start "$folder/mesh.off"
 until_true '[[ $(title) == "mesh"* ]]'
@@ -78,7 +78,7 @@ grep -q "\"$folder/mesh.off\"" "$XDG_STATE_HOME/dmoscope/recent.json" || fail "t
 echo "SIGTERM: moment $n is there bit for bit, settings are written"
 rm -f "$kept"/*
 
-# To be closed in the midst of a run.
+# A window that is to be closed during a run.
 start "$folder/mesh.off"
 until_true '[[ $(title) == "mesh"* ]]'
 press u

@@ -355,7 +355,7 @@ TEST(Script, RunsSessionCommandsAndStopsAtTheFirstError) {
   EXPECT_EQ(output.code, 0) << output.err;
   EXPECT_THAT(output.out, HasSubstr("done"));
   EXPECT_TRUE(exists(folder / "a.14"));
-  // The same mesh as the smooth verb writes.
+  // Writes the mesh that the smooth verb writes.
   ASSERT_EQ(run({"smooth", sample("coast.14"), "-o", folder / "b.14", "--iterations", "2"}).code, 0);
   EXPECT_TRUE(read_file(folder / "a.14") == read_file(folder / "b.14"));
 

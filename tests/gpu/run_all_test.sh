@@ -200,7 +200,7 @@ run -- --limit 6
 check "a limit: the sanitizers keep to it" test "$SECONDS" -lt 20
 check "a limit: and are told" says '| compute-sanitizer memcheck |'
 
-# What was built elsewhere: nothing is built.
+# A bundle that was built elsewhere: nothing is built.
 bundle() {
   machine
   stand_in cmake <<<'#!/bin/sh
@@ -218,7 +218,7 @@ check "a bundle: is tested" says '| tests that need a GPU | 2 passed'
 run -- --bundle "$folder/none"
 check "a bundle that is not there" ended 2
 
-# The same, packed.
+# A bundle that is packed.
 bundle
 mkdir "$folder/tree/.prebuilt" "$folder/bundle/authors"
 cp "$folder/program" "$folder/bundle/authors/driver"

@@ -30,7 +30,7 @@ TEST(Conversion, EverySampleToEveryFormat) {
   for (const Sample& sample : samples()) {
     const Mesh mesh = read_bytes(sample.format, sample.bytes);
     for (const FormatInfo& format : format_table()) {
-      if (format.name == "pvtu") continue;  // of several files, see pvtu_test.cpp
+      if (format.name == "pvtu") continue;  // several files, see pvtu_test.cpp
       SCOPED_TRACE(sample.format + " " + sample.name + " to " + std::string(format.name));
       Written written;
       try {
@@ -87,7 +87,7 @@ TEST(Conversion, WhatOnlyTheFileHeldIsNamedAndARefusalLeavesTheOldFile) {
   EXPECT_THAT(notes, ::testing::Contains(::testing::HasSubstr("\"line cells\"")));
   EXPECT_THAT(notes, ::testing::Contains(::testing::HasSubstr("data of cells that are no elements of in.vtk")));
   EXPECT_THAT(notes, ::testing::Contains(::testing::HasSubstr("\"flow\"")));
-  // The same format keeps all content, without a note.
+  // A file of the same format keeps all content, without a note.
   EXPECT_TRUE(write_mesh(folder / "out.vtk", mesh, mesh.positions, progress).empty());
   EXPECT_EQ(read_whole_file(folder / "out.vtk", progress).view(), vtk_ascii());
   EXPECT_THROW(write_mesh(folder / "out.stl", mesh, mesh.positions, progress), OutputError);

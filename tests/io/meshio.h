@@ -14,7 +14,7 @@ namespace dmoscope::test {
 struct MeshioFile {
   std::size_t points = 0;
   std::map<std::string, double> sizes;         // by meshio's name for the kind
-  std::map<std::string, std::size_t> numbers;  // of cells, by kind
+  std::map<std::string, std::size_t> numbers;  // number of cells, by kind
 };
 
 /// Runs Python once for all files; none if there is no meshio. A file that meshio refuses has no points.

@@ -16,7 +16,7 @@
 namespace dmoscope::testing {
 namespace {
 
-constexpr int kMutantsPerFormat = 1000;  // and for each of its samples:
+constexpr int kMutantsPerFormat = 1000;  // besides those of each sample:
 constexpr int kMutantsPerSample = 200;
 constexpr std::size_t kMostCuts = kSanitized ? 1000 : 5000;  // cuts per sample
 

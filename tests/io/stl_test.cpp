@@ -78,7 +78,7 @@ TEST(Stl, FacetsThatDidNotMoveKeepTheirBytes) {
 TEST(Stl, VerticesThatFallTogetherAreNamed) {
   const Mesh mesh = read_bytes("stl", stl_binary());
   std::vector<Vec3> positions = mesh.positions;
-  positions[3] = {1.0 + 1e-12, 1, 0.5};  // as a float the same as vertex 2
+  positions[3] = {1.0 + 1e-12, 1, 0.5};  // equal to vertex 2 in floats
   EXPECT_THAT(write_again(mesh, positions).notes, Contains(HasSubstr("1 vertices lie exactly where another one does")));
 }
 

@@ -36,7 +36,7 @@ TEST(Xdmf, MixedWithAttributesAndSets) {
   EXPECT_EQ(mesh.fields[0].name, "depth");
   EXPECT_TRUE(std::isnan(mesh.fields[0].values[7]));
   EXPECT_EQ(mesh.fields[1].components, 2);
-  EXPECT_THAT(mesh.fields[1].values, ElementsAre(1, 2, 7, 8));  // those of the two volume elements among four cells
+  EXPECT_THAT(mesh.fields[1].values, ElementsAre(1, 2, 7, 8));  // values of the two volume elements among four cells
   ASSERT_EQ(mesh.groups.size(), 2U);
   EXPECT_EQ(mesh.groups[0].name, "top");
   EXPECT_THAT(mesh.groups[0].members, ElementsAre(8, 7));

@@ -61,7 +61,7 @@ TEST(Library, NewPlacesAreWrittenInTheFilesOwnFormat) {
     const std::size_t bytes = 3 * read.vertex_count() * sizeof(double);
     std::vector<double> places(read.positions(), read.positions() + 3 * read.vertex_count());
     for (std::size_t i = 0; i < places.size(); ++i) places[i] = i % 3 == 2 ? 0.0 : 2.0 * places[i] + 0.5;
-    places[3 * 30] = read.positions()[3 * 30];  // does not move
+    places[3 * 30] = read.positions()[3 * 30];  // one vertex that stays
     const dmo::Mesh moved = read.with_positions(places.data());
     const dmo::Smoothed smoothed = dmo::smooth(moved);
     EXPECT_NE(std::memcmp(smoothed.mesh.positions(), places.data(), bytes), 0);

@@ -215,10 +215,10 @@ TEST(OrbitCamera, TurningFollowsTheMouseAndStaysUpright) {
   OrbitCamera camera;
   camera.look_from(ViewPreset::MinusY);
   camera.turn({10, 0}, kSize);
-  EXPECT_LT(camera.back().x, 0.0);  // the eye went left, so the mesh turned right
+  EXPECT_LT(camera.back().x, 0.0);  // the eye went left, so that the mesh turned right
   EXPECT_NEAR(camera.back().z, 0.0, 1e-12);
   camera.turn({0, 20}, kSize);
-  EXPECT_GT(camera.back().z, 0.0);  // and up
+  EXPECT_GT(camera.back().z, 0.0);  // the eye went up
   EXPECT_NEAR(camera.right.z, 0.0, 1e-12);
   camera.turn({0, 1e5}, kSize);
   EXPECT_NEAR(camera.back().z, 1.0, 1e-12);  // no farther than straight above

@@ -45,7 +45,7 @@ TEST_F(WithContext, FramesAtTheSamePlaceChangeTheirColoursAndOthersTheirPlace) {
   second->serial += 100;
   second->quality = {0.9F, -0.5F};
   second->inverted = {0, 1};
-  auto third = std::make_shared<Frame>(*second);  // and moved
+  auto third = std::make_shared<Frame>(*second);  // the mesh moved
   third->serial += 100;
   for (Vec3& position : third->positions) position.x += 40.0;
   EXPECT_TRUE(scene->show(first));

@@ -113,7 +113,7 @@ TEST_F(VolumePicture, NothingHidesTheVerticesOfTheSidesThatAreSeen) {
   space->set_view(view);
   expect_unhidden("cut", 0, false);
   EXPECT_TRUE(space->sees_vertex(0));
-  EXPECT_FALSE(space->sees_vertex(1));  // of a cell that is cut through, but beyond the plane
+  EXPECT_FALSE(space->sees_vertex(1));  // a vertex of a cell that is cut through, but beyond the plane
 }
 
 TEST_F(VolumePicture, LabelsStandWhereThereIsRoomAndNothingHidesWhatTheyName) {

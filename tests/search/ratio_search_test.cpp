@@ -272,7 +272,7 @@ TEST(RatioSearch, BoxesWithoutWidthOrHeight) {
   }
 }
 
-/// Of two candidates that mirror each other the one with the lower index wins.
+/// The lower index wins between two candidates that mirror each other.
 TEST(RatioSearch, TiesGoToTheLowestIndex) {
   Random random(76);
   for (int trial = 0; trial < 100; ++trial) {

@@ -245,7 +245,7 @@ TEST_F(AutosaveTest, AFolderThatIsGoneIsSaidOnceAndStopsNothing) {
   EXPECT_EQ(said, 1U);
   EXPECT_EQ(engine_->view()->runs[0].moment.iteration, 5U);
   std::filesystem::create_directories(folder_.path());
-  EXPECT_TRUE(saved());  // and a replacement is computed
+  EXPECT_TRUE(saved());  // a replacement is computed
 }
 
 TEST_F(AutosaveTest, AFileOfAPersonIsRecoveredAndStays) {

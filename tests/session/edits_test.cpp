@@ -57,7 +57,7 @@ Positions smoothed(Positions positions, const dmoscope::Run& run, const std::vec
 std::vector<Index> some_vertices(const dmoscope::Run& run, std::size_t count, std::uint64_t seed) {
   const auto shuffled_order = shuffled(run.colouring().order, seed);
   std::vector<Index> chosen(shuffled_order.begin(), shuffled_order.begin() + static_cast<std::ptrdiff_t>(count / 2));
-  for (Index v = 0; chosen.size() < count; ++v)  // and a row of the lattice
+  for (Index v = 0; chosen.size() < count; ++v)  // adds a row of the lattice
     if (run.fixed()[v] == 0 && std::ranges::find(chosen, v) == chosen.end()) chosen.push_back(v);
   return chosen;
 }

@@ -95,7 +95,7 @@ TEST(PhaseSwitchDetector, FollowsAnotherPath) {
 TEST(PhaseSwitchDetector, DoesNotComeWhileElementsAreInverted) {
   auto tangled = records({-0.3, -0.3, -0.3, -0.3, 0.1, 0.1, 0.1});
   for (std::size_t i = 0; i < 4; ++i) tangled[i].statistics.inverted = 2;
-  tangled[2].moved = 0;  // nor if nothing moves
+  tangled[2].moved = 0;  // nothing moves in this one
   EXPECT_EQ(PhaseSwitchDetector().find({.patience = 2}, tangled), 6U);
 }
 
@@ -373,7 +373,7 @@ TEST(MeanPhase, IsUndoneAndSaved) {
     for (Told* one : {&told, &other}) one->say(fmt::format("seek {}", iteration));
     EXPECT_TRUE(same_bits(told.session.active().positions(), other.session.active().positions())) << iteration;
   }
-  for (Told* one : {&told, &other}) one->say("undo");  // of all three: consecutive seeks are one
+  for (Told* one : {&told, &other}) one->say("undo");  // undoes all three seeks, which count as one
   EXPECT_TRUE(same_bits(told.session.active().positions(), end));
   for (Told* one : {&told, &other}) one->say(fmt::format("seek {}", since - 1));
   for (Told* one : {&told, &other}) one->say("run 2");

@@ -55,7 +55,7 @@ TEST_F(SavedMarksTest, AnExportKeepsThisMomentOfThisRun) {
   say("export " + file("b.off"));
   EXPECT_FALSE(lost(0));
   EXPECT_FALSE(lost(1));
-  say("export " + file("a.off"));  // which contained the other one
+  say("export " + file("a.off"));  // the file contained the other one
   EXPECT_FALSE(lost(0));
   EXPECT_TRUE(lost(1));
 }

@@ -413,7 +413,7 @@ TEST_F(StateFile, ARunThatCannotBeComputedAgainIsNotSavedAsIfItCould) {
   say("step vertex 3");
   say("save-state " + file_.string());
   Json json = unsealed(Json::parse(text()));
-  json["runs"][0]["parameters"]["grid"] = 5;  // as if another version had searched otherwise
+  json["runs"][0]["parameters"]["grid"] = 5;  // simulates another version whose search differs
   write(json.dump());
   Session other(1);
   other.set_history_budget(0);

@@ -1,4 +1,4 @@
-// The same sentence answers every word that may be wrong.
+// Words that may be wrong are all answered by one sentence.
 
 #include "core/base/unknown_value.h"
 

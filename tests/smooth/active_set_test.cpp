@@ -1,4 +1,5 @@
-// Who is asleep would have stayed: smoothing that visits only the vertices whose stars changed gives the bits of smoothing that visits all.
+// Sleeping vertices would have stayed: smoothing that visits only the vertices whose stars changed gives the bits of smoothing that visits
+// all.
 
 #include <algorithm>
 #include <cstring>
@@ -25,7 +26,7 @@ dmoscope::Run active_set_run(const testing::Specimen& specimen, const std::share
   return {mesh, std::move(parameters), std::make_shared<ThreadPool>(1), std::size_t{1} << 28U};
 }
 
-/// Everybody is woken before every visit. Positions after each iteration.
+/// Positions after each iteration of a run that wakes all vertices before every visit.
 std::vector<std::vector<Vec3>> always_awake(const dmoscope::Run& run) {
   const auto mesh = std::shared_ptr<const InputMesh>(std::shared_ptr<void>(), &run.input());
   const auto colouring = std::make_shared<const Colouring>(run.colouring());
@@ -79,7 +80,7 @@ TEST_P(ActiveSet, IsExactAfterStepsBackAndForth) {
         run.back(unit, progress);
         run.step(StepUnit::Vertex, progress);
       }
-      run.step(StepUnit::Iteration, progress);  // to the end of this one
+      run.step(StepUnit::Iteration, progress);  // to the end of this iteration
       EXPECT_TRUE(same_bits(run.positions(), expected[run.moment().iteration])) << specimen.name << ", " << run.moment().iteration;
     }
     run.seek({kMostIterations, 0}, progress);

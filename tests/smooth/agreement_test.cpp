@@ -41,9 +41,9 @@ double star_size(const InputMesh& input, std::span<const Vec3> positions, Index 
   return size;
 }
 
-/// Both searches visit every class from the same positions; the plain one's result is where both go on. Two choices agree when they are
-/// the same candidate (closer together than a hundredth of the finest grid's spacing) or when their qualities differ by less
-/// than 1e-9, sixty times less than a float resolves (meshes that were made regular, from ten digits).
+/// Both searches visit every class from the same positions, and both go on with the plain one's result. Two choices agree if they are the
+/// same candidate (closer together than a hundredth of the finest grid's spacing) or if their qualities differ by less than 1e-9, sixty
+/// times less than a float resolves (meshes that were made regular, from ten digits).
 Tally compare(const std::shared_ptr<const InputMesh>& input, Metric metric, int iterations) {
   Tally tally;
   const auto colouring = colouring_of(*input);
@@ -88,9 +88,9 @@ std::shared_ptr<const InputMesh> planar_mesh(const std::filesystem::path& file) 
   Progress progress;
   try {
     const auto input = load_input(file, Need::Smoothing, progress);
-    return input->is_volume() ? nullptr : input;  // of volumes: see volume_test.cpp
+    return input->is_volume() ? nullptr : input;  // volumes: see volume_test.cpp
   } catch (const Error&) {
-    return nullptr;  // a surface, a text
+    return nullptr;  // a surface, or not a mesh
   }
 }
 
@@ -110,8 +110,8 @@ void expect_agreement(const std::vector<std::filesystem::path>& files) {
       all.worst_loss = std::max(all.worst_loss, one.worst_loss);
     }
     EXPECT_LE(static_cast<double>(all.different), 1e-3 * static_cast<double>(all.visits)) << entry.name;
-    // Two candidates of the first grid that are equal to seven digits lead to different finer grids. Where the metric is quasiconcave these
-    // meet again; rectangularity is not, and mean-ratio-area ends where a corner would turn over.
+    // Two candidates of the first grid that are equal to seven digits lead to different finer grids. With a quasiconcave metric these meet
+    // again; rectangularity is not quasiconcave, and mean-ratio-area ends where a corner would turn over.
     const bool meets_again = entry.metric != Metric::Rectangularity && entry.metric != Metric::MeanRatioArea;
     EXPECT_LE(all.worst_loss, meets_again ? 1e-4 : 3e-3) << entry.name;
   }

@@ -1,5 +1,5 @@
-// The search for two aims by packs of candidates finds what the plain one finds, to the bit, by any instructions; and speaks for every star
-// that it is meant for.
+// The search for two aims by packs of candidates finds the bits of the plain one, by any instructions; and handles every star that it is
+// meant for.
 
 #include <cmath>
 #include <cstring>
@@ -22,7 +22,7 @@ namespace {
 using testing::kSanitized;
 using testing::Specimen;
 
-/// Some of everything: each metric of the mesh as the first aim, and as the second one the mean, the next metric, and density.
+/// Samples of all kinds of aims: each metric of the mesh as the first aim, and as the second one the mean, the next metric, and density.
 std::vector<CompositeObjective> kinds_of_aims(const std::shared_ptr<const InputMesh>& mesh) {
   std::vector<Metric> metrics;
   for (const MetricInfo& entry : metric_table()) {
@@ -69,7 +69,7 @@ SmoothingTask task_of(const std::shared_ptr<const InputMesh>& mesh, const Search
   return task;
 }
 
-/// The way to the winner of the plain search, one candidate after the other.
+/// The winners of the plain search, one candidate after the other, level by level.
 template <class Frame>
 OffsetIn<Frame, double> plain_way(const StarJudge<Frame>& judge, const StarIn<Frame, double>& star, Index v, const SmoothingTask& task) {
   const std::vector<Vec3>& positions = task.input->mesh.positions;
@@ -174,7 +174,7 @@ TEST(CompositeKernel, CutsLeaveWhatThePlainSearchFinds) {
   EXPECT_GT(count.moved, count.vertices / 2);
 }
 
-/// Of candidates anywhere the first of the best, whatever the instructions: what a plain loop finds.
+/// The first of the best among candidates anywhere is chosen, with any instructions, as by a plain loop.
 template <class Frame>
 void compare_lists(const std::shared_ptr<const InputMesh>& mesh, const CompositeObjective& composite, testing::Random& random,
                    Count& count) {

@@ -26,12 +26,12 @@ void* allocate(std::size_t size, std::size_t alignment) {
   if (block == nullptr) throw std::bad_alloc();
   return block;
 }
-/// Not inlined: g++ 12 would take free() for a mistake where it sees operator new.
+/// Not inlined: g++ 12 would report free() as a mismatch if it saw operator new.
 [[gnu::noinline]] void release(void* block) noexcept { std::free(block); }
 }  // namespace
 
 void* operator new(std::size_t size) { return allocate(size, __STDCPP_DEFAULT_NEW_ALIGNMENT__); }
-// std::stable_sort's buffer: AddressSanitizer's own would not be this file's to release.
+// For std::stable_sort's buffer: this file could not free one of AddressSanitizer's.
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
   return allocate_if_possible(size, __STDCPP_DEFAULT_NEW_ALIGNMENT__);
 }

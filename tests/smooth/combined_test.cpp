@@ -1,4 +1,4 @@
-// Two aims at once: the search against one written apart, what its optimum is, and what it promises.
+// Two aims at once: the search against one written apart, its optimum, and its promises.
 
 #include <cmath>
 #include <cstring>
@@ -35,12 +35,12 @@ RunParameters combined(double threshold, std::variant<Metric, SizeFunction> seco
   return parameters;
 }
 
-/// A mesh of triangles in the plane z = 0, judged by formulas of its own.
+/// A mesh of triangles in the plane z = 0, judged by separate formulas.
 struct Plain {
   const InputMesh& input;
   std::span<const Vec3> positions;
 
-  using Corners = std::vector<Point>;  // of each triangle of a star, the vertex first
+  using Corners = std::vector<Point>;  // corners of each triangle of a star, the vertex first
   [[nodiscard]] std::vector<Corners> star(Index vertex, Point at) const {
     std::vector<Corners> triangles;
     for (Index e = 0; e < input.mesh.elements.size(); ++e) {
@@ -69,7 +69,7 @@ struct Plain {
   }
 };
 
-/// Where a place stands in the order: of the first numbers the greater is the better, among equals the second.
+/// Rank of a place: by the first number, and among equals by the second; greater is better.
 using Worth = std::pair<int, double>;
 
 using SecondAim = std::function<double(const std::vector<Plain::Corners>&, Point)>;
@@ -82,7 +82,7 @@ Worth worth(const Plain& mesh, Index vertex, Point at, double threshold, bool in
   return {0, least};
 }
 
-/// The paper's Algorithm 2 over that order; the best place and whether it is another one.
+/// The paper's Algorithm 2 over that order; returns the best place, and whether it is another one.
 Point best_place(const Plain& mesh, Index vertex, const std::function<Worth(Point)>& worth_at) {
   const Point here{mesh.positions[vertex].x, mesh.positions[vertex].y};
   Point low{INFINITY, INFINITY}, high{-INFINITY, -INFINITY};
@@ -147,8 +147,7 @@ TEST(VisitByTwoAims, FindsTheBestInTheOrderOfTheTwoAims) {
   EXPECT_GT(below, 5);
 }
 
-/// The power mean of a star's mean ratios, by the kind's exponent; of the harmonic one, before all else how few are below .1, then .2, .3
-/// and .4.
+/// The power mean of a star's mean ratios, by the kind's exponent; the harmonic one counts first how few are below .1, then .2, .3 and .4.
 SecondAim power_mean(MeanKind kind) {
   const double exponent = kind == MeanKind::Arithmetic      ? 1.0
                           : kind == MeanKind::Harmonic      ? -1.0
@@ -171,7 +170,7 @@ TEST(VisitByTwoAims, RaisesTheMeanAboveTheFloor) {
   const auto mesh = input(lattice(12, 0.35, 6));
   for (const MeanKind kind : kMeanKinds) {
     SCOPED_TRACE(name(kind));
-    // By the built-in metric, and by a formula that says the same.
+    // The built-in metric, and a formula with the same values.
     for (const Metric metric : {Metric::MeanRatio, parse_metric("formula:2*det/norm^2")}) {
       const auto [beyond, below] = compare(*mesh, raise_mean_above(metric, 0.55, kind), power_mean(kind));
       EXPECT_GT(beyond, 20);
@@ -186,7 +185,7 @@ TEST(VisitByTwoAims, GoesForTheWeightedMeanOfTheNeighbours) {
   const auto size = std::make_shared<const SizeField>(mesh, SizeFunction{SizeFunction::Kind::Distance, point, {}});
   const auto density = [&](const std::vector<Plain::Corners>& star, Point at) {
     double x = 0.0, y = 0.0, weights = 0.0;
-    for (const auto& triangle : star) {  // of each neighbour once: the corner after the vertex
+    for (const auto& triangle : star) {  // each neighbour once: the corner after the vertex
       const double weight = 1.0 / std::hypot(triangle[1].x - point.x, triangle[1].y - point.y);
       x += weight * triangle[1].x;
       y += weight * triangle[1].y;
@@ -199,7 +198,7 @@ TEST(VisitByTwoAims, GoesForTheWeightedMeanOfTheNeighbours) {
   EXPECT_GT(below, 5);
 }
 
-/// Whether a vertex may go, by the words of promise 1, for places near and far, inside of its ring and outside.
+/// Expects moves to be allowed by the words of promise 1, for places near and far, inside the ring and outside.
 void expect_gains_as_promised(const CompositeObjective& composite, const SecondAim& second) {
   Random random(17);
   int allowed = 0, refused_below = 0, refused_tangled = 0;
@@ -210,7 +209,7 @@ void expect_gains_as_promised(const CompositeObjective& composite, const SecondA
     for (int k = 0; k < 6; ++k) mesh.positions.push_back(Vec3{std::cos(k * M_PI / 3), std::sin(k * M_PI / 3), 0.0} + place(0.2));
     for (Index k = 0; k < 6; ++k) testing::add(mesh, {0, k + 1, (k + 1) % 6 + 1});
     const auto wheel = input(mesh);
-    if (wheel->report.flipped_elements > 0) continue;  // so tangled that it was taken for the other way round
+    if (wheel->report.flipped_elements > 0) continue;  // so tangled that it was turned over
     const Vec3 here = mesh.positions[0], there = trial % 2 == 0 ? place(1.2) : here + place(0.3);
     const Plain plain{*wheel, wheel->mesh.positions};
     struct At {
@@ -232,7 +231,7 @@ void expect_gains_as_promised(const CompositeObjective& composite, const SecondA
       return found;
     };
     const At before = look(here), after = look(there);
-    // Of flatter elements the harmonic mean counts the inverse, whatever else becomes bad.
+    // The harmonic mean counts the inverse of flatter elements, whatever else becomes bad.
     if (std::min(before.flattest, after.flattest) < 2e-3) continue;
     const auto beyond = [&](double q) { return composite.raise_mean() ? q > 0.0 && q >= composite.threshold : q > composite.threshold; };
     const bool rises = after.second > before.second;
@@ -247,7 +246,7 @@ void expect_gains_as_promised(const CompositeObjective& composite, const SecondA
     refused_tangled += !gains && before.jacobian <= 0.0 && after.jacobian > before.jacobian ? 1 : 0;
   }
   EXPECT_GT(allowed, 200);
-  // Means that a bad element weighs down hardly rise where one falls below the floor.
+  // Means that a bad element lowers much hardly rise if an element falls below the floor.
   const auto* mean = std::get_if<MeanOfStar>(&composite.second);
   EXPECT_GT(refused_below, mean == nullptr || mean->kind == MeanKind::Arithmetic ? 2 : 0);
   EXPECT_TRUE(!composite.raise_mean() || refused_tangled > 20);
@@ -274,7 +273,7 @@ TEST(CompositeObjective, TheThresholdItselfIsNotBeyondButTheFloorIs) {
 }
 
 TEST(Density, IsOneAtTheWeightedMeanAndAHalfAMeanEdgeAway) {
-  Mesh mesh;  // a rhombus, its hub anywhere
+  Mesh mesh;  // a rhombus with its hub anywhere
   mesh.positions = {{0.1, 0.2, 0}, {2, 0, 0}, {0, 1, 0}, {-2, 0, 0}, {0, -1, 0}};
   for (Index i = 1; i <= 4; ++i) testing::add(mesh, {0, i, i % 4 + 1});
   const auto rhombus = input(mesh);
@@ -356,7 +355,7 @@ TEST(Combined, BelowItsThresholdItIsThePlainSearch) {
   for (Mesh& mesh : meshes) {
     const auto prepared = input(std::move(mesh));
     auto plain = make_run(prepared, {.search = {.precision = Precision::Double}});
-    auto both = make_run(prepared, combined(0.9999, Metric::ScaledJacobian));  // which nothing reaches
+    auto both = make_run(prepared, combined(0.9999, Metric::ScaledJacobian));  // never reached
     Progress progress;
     for (int i = 0; i < 3; ++i) {
       plain.step(StepUnit::Iteration, progress);
@@ -439,7 +438,7 @@ TEST(Combined, RefusesWhatCannotBe) {
   refused(triangles, combined(0.0, Metric::MinAngle));
   refused(triangles, combined(1.0, Metric::MinAngle));
   refused(quadrilaterals, combined(0.7, Metric::MinAngle));
-  refused(triangles, combined(0.7, Metric::MeanRatio));  // with itself
+  refused(triangles, combined(0.7, Metric::MeanRatio));  // combined with itself
   refused(triangles, combined(0.7, SizeFunction{SizeFunction::Kind::Distance, {NAN, 0, 0}, {}}));
   RunParameters both = combined(0.7, SizeFunction{});
   both.then_mean.emplace();

@@ -1,4 +1,4 @@
-// Faces of surfaces that cross each other: counted as every pair by itself would be, and told of where sliding makes more of them.
+// Crossing faces of surfaces: their count against all pairs, and warnings if sliding makes more of them.
 
 #include "core/run/crossing_faces.h"
 
@@ -17,7 +17,7 @@ namespace crossing_faces {
 using namespace testing;
 using ::testing::HasSubstr;
 
-/// Does the segment meet the triangle? By its parameters there (Moeller and Trumbore).
+/// Whether the segment meets the triangle, by its parameters there (Moeller and Trumbore).
 bool meets(Vec3 p, Vec3 q, Vec3 a, Vec3 b, Vec3 c) {
   const Vec3 way = q - p, ab = b - a, ac = c - a, normal = cross(ab, ac);
   const double along = -dot(normal, way);
@@ -37,7 +37,7 @@ std::vector<std::array<Vec3, 3>> halves(const ElementTable& faces, std::span<con
   return {{p(0), p(1), p(3)}, {p(1), p(2), p(3)}};
 }
 
-/// Every pair by itself.
+/// Counts by testing every pair.
 std::uint64_t by_brute_force(const ElementTable& faces, std::span<const Vec3> at) {
   std::uint64_t count = 0;
   for (Index f = 0; f < faces.size(); ++f)

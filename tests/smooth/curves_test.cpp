@@ -1,4 +1,4 @@
-// Who slides along which curve of the boundary, and where places on it are: against shapes whose answers are known.
+// Curves of the boundary that vertices slide along, and places on them: against shapes with known answers.
 
 #include <cmath>
 #include <set>
@@ -67,7 +67,7 @@ TEST(Curves, CornersAreWhereTheBoundaryTurnsByMore) {
   EXPECT_EQ(sliding(*input(lattice(3, 0.0, 1)), 91.0).size(), 12U) << "a square without corners";
 }
 
-/// A closed curve without a corner has no ends: its places go on around.
+/// A closed curve without a corner has no ends: its places go round.
 TEST(Curves, AClosedCurveGoesAround) {
   constexpr Index kSides = 40;
   const auto mesh = input(polygon(kSides));
@@ -171,7 +171,7 @@ TEST(Curves, WhatTheFileNamesStays) {
   EXPECT_THAT(held(mesh, InterfaceRule::Free), IsEmpty());
 }
 
-/// Between materials a curve goes from one end or corner of the interface to the next, off the boundary.
+/// Curves between materials go from one end or corner of the interface to the next, off the boundary.
 TEST(Curves, OfInterfacesAreWhatLiesBetweenMaterials) {
   constexpr Index n = 6;
   Mesh mesh = lattice(n, 0.0, 1, Cells::Quadrilaterals);
@@ -206,7 +206,7 @@ TEST(Curves, OfInterfacesAreWhatLiesBetweenMaterials) {
   EXPECT_THAT(slides(mesh, BoundaryRule::Slide), IsEmpty());
 }
 
-/// A list of all edges, which some mesh generators write, names nothing.
+/// Lists of all edges, which some mesh generators write, have no meaning.
 TEST(Curves, AListOfAllEdgesHoldsNothing) {
   constexpr Index n = 5;
   Mesh mesh = lattice(n, 0.0, 1, Cells::Quadrilaterals);

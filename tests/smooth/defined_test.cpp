@@ -1,4 +1,4 @@
-// Smoothing by formulas and targets keeps the program's promises, whatever the formula, and finds what the built-in metrics find.
+// Smoothing by formulas and targets keeps the program's promises for any formula, and finds the results of the built-in metrics.
 
 #include <algorithm>
 #include <array>
@@ -29,12 +29,12 @@ std::shared_ptr<const InputMesh> generated(const std::string& words) {
   return generate_input(words, progress);
 }
 
-/// Does each element say something of its own in this one? It is the whole of the metrics that the search does not look at by corners.
+/// Metrics of every form: by whole elements, by corners, and with targets.
 constexpr std::array kMetrics{
-    "formula:if(measure > 0, lmin/lmax, measure/lmax^2)",  // of all kinds; not seen where an element is inverted by a corner
-    "formula:lmin/lmax",                                   // sees no inversion at all
+    "formula:if(measure > 0, lmin/lmax, measure/lmax^2)",  // for all kinds; ignores inversion at a corner
+    "formula:lmin/lmax",                                   // ignores inversion
     "formula:smin/smax",                                   // by corners
-    "formula:min(1, size)*smin/smax",                      // and by sizes
+    "formula:min(1, size)*smin/smax",                      // by corners and sizes
     "formula:exp(-3*(smax/smin - 1))*sign(det)",
     "shape-size",
     "scaled-jacobian-inside",
@@ -92,7 +92,7 @@ TEST(DefinedMetrics, KeepTheFirstPromise) {
     }
 }
 
-/// The least over the corners of what all corners change: no corner stays.
+/// The least over the corners includes corners that stay, for all corners change it.
 TEST(DefinedMetrics, CornersThatStayCountWhereTheirValueChanges) {
   for (const char* words : {"screw 300", "hexahedra 200", "solids 200"})
     for (const char* metric : {"formula:3*cbrt(det)*abs(cbrt(det))/norm^2 - 0.2*lsum/cbrt(mean_measure)",
@@ -104,7 +104,7 @@ TEST(DefinedMetrics, CornersThatStayCountWhereTheirValueChanges) {
     }
 }
 
-/// A field has the mesh's unit, whatever the search computes in.
+/// Fields are in the mesh's unit, whatever the unit of the search.
 TEST(DefinedMetrics, FieldsAreInTheMeshsUnit) {
   Mesh mesh = mapped(lattice(10, 0.3, 61), [](Vec3 p) { return 500.0 * p; });
   Field size;
@@ -118,7 +118,7 @@ TEST(DefinedMetrics, FieldsAreInTheMeshsUnit) {
                         smoothed(one, {.metric = parse_metric("formula:" + by_number)}, 4)));
 }
 
-/// Nothing of a sound star depends on the metric's sign.
+/// A sound star does not depend on the metric's sign.
 TEST(DefinedMetrics, MayBeBelowZero) {
   const auto mesh = generated("mixed 300");
   for (const char* method : {"dmo", "pattern-search", "active-set", "joint"}) {
@@ -141,7 +141,7 @@ TEST(DefinedMetrics, OtherMethodsKeepItToo) {
       }
 }
 
-/// By the derivatives of their pieces.
+/// Active sets and joint moves use the derivatives of the metrics' pieces.
 TEST(DefinedMetrics, ActiveSetsAndJointMovesKeepItToo) {
   int raised = 0;
   for (const char* method : {"active-set", "joint"})
@@ -176,7 +176,7 @@ TEST(DefinedMetrics, AreTheSameForAllThreadsAndInstructions) {
     }
 }
 
-/// What no place of a vertex is worth more than ends its visit: of a maximum no part tells that.
+/// A ceiling that no place of a vertex exceeds ends its visit: no part of a maximum is such a ceiling.
 TEST(DefinedMetrics, AMaximumIsNoCeiling) {
   for (const char* words : {"quads 200", "hexahedra 60"}) {
     const auto mesh =
@@ -185,7 +185,7 @@ TEST(DefinedMetrics, AMaximumIsNoCeiling) {
     const auto plain = course("formula:smin/smax");
     EXPECT_FALSE(same_bits(plain, std::span<const Vec3>(mesh->mesh.positions)));
     EXPECT_TRUE(same_bits(plain, course("formula:max(0.01, smin/smax)"))) << "below all values";
-    const auto whole = course("formula:max(0.01, min_corner(smin/smax))");  // of all corners, in space those that stay, too
+    const auto whole = course("formula:max(0.01, min_corner(smin/smax))");  // over all corners; in space also those that stay
     EXPECT_FALSE(same_bits(whole, std::span<const Vec3>(mesh->mesh.positions)));
     if (!mesh->is_volume()) {
       EXPECT_TRUE(same_bits(plain, whole));
@@ -196,7 +196,7 @@ TEST(DefinedMetrics, AMaximumIsNoCeiling) {
   }
 }
 
-/// The search is the same, and so are the values but for the last digits: so are the places.
+/// The course of the search is the same, and the values but for the last digits: hence also the places.
 TEST(DefinedMetrics, TakeTheCourseOfTheBuiltInOnes) {
   for (const char* words : {"random 300", "quads 300", "mixed 400", "tetrahedra 200", "coast 600"}) {
     const auto mesh = generated(words);
@@ -208,15 +208,14 @@ TEST(DefinedMetrics, TakeTheCourseOfTheBuiltInOnes) {
       const auto expected = smoothed(mesh, built_in, 3), got = smoothed(mesh, written, 3);
       std::size_t other = 0;
       for (std::size_t v = 0; v < got.size(); ++v) other += length(got[v] - expected[v]) > 1e-9 * mesh->geometry.size ? 1U : 0U;
-      // The dihedral angle at a face that stands still is the same for all candidates in the plane of another: many are equal, and rounding
-      // chooses.
+      // The dihedral angle at a fixed face is the same for all candidates in the plane of another: many are equal, and rounding chooses.
       if (entry.metric == Metric::MinAngle && mesh->is_volume()) continue;
       EXPECT_LE(other, got.size() / 200) << entry.name << " on " << words << ": candidates that are equal but for rounding";
     }
   }
 }
 
-/// A look at every candidate finds the same.
+/// Finds the best candidate by looking at every one.
 template <class Frame>
 void expect_the_plain_search(const InputMesh& mesh, const char* metric, SearchParameters parameters) {
   parameters.precision = Precision::Double;
@@ -315,7 +314,7 @@ TEST(DefinedMetrics, ThenMeanAndTwoAims) {
     two.iterate(3, progress);
     EXPECT_GT(two.statistics().minimum, first);
     EXPECT_GT(second_mean(), before);
-    // Where the first aim is met, it may fall, but not below the threshold.
+    // The first aim may fall where it is met, but not below the threshold.
     both.combination->threshold = 0.5 * first;
     auto eased = make_run(mesh, both);
     eased.iterate(3, progress);
@@ -339,7 +338,7 @@ TEST(DefinedMetrics, VerticesSlide) {
   EXPECT_GT(surface.statistics().minimum, before);
 }
 
-/// What targets are for.
+/// Use of targets: a metric field is followed.
 TEST(DefinedMetrics, AMetricFieldIsFollowed) {
   const auto mesh = generated("anisotropic 1200");
   Progress progress;
@@ -372,7 +371,7 @@ TEST(DefinedMetrics, LayersAreKeptAndTheRestIsImproved) {
   EXPECT_GT(after, before);
 }
 
-/// Width along the wall over height of a layer's quadrilateral, from its sides; and the least mean ratio of all other elements.
+/// Aspect of a layer's quadrilateral, width along the wall over height, from its sides; and the least mean ratio of all other elements.
 struct LayersAndRest {
   double mean_aspect = 0.0, mean_spacing = 0.0, worst_of_rest = 1.0;
 };
@@ -414,7 +413,7 @@ void expect_kept_layers(const std::shared_ptr<const InputMesh>& mesh, const std:
   EXPECT_NEAR(kept.mean_aspect / before.mean_aspect, 1.0, 0.02);
   EXPECT_NEAR(kept.mean_spacing / before.mean_spacing, 1.0, 0.01);
   EXPECT_GT(kept.worst_of_rest, 1.2 * before.worst_of_rest);
-  if (metric == kMeanOverCorners) {  // the least over the corners holds rectangles in any case
+  if (metric == kMeanOverCorners) {  // the least over the corners keeps rectangles in any case
     EXPECT_LT(after_with(metric).mean_aspect, 0.9 * before.mean_aspect) << "without the target";
   }
 }

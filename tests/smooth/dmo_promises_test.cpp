@@ -29,7 +29,7 @@ using testing::make_run;
 using testing::Specimen;
 using testing::title;
 
-/// The plain search.
+/// Tests of the plain search.
 class PlainPromises : public ::testing::TestWithParam<Metric> {};
 
 TEST_P(PlainPromises, NoVisitMakesAnythingWorseAndFixedVerticesKeepTheirBits) {
@@ -49,7 +49,7 @@ TEST_P(PlainPromises, NoVisitMakesAnythingWorseAndFixedVerticesKeepTheirBits) {
 }
 INSTANTIATE_TEST_SUITE_P(Dmo, PlainPromises, ::testing::ValuesIn(all_metrics()), [](const auto& test) { return title(test.param); });
 
-/// The fast search, with each kind of vector instructions.
+/// Case of the fast search, with each kind of vector instructions.
 struct Case {
   Metric metric;
   SimdLevel level;
@@ -145,7 +145,7 @@ TEST(Dmo, FarFromTheOriginAndInATiltedPlaneItReachesTheSameMinimum) {
     dmoscope::Run run = make_run(prepared, {});
     run.iterate(10, progress);
     EXPECT_NEAR(run.statistics().minimum, reference.statistics().minimum, 1e-4);
-    for (const Vec3 p : run.positions()) {  // nobody leaves the plane
+    for (const Vec3 p : run.positions()) {  // all vertices stay in the plane
       const Plane& plane = prepared->geometry.plane;
       EXPECT_NEAR(dot(p - mesh->positions[0], plane.normal), 0.0, 1e-9);
     }
@@ -171,7 +171,7 @@ TEST(Dmo, InPlanesParallelToTheCoordinatePlanesItFindsTheSameBits) {
   }
 }
 
-/// One visit of each vertex of the first class, by both searches from the same positions.
+/// Visits each vertex of the first class once, by both searches from the same positions.
 TEST(Dmo, TheFastSearchHasTheGridThePlainOneHas) {
   for (const Cells cells : {Cells::Triangles, Cells::Mixed})
     for (const int points : {2, 5, 8, 9, 16})
@@ -230,12 +230,12 @@ TEST(Dmo, ShuffledOrderIsReproducibleAndDiffersFromTheNaturalOne) {
 
 TEST(Dmo, AMeshOfASinglePrecisionFileIsPutOnFloatsAndStillNeverGetsWorse) {
   Mesh coarse = lattice(20, 0.4, 28);
-  for (Vec3& p : coarse.positions) p = {static_cast<float>(p.x + 1e5), static_cast<float>(p.y + 1e5), 0};  // 1/128 apart there
+  for (Vec3& p : coarse.positions) p = {static_cast<float>(p.x + 1e5), static_cast<float>(p.y + 1e5), 0};  // numbers are 1/128 apart there
   coarse.single_precision = true;
   const auto mesh = input(coarse);
   dmoscope::Run run = make_run(mesh, {});
   Progress progress;
-  // Rounding undoes many a win of the search here: without the confirmation in double visits would lose quality.
+  // Rounding undoes many gains of the search here: without the confirmation in double visits would lose quality.
   for (int iteration = 0; iteration < 5; ++iteration) {
     for (const Index vertex : std::vector<Index>(run.colouring().order)) {
       const StarState before = star_state(*mesh, run.positions(), Metric::MeanRatio, vertex);

@@ -1,4 +1,4 @@
-// Quadrilaterals with corners that are flat up to rounding: what float and double see differently there must not break promise 1.
+// Quadrilaterals with corners that are flat up to rounding: differences between float and double there must not break promise 1.
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@
 namespace dmoscope {
 namespace {
 
-/// Stars of four quadrilaterals; in each one corner that the hub does not share, or one that it does, is bent by about `bend`.
+/// Stars of four quadrilaterals; in each one a corner, either across from the hub or beside it, is bent by about `bend`.
 Mesh nearly_flat(double bend, std::uint64_t seed) {
   Mesh mesh = testing::stars(std::vector<std::vector<int>>(200, std::vector<int>(4, 4)), seed);
   testing::Random random(seed + 1);

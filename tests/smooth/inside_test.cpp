@@ -1,4 +1,4 @@
-// No element becomes inverted inside, where its corners do not tell.
+// Elements never become inverted inside, which their corners do not show.
 
 #include "tests/support/inside.h"
 
@@ -48,7 +48,7 @@ TEST_P(Inside, NothingIsInvertedThere) {
   EXPECT_GT(2 * rises, runs) << "or it is sound because nothing moves";
 }
 
-/// Ways to smooth a volume other than a metric with all of its boundary fixed.
+/// Ways to smooth a volume with two aims, or with a sliding boundary.
 std::vector<RunParameters> other_ways(const MethodInfo& method) {
   const std::string name(method.name);
   RunParameters slides{.method = name, .boundary = BoundaryRule::Slide}, both{.method = name}, other{.method = name};
@@ -60,7 +60,7 @@ std::vector<RunParameters> other_ways(const MethodInfo& method) {
   return {slides, both, other, all};
 }
 
-/// Blocks and rods that are sound everywhere stay so by two aims and where their boundary slides.
+/// Blocks and rods that are sound everywhere stay so by two aims and with a sliding boundary.
 TEST_P(Inside, NothingIsInvertedThereByTwoAimsOrWhereTheBoundarySlides) {
   Progress progress;
   std::size_t moved = 0;
@@ -83,7 +83,7 @@ TEST_P(Inside, NothingIsInvertedThereByTwoAimsOrWhereTheBoundarySlides) {
   EXPECT_GT(moved, 100U);
 }
 
-/// A thin wall, crushed so that some of it is inverted, half of that inside alone: over no iteration more of it.
+/// A thin wall, crushed so that some of it is inverted, half of that inside alone: no iteration adds to it.
 TEST_P(Inside, NoMoreIsInvertedOfACrushedCan) {
   Progress progress;
   for (const double fold : {0.1, 0.25}) {
@@ -119,7 +119,7 @@ INSTANTIATE_TEST_SUITE_P(Optimisers, Inside, ::testing::ValuesIn(volume_optimise
   return name;
 });
 
-/// The metric that sees inside is raised, and no visit lowers it; the same bits for any number of threads.
+/// The metric of the inside is raised, and no visit lowers it; the same bits for any number of threads.
 TEST(InsideAlone, IsRaisedByItsMetric) {
   const Metric metric = parse_metric("scaled-jacobian-inside");
   Progress progress;
@@ -137,7 +137,7 @@ TEST(InsideAlone, IsRaisedByItsMetric) {
     }
 }
 
-/// Corners alone call this hexahedron sound: the least of their Jacobians is 92. Half-way up its second edge the determinant is negative.
+/// A hexahedron that is sound by its corners: the least of their Jacobians is 92. Half-way up its second edge the determinant is negative.
 TEST(InsideAlone, IsCountedAsInverted) {
   Mesh mesh;
   mesh.positions = {{5, -6, -2}, {11, -6, -2}, {17, 6, 3}, {7, 6, 1}, {7, -2, 15}, {5, 5, 5}, {4, 4, 11}, {2, 6, 8}};
@@ -152,7 +152,7 @@ TEST(InsideAlone, IsCountedAsInverted) {
   }
 }
 
-/// 27 hexahedra, of which the middle one is inverted inside alone; the rim is fixed.
+/// 27 hexahedra, the middle one inverted inside alone; the rim is fixed.
 Mesh swivelled_block() {
   Mesh mesh = test::volume_grid(3, Fill::Hexahedra);
   mesh.positions[21] = {0.4182, 0.4752, 0.4933};
@@ -207,7 +207,7 @@ TEST(InsideAlone, IsTheFirstWithItsPlaceAmongThoseThatAreNamed) {
   EXPECT_EQ(found.first[0].at, (Vec3{32, 2, 0}));
   EXPECT_EQ(found.first[1].number, 1U);
   EXPECT_TRUE(found.first[1].inside_alone);
-  // By the map from the unit cube, at places whose coordinates are sixteenths; its derivatives are differences, as it is linear in each.
+  // The map from the unit cube, at places whose coordinates are sixteenths; its derivatives are differences, as it is linear in each.
   const auto place = [&](double x, double y, double z) {
     Vec3 sum;
     for (Index i = 0; i < 8; ++i)

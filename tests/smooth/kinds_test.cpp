@@ -1,4 +1,4 @@
-// Corners and feature edges that a person says: the promises hold with any of them, and they do what is said.
+// Corners and feature edges that the user sets: the promises hold with any of them, and they have their effect.
 
 #include <algorithm>
 #include <cmath>
@@ -45,7 +45,7 @@ std::vector<EdgeEnds> all_edges(const InputMesh& mesh) {
   return edges;
 }
 
-/// Some of all vertices and edges, at random; `share`: of each.
+/// Random kinds of all vertices and edges; `share`: of each.
 Kinds random_kinds(const InputMesh& mesh, double share, std::uint64_t seed) {
   dmoscope::testing::Random random(seed);
   Kinds kinds;
@@ -62,7 +62,7 @@ Kinds random_kinds(const InputMesh& mesh, double share, std::uint64_t seed) {
   return kinds;
 }
 
-/// What is said to be a corner has its bits, and what lies on a feature edge never leaves it.
+/// Expects corners to keep their bits, and vertices on a feature edge to stay on it.
 void expect_as_said(const Specimen& specimen, const dmoscope::Run& run) {
   const Kinds& kinds = run.parameters().kinds;
   const Domain& domain = *run.domain();
@@ -124,7 +124,7 @@ TEST(KindsByHand, KeepThePromisesAfterEveryIteration) {
   EXPECT_GT(said, 1000U);
 }
 
-/// What angles say can be said by hand as well, to the same bits.
+/// Kinds set by hand that equal those by angles give the same bits.
 TEST(KindsByHand, AreWhatAnglesSay) {
   Progress progress;
   for (const Specimen& specimen : kinds_specimens()) {
@@ -150,7 +150,7 @@ TEST(KindsByHand, AreWhatAnglesSay) {
     dmoscope::Run released = make_run(mesh, said);
     released.iterate(3, progress);
     EXPECT_TRUE(same_bits(released.positions(), none.positions())) << specimen.name;
-    RunParameters told = smooth;  // what angles would say
+    RunParameters told = smooth;  // the kinds that angles would give
     say_features(told.kinds, folded, Saying::Is);
     say_corners(told.kinds, corners, Saying::Is);
     dmoscope::Run held = make_run(mesh, told);
@@ -191,7 +191,7 @@ class KindsOfACube : public ::testing::Test {
   KindsOfACube() : mesh_(input(cube_skin(kN, Cells::Quadrilaterals, 5))) {}
   [[nodiscard]] static Index at(Index i, Index j, Index k) { return cube_vertex(kN, i, j, k); }
   [[nodiscard]] Domain domain() const { return {*mesh_, rule_}; }
-  /// Along x on the lower front edge.
+  /// The edges along x on the lower front edge.
   [[nodiscard]] static std::vector<EdgeEnds> front() {
     std::vector<EdgeEnds> edges;
     for (Index i = 0; i < kN; ++i) edges.push_back({at(i, 0, 0), at(i + 1, 0, 0)});
@@ -294,7 +294,7 @@ TEST_F(KindsOfACube, WhatDoesNotComeTrueIsSaid) {
   EXPECT_THROW((void)make_run(mesh_, parameters), UsageError);
 }
 
-/// What the file, or the mesh itself, makes a feature edge stays one.
+/// Feature edges of the file, or of the mesh itself, cannot be removed.
 TEST(KindsByHand, DoNotFreeWhatTheFileAndTheMeshHold) {
   Mesh start = mapped(lattice(6, 0.0, 3), [](Vec3 p) { return Vec3{p.x, p.y, 0.2 * p.x * p.x}; });
   Group left{.name = "left", .role = "physical group", .code = 0, .dimension = 2, .members = {}};
@@ -379,7 +379,7 @@ TEST(KindsByHand, InAPlaneCornersOfTheBoundaryAreSaid) {
   }
 }
 
-/// A line that a person draws across an interface does not free what lies on that.
+/// A line that the user draws across an interface does not free vertices of the interface.
 TEST(KindsByHand, InAPlaneInterfacesStay) {
   constexpr Index n = 6;
   Mesh start = lattice(n, 0.0, 3, Cells::Quadrilaterals);

@@ -31,7 +31,7 @@ TEST(LineMaximum, IsTheBestOfManyPlaces) {
   int alone = 0, inside = 0;
   for (int trial = 0; trial < 300; ++trial) {
     std::vector<LineFraction> fractions;
-    double low = -4, high = 4;  // where all are positive
+    double low = -4, high = 4;  // an interval where all are positive
     for (int k = 0; k <= trial % 8; ++k) {
       const LineFraction q = random_fraction(random);
       if (q.a < 0) high = std::min(high, -q.b / q.a);
@@ -39,7 +39,7 @@ TEST(LineMaximum, IsTheBestOfManyPlaces) {
       fractions.push_back(q);
     }
     if (trial % 3 == 0) fractions.push_back({0, random(0.2, 1), 0, 0, 1});  // a constant
-    if (trial % 5 == 0) fractions.push_back(fractions.front());             // one twice
+    if (trial % 5 == 0) fractions.push_back(fractions.front());             // one of them twice
     const double t = maximise_least(fractions, low, high), found = least_of(fractions, t);
     ASSERT_TRUE(t >= low && t <= high);
     double best = 0, at = 0;
@@ -49,7 +49,7 @@ TEST(LineMaximum, IsTheBestOfManyPlaces) {
       if (value > best) best = value, at = place;
     }
     EXPECT_GE(found, best - 1e-12) << trial << ": " << t << " instead of " << at;
-    // Which of them bound it there: one alone at its own top, or two that cross.
+    // Bounds at the maximum: one alone at its own top, or two that cross.
     const auto bounding = std::ranges::count_if(fractions, [&](const LineFraction& q) { return q.value(t) < found + 1e-9; });
     (bounding == 1 ? alone : inside) += 1;
   }

@@ -1,4 +1,4 @@
-// Promises 1 to 3 of the methods beside dmo: of those that optimise all, of the others what holds whatever they do.
+// Promises 1 to 3 of the methods beside dmo: all three for those that optimise, for the others those that always hold.
 
 #include <cmath>
 
@@ -111,7 +111,7 @@ TEST_P(Methods, GiveTheSameBitsWhereClassesAreLargeForAnyNumberOfThreads) {
 TEST_P(Methods, ReachTheSameBitsAgainByWhateverWay) {
   const auto mesh = input(lattice(10, 0.4, 53));
   Progress progress;
-  // With no memory for its history the run does everything again.
+  // Without memory for its history the run computes everything again.
   dmoscope::Run run(mesh, parameters_of(GetParam()), std::make_shared<ThreadPool>(1), 0);
   std::vector<std::vector<Vec3>> after;
   for (int i = 0; i < 6; ++i) {
@@ -132,7 +132,7 @@ TEST_P(Methods, ReachTheSameBitsAgainByWhateverWay) {
 TEST_P(Methods, AreTheSameInEverySizeAndPlaceAndPlane) {
   const Mesh base = lattice(8, 0.3, 54);
   constexpr std::uint64_t kIterations = 4;
-  constexpr double kTolerance = 1e-4;  // active-set ends where little is to be gained, in units of a power of two
+  constexpr double kTolerance = 1e-4;  // active-set ends when there is little to gain, in units of a power of two
   Progress progress;
   const auto minimum = [&](const Mesh& mesh) {
     dmoscope::Run run = make_run(input(mesh), parameters_of(GetParam()));

@@ -1,4 +1,4 @@
-// The methods on real meshes, where they are at hand: what implementations by others reached on them.
+// The methods on real meshes, if they are there: minima that implementations by others reached.
 
 #include <filesystem>
 
@@ -13,7 +13,7 @@ struct Known {
   const char* method;
   const char* mesh;
   std::uint64_t iterations;
-  double least, most;  // of the minimum
+  double least, most;  // bounds of the minimum
 };
 
 class RealMeshes : public ::testing::TestWithParam<Known> {};

@@ -1,4 +1,4 @@
-// The methods beside dmo: what they do in cases that have a closed form, and what they refuse.
+// The methods beside dmo: results in cases that have a closed form, and refusals.
 
 #include <algorithm>
 #include <cmath>
@@ -39,7 +39,7 @@ Mesh wheel(Index spokes, Vec3 hub, Vec3 centre = {}, bool quadrilaterals = false
   return mesh;
 }
 
-/// Where the hub is after a number of visits.
+/// Place of the hub after a number of visits.
 Vec3 hub_after(const Mesh& mesh, RunParameters parameters, std::uint64_t visits = 1) {
   dmoscope::Run run = make_run(input(mesh), std::move(parameters));
   Progress progress;
@@ -131,7 +131,7 @@ TEST(Dvr, DirectionsFollowFromSeedAndIterationAndHaveLengthOne) {
   EXPECT_EQ(dvr_direction(axes, 7).y, 1.0);
 }
 
-/// The least mean ratio of the hub's star with the hub `t` along `d` from where it stands; of one that is `tangled` the least Jacobian.
+/// The least mean ratio of the hub's star with the hub moved by `t` along `d`; of one that is `tangled` the least Jacobian.
 double least_at(const InputMesh& mesh, std::vector<Vec3>& positions, Index hub, Vec2<double> d, double t, bool tangled) {
   const Vec3 stands = std::exchange(positions[hub], positions[hub] + Vec3{t * d.x, t * d.y, 0});
   const StarState state = star_state(mesh, positions, Metric::MeanRatio, hub);
@@ -139,7 +139,7 @@ double least_at(const InputMesh& mesh, std::vector<Vec3>& positions, Index hub, 
   return tangled ? state.jacobian : state.jacobian > 0.0 ? state.quality : -1.0;
 }
 
-/// Every hub's move against the best of 8000 places on its line, and of as many close to where it went.
+/// Expects every hub's move to be the best of 8000 places on its line, and of as many close to its new place.
 void expect_best_on_the_line(const Mesh& mesh, Index hubs_apart, const char* name) {
   const auto prepared = input(mesh);
   dmoscope::Run run = make_run(prepared, {.method = "dvr", .options = {.seed = 3}});
@@ -180,7 +180,7 @@ TEST(Dvr, FindsTheBestPlaceOnItsLine) {
   for (const Index across : {2U, 4U, 6U, 8U}) capped.positions[across] = 0.6 * capped.positions[across];
   expect_best_on_the_line(capped, 1, "capped");
   EXPECT_NEAR(hub_after(capped, {.method = "dvr", .options = {.directions = Directions::Axes}}).x, 0.0, 1e-9) << "by symmetry";
-  // Hubs outside of their rings: the least Jacobian counts.
+  // Hubs outside their rings: the least Jacobian counts.
   for (const int kind : {3, 4}) {
     Mesh tangled = testing::stars(std::vector<std::vector<int>>(6, std::vector<int>(5, kind)), 7);
     const std::size_t stride = tangled.positions.size() / 6;
@@ -207,8 +207,8 @@ TEST(AngleBased, TheMiddleOfARegularRingIsWhereAllAnglesAreHalved) {
 }
 
 TEST(AngleBased, ItsStepIsTheOneOfThePaperByAngles) {
-  // Rings with a reflex angle, one of 240 and one of 300 degrees, and the paper's words in angles: rotate about each of the ring's vertices
-  // by half its angle less the angle to the hub.
+  // Rings with a reflex angle, one of 240 and one of 300 degrees, by the paper's description: rotate about each of the ring's vertices by
+  // half its angle less the angle to the hub.
   for (const Index spokes : {6U, 17U}) {
     Mesh mesh = wheel(spokes, {0.1, 0.05, 0});
     mesh.positions[2] = 0.3 * mesh.positions[2];
@@ -227,7 +227,7 @@ TEST(AngleBased, ItsStepIsTheOneOfThePaperByAngles) {
   }
 }
 
-/// How far below the exact optimum one visit leaves hubs amid rings of random radii: the median and the largest.
+/// Distance of hubs amid rings of random radii from the exact optimum after one visit: the median and the largest.
 std::pair<double, double> gaps(const char* method) {
   std::vector<std::vector<int>> sectors;
   for (int i = 0; i < 200; ++i) sectors.emplace_back(static_cast<std::size_t>(4 + i % 5), 3);

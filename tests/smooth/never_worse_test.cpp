@@ -1,5 +1,5 @@
 // Promise 1 on tangled meshes of every kind, for every method that optimises, by every metric, in shuffled orders, with both phases, and
-// combined: after no iteration are there more inverted elements or is the minimum lower than before it. Counted by formulas of its own.
+// combined: no iteration raises the number of inverted elements or lowers the minimum. Counted by separate formulas.
 
 #include <algorithm>
 #include <cmath>
@@ -26,8 +26,8 @@ double least_inside(ElementKind kind, std::span<const Index> v, std::span<const 
   const double least = test::least_inside(kind, v, at);
   return std::abs(least) < 5e-3 ? test::least_inside(kind, v, at, 32) : least;
 }
-/// Elements with a corner whose edges span an area or volume of at most `limit`, or with such a place inside among 9^3, or 33^3 where one
-/// of them is near to it, written down once more.
+/// Counts elements with a corner whose edges span an area or volume of at most `limit`, or with such a place inside among 9^3, or 33^3 if
+/// one of them is near to it, by a separate implementation.
 Index count_below(const InputMesh& input, std::span<const Vec3> at, double limit) {
   const auto corner = [&](Index a, Index b, Index c) { return cross(at[b] - at[a], at[c] - at[a]).z; };
   const auto spat = [&](Index a, Index b, Index c, Index d) { return dot(cross(at[b] - at[a], at[c] - at[a]), at[d] - at[a]); };
@@ -69,7 +69,7 @@ Index count_below(const InputMesh& input, std::span<const Vec3> at, double limit
   return inverted;
 }
 
-/// What was tried, for a look at whether it means anything.
+/// Numbers of trials, which show whether the test means anything.
 struct Tried {
   std::size_t runs = 0, tangled = 0, untangled = 0, less = 0;
   void add(Index before, Index after) {
@@ -85,7 +85,7 @@ struct Tried {
   }
 };
 
-/// `sound_enough`: of combined aims, the minimum may fall to this.
+/// Smooths, and expects no iteration to be worse. `sound_enough`: with combined aims, the minimum may fall to this.
 void expect_never_worse(const std::shared_ptr<const InputMesh>& mesh, const RunParameters& parameters, std::uint64_t iterations,
                         const std::string& what, Tried& tried, double sound_enough = HUGE_VAL) {
   dmoscope::Run run = make_run(mesh, parameters);
@@ -96,8 +96,8 @@ void expect_never_worse(const std::shared_ptr<const InputMesh>& mesh, const RunP
   for (std::uint64_t i = 1; i <= iterations; ++i) {
     run.step(StepUnit::Iteration, progress);
     const Index now = run.statistics().inverted;
-    constexpr double kRounding = 1e-11;                           // what is flat may be counted either way
-    const double between = mesh->is_volume() ? 1e-3 : kRounding;  // the places inside that are looked at; a cell has 0.037
+    constexpr double kRounding = 1e-11;                           // flat elements may be counted either way
+    const double between = mesh->is_volume() ? 1e-3 : kRounding;  // the places inside that are tested; a cell has 0.037
     ASSERT_GE(now, count_below(*mesh, run.positions(), -kRounding)) << what << ", iteration " << i;
     ASSERT_LE(now, count_below(*mesh, run.positions(), between)) << what << ", iteration " << i;
     ASSERT_LE(now, inverted) << what << ", iteration " << i;
@@ -120,7 +120,7 @@ std::vector<Base> planar_meshes(Index n) {
           {"mixed", lattice(n, 0.2, 73, Cells::Mixed), static_cast<double>(n)}};
 }
 
-/// `body(mesh, what)` for each spoiled mesh on which the metric is defined.
+/// Calls body(mesh, what) for each spoiled mesh on which the metric is defined.
 template <class Body>
 void for_spoiled(const std::vector<Base>& meshes, Metric metric, std::uint64_t seeds, const Body& body) {
   for (const auto& [name, mesh, cells] : meshes) {
@@ -197,7 +197,7 @@ TEST(NeverWorseAlso, CombinedDownToTheThreshold) {
   EXPECT_GT(tried.untangled, 5U);
 }
 
-/// Attempts come and go: what they gain must stay in between and after, for long.
+/// Attempts begin and end: their gains must stay in between and after, for long.
 TEST(NeverWorseAlso, ThroughAllAttemptsAndTheRestsBetweenThem) {
   Tried tried;
   for_spoiled(planar_meshes(5), Metric::MeanRatio, 3,
@@ -206,7 +206,7 @@ TEST(NeverWorseAlso, ThroughAllAttemptsAndTheRestsBetweenThem) {
   EXPECT_GT(tried.tangled, 10U);
 }
 
-/// The boundary vertex of one star is put far on the other side: no move can untangle that, and elsewhere nothing may suffer from it.
+/// The boundary vertex of one star is put far on the other side: no move can untangle that, and no other place may suffer from it.
 TEST(NeverWorseAlso, DamageThatCannotBeRepairedDoesNotSpread) {
   const Mesh sound = lattice(16, 0.3, 74);
   Mesh wrong = sound;
@@ -220,7 +220,7 @@ TEST(NeverWorseAlso, DamageThatCannotBeRepairedDoesNotSpread) {
   with.until_converged({}, progress);
   without.until_converged({}, progress);
   EXPECT_LE(with.statistics().inverted, before);
-  // Elements three and more rows away are as good as in the mesh without the fault, and not one is inverted.
+  // Elements three and more rows away are as good as in the mesh without the fault, and none is inverted.
   double least = 1.0, least_without = 1.0;
   for (Index e = 0; e < sound.elements.size(); ++e) {
     const auto corners = sound.elements.corners(e);

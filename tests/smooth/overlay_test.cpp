@@ -16,7 +16,7 @@ using namespace testing;
 
 TEST(FacetTree, FindsTheNearestOfItsPatch) {
   dmoscope::testing::Random random(4);
-  for (const double width : {1.0, 1e-3, 1e-8}) {  // needles, too
+  for (const double width : {1.0, 1e-3, 1e-8}) {  // includes needles
     std::vector<Vec3> points;
     std::vector<std::array<Vec3, 3>> triangles;
     std::vector<Index> patch_of;
@@ -39,7 +39,7 @@ TEST(FacetTree, FindsTheNearestOfItsPatch) {
         least = std::min(least, distance_to_triangle(p, triangles[i][0], triangles[i][1], triangles[i][2]));
       const auto found = tree.nearest(p, patch);
       ASSERT_EQ(patch_of[found.triangle], patch);
-      for (Index near = patch; near < 60; near += 3) {  // wherever the search begins
+      for (Index near = patch; near < 60; near += 3) {  // from any start of the search
         const auto again = tree.nearest(p, near);
         ASSERT_EQ(again.triangle, found.triangle);
         ASSERT_EQ(again.point.weights, found.point.weights);
@@ -101,7 +101,7 @@ TEST(Overlay, IsTheGreatestDistance) {
   EXPECT_EQ(laid, 180U);
 }
 
-/// What is not beneath the triangle, or turned away, is no fit.
+/// A face without facets beneath, or turned away, has no fit.
 TEST(Overlay, WhatCannotBeIsNoFit) {
   const auto mesh = hills(7, Cells::Triangles);
   const Domain domain(*mesh, {});
@@ -117,7 +117,7 @@ TEST(Overlay, WhatCannotBeIsNoFit) {
   EXPECT_EQ(overlay.triangle({good[0], good[1], {0.5, 1.4, 0}}, 0, {}).deviation, kNoFit.deviation) << "beyond the boundary";
 }
 
-/// Told a bound, the faces around a vertex are looked at no more than it takes: what is said of the bound is the same.
+/// With a bound, the faces around a vertex are examined only as far as it takes: the comparison with the bound is the same.
 TEST(Overlay, ABoundShortensItOnly) {
   dmoscope::testing::Random random(9);
   int within = 0, beyond = 0;

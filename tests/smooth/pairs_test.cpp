@@ -73,7 +73,7 @@ TEST(Pairs, StayTogetherByEveryMethodAndObjective) {
           try {
             run.emplace(make_run(mesh, parameters));
           } catch (const UsageError&) {
-            continue;  // no method of curved surfaces, or not with such aims
+            continue;  // curved surfaces do not have the method, or not with such aims
           }
           EXPECT_EQ(run->domain()->pairs().size(), 6U);
           Progress progress;
@@ -97,8 +97,8 @@ TEST(Pairs, StayTogetherByEveryMethodAndObjective) {
     }
 }
 
-/// One vertex on either side of the line from (0, 0) to (0, 1), beside triangles whose best place for it is y and 1 - y: both together are
-/// best in the middle.
+/// One vertex on either side of the line from (0, 0) to (0, 1), beside triangles whose best place for it is y and 1 - y: the best for both
+/// together is in the middle.
 TEST(Pairs, AreJudgedByBothStars) {
   Mesh mesh;
   const double height = 0.15;
@@ -120,7 +120,7 @@ TEST(Pairs, AreJudgedByBothStars) {
   }
 }
 
-/// What is between more than two, or beside one that stays, stays.
+/// Vertices between more than two, or beside one that stays, stay.
 TEST(Pairs, StayWhereTheyWouldPart) {
   Mesh mesh = two_sheets(Cells::Triangles, 0.0);
   const Index n = mesh.vertex_count() / 2;

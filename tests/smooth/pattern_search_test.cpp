@@ -1,5 +1,5 @@
-// Pattern search against its definition written out: poll one step along each axis, forth and back, shorter by 0.9 while that inverts an
-// element; the best becomes the place and the step grows by 1.5, or else shrinks; first a quarter of the mean edge, last a thousandth.
+// Pattern search against its definition: poll one step along each axis, in both directions, shorter by 0.9 while that inverts an element;
+// the best becomes the place and the step grows by 1.5, or else shrinks; first a quarter of the mean edge, last a thousandth.
 
 #include <array>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 
 using testing::input;
 
-/// The ends of the edges that leave a corner of an element, as its file format numbers them (VTK).
+/// The ends of the edges that leave a corner of an element, in the file format's numbering (VTK).
 std::vector<Index> neighbours(std::size_t corners, bool volume, Index corner) {
   const auto n = static_cast<Index>(corners);
   if (!volume) return {(corner + 1) % n, (corner + n - 1) % n};
@@ -36,7 +36,7 @@ double mean_edge(const InputMesh& mesh, std::span<const Vec3> positions, Index v
   return sum / count;
 }
 
-/// The best place for a vertex none of whose elements is inverted.
+/// The best place for a vertex without inverted elements.
 Vec3 best_by_definition(const InputMesh& mesh, std::vector<Vec3> positions, Index vertex) {
   const auto worth = [&](const Vec3& place) {
     positions[vertex] = place;
@@ -93,7 +93,7 @@ TEST(PatternSearch, IsAsDefinedInEveryKindOfElement) {
 }
 
 TEST(PatternSearch, AStepOutOfTheRingIsTakenBackAsFarAsItMust) {
-  Mesh mesh;  // a strip of which a quarter of an edge leads out
+  Mesh mesh;  // a strip that a quarter of an edge leaves
   mesh.positions = {{0.005, 0.1, 0}, {0, -1, 0}, {0.2, -1, 0}, {0.2, 1, 0}, {0, 1, 0}};
   for (Index i = 1; i <= 4; ++i) testing::add(mesh, {0, i, i % 4 + 1});
   const auto strip = input(mesh);

@@ -1,5 +1,5 @@
 #pragma once
-// Promises 1 to 3 of the program, as a run must keep them whatever optimises in it.
+// Promises 1 to 3 of the program, which a run must keep with any method.
 
 #include <algorithm>
 #include <bit>
@@ -32,8 +32,8 @@ inline bool can_optimise(const MethodInfo& method, Metric metric, const InputMes
   return !method.joint || why_not_joint(mesh, metric).empty();
 }
 
-/// A visit left the star no worse, and better if its vertex moved; which it did within its plane. Of joint moves one star may fall, not
-/// below what all of the cluster have reached.
+/// Expects a visit to leave the star no worse, and better if its vertex moved; and the vertex to stay in its plane. With joint moves one
+/// star may fall, but not below the value that all of the cluster have reached.
 inline void expect_no_worse(const Specimen& specimen, const dmoscope::Run& run, Index vertex, Vec3 old, const StarState& before,
                             const Untangling& rule) {
   const StarState after = star_state(run.input(), run.positions(), run.parameters().metric, vertex);
@@ -49,13 +49,13 @@ inline void expect_no_worse(const Specimen& specimen, const dmoscope::Run& run, 
   if (run.input().geometry.shape != Shape::Planar) return;
   const double before_along[] = {old.x, old.y, old.z}, along[] = {p.x, p.y, p.z}, across[] = {normal.x, normal.y, normal.z};
   for (std::size_t i = 0; i < 3; ++i) {
-    if (across[i] != 1.0) continue;  // else the coordinate that is the same for all
+    if (across[i] != 1.0) continue;  // checks the coordinate that is the same for all vertices
     EXPECT_EQ(std::bit_cast<std::uint64_t>(along[i]), std::bit_cast<std::uint64_t>(before_along[i])) << specimen.name;
   }
 }
 
-/// Takes the run through its iterations class by class; no visit may make its star or the mesh worse: the number of inverted elements never
-/// rises, and the minimum is never below that at the start of the iteration.
+/// Takes the run through its iterations class by class, and expects no visit to make its star or the mesh worse: the number of inverted
+/// elements never rises, and the minimum is never below that at the start of the iteration.
 inline void expect_promise_one(const Specimen& specimen, dmoscope::Run& run, std::uint64_t iterations) {
   Progress progress;
   const InputMesh& mesh = run.input();
@@ -80,7 +80,7 @@ inline void expect_promise_one(const Specimen& specimen, dmoscope::Run& run, std
   }
 }
 
-/// The same where the method promises it; others only go on to this iteration.
+/// Expects promise 1 if the method makes it; others only go on to this iteration.
 inline void expect_promise_one_if(bool promised, const Specimen& specimen, dmoscope::Run& run, std::uint64_t iterations) {
   if (promised) return expect_promise_one(specimen, run, iterations);
   Progress progress;

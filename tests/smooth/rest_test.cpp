@@ -1,4 +1,4 @@
-// Vertices around which nothing has moved since they stayed are passed over, whatever moves them: the same bits as if all were visited.
+// Vertices around which nothing has moved since their last visit are skipped, whatever moves them: the same bits as if all were visited.
 
 #include <gtest/gtest.h>
 
@@ -34,13 +34,13 @@ TEST_P(RestingMethods, PassOverVerticesThatCannotMove) {
     if (mesh->is_volume() && method.planar_only) continue;
     RunParameters parameters;
     parameters.method = method.name;
-    if (!mesh->is_volume()) parameters.search.precision = Precision::Double;  // a rule for single vertices, too
+    if (!mesh->is_volume()) parameters.search.precision = Precision::Double;  // also a rule for single vertices
     if (slides) parameters.boundary = BoundaryRule::Slide;
     dmoscope::Run resting = make_run(mesh, parameters, 3), anew = make_run(mesh, parameters);
     for (int i = 0; i < kIterations; ++i) {
       resting.iterate(1, progress);
       anew.iterate(1, progress);
-      anew.rest();  // whoever smooths next knows of nobody that stayed
+      anew.rest();  // the next smoother knows of no vertex that stayed
       ASSERT_TRUE(same_bits(resting.positions(), anew.positions())) << method.name << " on " << sample << ", iteration " << i;
       const IterationRecord &one = resting.history().records().back(), &other = anew.history().records().back();
       EXPECT_EQ(one.moved, other.moved);

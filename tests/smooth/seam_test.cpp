@@ -1,5 +1,5 @@
-// Meshes in longitude and latitude some of whose elements cross the meridian at which the numbers begin again: smoothed as if they lay
-// unwrapped, whatever smooths them.
+// Meshes in longitude and latitude with elements across the meridian at which the numbers jump: every method smooths them like unwrapped
+// ones.
 
 #include <cmath>
 #include <map>
@@ -43,20 +43,20 @@ Mesh thrown(Mesh mesh, double near, double degrees) {
   return mesh;
 }
 
-/// A piece as a person would shift it by hand.
+/// A piece shifted as by hand.
 Mesh by_hand(Mesh mesh) {
   for (Vec3& p : mesh.positions)
     if (p.x < 0.0) p.x += 360.0;
   return mesh;
 }
 
-/// Whose file counts from 0 to 360.
+/// The piece with longitudes from 0 to 360.
 Mesh from_zero(Mesh mesh) {
   for (Vec3& p : mesh.positions) p.x = p.x - 180.0 < 0.0 ? p.x + 180.0 : p.x - 180.0;
   return mesh;
 }
 
-/// Counted by the test itself: each corner is brought next to the first one.
+/// Number of inverted elements, counted separately: each corner is brought next to the first one.
 Index inverted_unwrapped(const Mesh& mesh, std::span<const Vec3> positions) {
   Index count = 0;
   for (Index e = 0; e < mesh.elements.size(); ++e) {
@@ -122,7 +122,7 @@ TEST(Seam, NothingIsRuinedByAnyMethodOrderOrNumberOfThreads) {
   }
 }
 
-/// The mesh smoothed as it wraps, and as it lies shifted by hand.
+/// Expects the wrapped mesh to be smoothed like the one shifted by hand.
 void expect_as_by_hand(const Mesh& wrapped, const Mesh& shifted, RunParameters way) {
   SCOPED_TRACE(title_of(way));
   Progress progress;

@@ -1,4 +1,4 @@
-// The size that elements shall have: fields between their vertices and outside, size functions, and how sizes go together.
+// Target sizes of elements: fields between their vertices and outside, size functions, and their correlation.
 
 #include "core/smooth/size_field.h"
 

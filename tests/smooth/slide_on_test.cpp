@@ -20,9 +20,9 @@ namespace {
 using namespace testing;
 using ::testing::HasSubstr;
 
-constexpr double kRounding = 4e-12;  // of sizes near 1
+constexpr double kRounding = 4e-12;  // for sizes near 1
 
-/// Where a vertex stands by plain geometry against the faces of another mesh.
+/// The place of a vertex by plain geometry against the faces of another mesh.
 class Reference {
  public:
   explicit Reference(const Mesh& mesh) : positions_(mesh.positions), facets_(triangles_of(surface_faces(mesh), mesh.positions)) {}
@@ -43,7 +43,7 @@ Mesh cube(Index n, double shake, std::uint64_t seed, Cells cells) {
   return skin(shaken(test::volume_grid(n, test::Fill::Hexahedra), shake, seed), cells);
 }
 
-/// The farthest that a face of the input is straight above or below the reference.
+/// The greatest distance of a face of the input straight above or below the reference.
 double farthest_straight(const dmoscope::Run& run) {
   const ElementFit fit = element_fit(run.input(), *run.domain(), PositionView(run.input().mesh.positions));
   float most = 0.0F;
@@ -51,7 +51,7 @@ double farthest_straight(const dmoscope::Run& run) {
   return static_cast<double>(most);
 }
 
-/// Vertices that moved stand on the reference, the others where they were.
+/// Expects moved vertices to be on the reference, and the others in their places.
 void expect_on(const Reference& reference, const dmoscope::Run& run, const std::string& name) {
   const Mesh& before = run.input().mesh;
   for (Index v = 0; v < before.vertex_count(); ++v) {
@@ -60,17 +60,17 @@ void expect_on(const Reference& reference, const dmoscope::Run& run, const std::
     ASSERT_LE(reference.distance(run.positions()[v]), kRounding) << name << ": vertex " << v << " is not on the reference";
   }
 }
-/// No face is farther from the reference than the bound, or than any was.
+/// Expects no face to be farther from the reference than the bound, or than any was.
 void expect_near(const Reference& reference, const dmoscope::Run& run, double bound, const std::string& name) {
   const double most = std::max(bound, 1.0001 * farthest_straight(run)) + kRounding;
   ASSERT_LE(reference.farthest(run.input().mesh, run.positions()), most) << name;
 }
 
-/// On itself a mesh slides as it does on its own surface.
+/// A mesh slides on itself as on its own surface, with the same bits.
 TEST(SlidingOnAnother, OnItselfIsTheSameBits) {
   std::size_t moved = 0;
   for (const Specimen& specimen : surfaces()) {
-    if (specimen.name == "folded" || specimen.name == "three sheets") continue;  // what lies nearest is another sheet there
+    if (specimen.name == "folded" || specimen.name == "three sheets") continue;  // the nearest sheet is another one there
     const auto own = input(specimen.mesh);
     const auto on = slide_on(*own, own);
     Progress progress;
@@ -81,7 +81,7 @@ TEST(SlidingOnAnother, OnItselfIsTheSameBits) {
     }
     expected.iterate(2, progress);
     run.iterate(2, progress);
-    // Where a crease ends, a face may be laid over the facets from another one on, and miss those beyond the crease's end.
+    // At the end of a crease, a face may be laid over the facets from another one on, and miss those beyond the end.
     if (specimen.name != "crease that ends inside") {
       EXPECT_TRUE(same_bits(run.positions(), expected.positions())) << specimen.name;
     }
@@ -116,12 +116,12 @@ TEST(SlidingOnAnother, CoarseAndFineOnesGetOnIt) {
       if (::testing::Test::HasFatalFailure()) return;
     }
     expect_near(reference, run, bound, one.name);
-    EXPECT_GT(slid(run), one.mesh.vertex_count() / (kSanitized ? 8 : 4)) << one.name;  // after one iteration, fewer have moved
+    EXPECT_GT(slid(run), one.mesh.vertex_count() / (kSanitized ? 8 : 4)) << one.name;  // fewer have moved after one iteration
     EXPECT_GT(run.statistics().minimum, run.history().records().front().statistics.minimum) << one.name;
   }
 }
 
-/// Corners of the reference keep their vertices, and along its edges they slide; a cube's say so by their coordinates.
+/// Corners of the reference keep their vertices, and other vertices slide along its edges; coordinates show those of a cube.
 TEST(SlidingOnAnother, CornersAndEdgesAreThoseOfTheReference) {
   const Mesh start = cube(6, 0.06, 11, Cells::Triangles);
   const auto mesh = slide_on(*input(start), input(cube(4, 0.0, 1, Cells::Quadrilaterals)));
@@ -144,7 +144,7 @@ TEST(SlidingOnAnother, CornersAndEdgesAreThoseOfTheReference) {
   EXPECT_GT(on_edges, 20U);
 }
 
-/// A sphere whose vertices were thrown about on it: nothing but the reference tells which of its triangles are inverted.
+/// A sphere whose vertices were moved about on it: only the reference tells which of its triangles are inverted.
 TEST(SlidingOnAnother, FoldsAreUntangled) {
   for (const Cells cells : {Cells::Triangles, Cells::Quadrilaterals, Cells::Mixed}) {
     const Mesh sound = sphere(9, 0.0, 1, cells);
@@ -157,7 +157,7 @@ TEST(SlidingOnAnother, FoldsAreUntangled) {
       }
       const Mesh finer = sphere(16, 0.0, 1, Cells::Triangles);
       const auto mesh = slide_on(*input(spoiled), input(finer));
-      // By plain geometry: whose middle looks inwards.
+      // By plain geometry: the triangle's middle looks inwards.
       std::size_t inwards = 0;
       for (Index e = 0; cells == Cells::Triangles && e < spoiled.elements.size(); ++e) {
         const auto c = spoiled.elements.corners(e);
@@ -172,7 +172,7 @@ TEST(SlidingOnAnother, FoldsAreUntangled) {
       const std::size_t inverted = mesh->report.inverted_elements.size();
       ASSERT_GT(inverted, 10U);
       if (cells == Cells::Triangles) {
-        EXPECT_NEAR(static_cast<double>(inverted), static_cast<double>(inwards), 4.0);  // some stand nearly upright
+        EXPECT_NEAR(static_cast<double>(inverted), static_cast<double>(inwards), 4.0);  // some are nearly upright
       }
       dmoscope::Run run = make_run(mesh, sliding_by(0.02));
       Progress progress;
@@ -188,7 +188,7 @@ TEST(SlidingOnAnother, FoldsAreUntangled) {
   }
 }
 
-/// Which way round a mesh is wound, or some of its elements, says nothing.
+/// The winding of a mesh, or of some of its elements, does not matter.
 TEST(SlidingOnAnother, WindingSaysNothing) {
   const Mesh start = sphere(6, 0.05, 3, Cells::Mixed);
   Mesh turned = start, some = start, finer = sphere(13, 0.0, 1, Cells::Triangles);
@@ -233,7 +233,7 @@ TEST(SlidingOnAnother, VolumesSlideOnASurface) {
   }
 }
 
-/// What is too far away stays, and somebody says so.
+/// Vertices too far away stay, with a warning.
 TEST(SlidingOnAnother, WhatIsTooFarAwayStays) {
   Mesh start = sphere(6, 0.04, 3, Cells::Triangles);
   const Index far = 17;

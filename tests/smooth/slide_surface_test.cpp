@@ -1,4 +1,4 @@
-// Curved surfaces: vertices never leave the input's, faces deviate by no more than the bound, nothing folds over.
+// Curved surfaces: vertices never leave the input's surface, faces deviate by no more than the bound, and nothing folds over.
 
 #include <algorithm>
 #include <cmath>
@@ -50,7 +50,7 @@ TEST(SlidingOnSurfaces, OtherMethodsKeepToTheSurface) {
     EXPECT_GT(expect_kept_by(method, surfaces(), kSanitized ? 5 : 2, kSanitized ? 1 : 3), kSanitized ? 20U : 300U) << method;
 }
 
-/// On a sphere that is round enough the mean of the neighbours, straight down, is where Laplacian smoothing goes.
+/// Laplacian smoothing on a sphere that is round enough goes to the mean of the neighbours, straight down.
 TEST(SlidingOnSurfaces, LaplaceGoesToTheMean) {
   const Mesh start = skin(mapped(shaken(test::volume_grid(8, test::Fill::Hexahedra), 0.02, 7), ball), Cells::Quadrilaterals);
   const auto mesh = input(start);
@@ -115,7 +115,7 @@ TEST(SlidingOnSurfaces, AnalyticDistances) {
   struct Case {
     const char* name;
     Mesh mesh;
-    double (*off)(Vec3);  // the distance from the surface, negative inside
+    double (*off)(Vec3);  // distance from the surface, negative inside
   };
   std::vector<Case> cases;
   cases.push_back({"sphere", skin(mapped(shaken(test::volume_grid(8, test::Fill::Hexahedra), 0.03, 7), ball), Cells::Triangles),
@@ -129,7 +129,7 @@ TEST(SlidingOnSurfaces, AnalyticDistances) {
     dmoscope::Run run = make_run(mesh, sliding_by(0.01));
     Progress progress;
     run.iterate(10, progress);
-    double most = 0.0;  // how far the facets' points are from the surface that their corners lie on
+    double most = 0.0;  // distance of the facets' points from the surface that their corners lie on
     for (Index e = 0; e < mesh->mesh.elements.size(); ++e) {
       const auto c = mesh->mesh.elements.corners(e);
       for (double u = 0; u <= 1.0; u += 0.1)
@@ -143,7 +143,8 @@ TEST(SlidingOnSurfaces, AnalyticDistances) {
   }
 }
 
-/// The same bits by any number of threads and every width of instructions, in one go or in steps, after going back, and where others aim.
+/// Results have the same bits with any number of threads and every width of instructions, in one run or in steps, after going back, and
+/// with other aims.
 TEST(SlidingOnSurfaces, AreTheSameBits) {
   const auto all = surfaces();
   for (std::size_t i = 0; i < all.size(); i += 4) {  // each kind once, with one kind of cells or another
@@ -177,7 +178,7 @@ TEST(SlidingOnSurfaces, AreTheSameBits) {
   }
 }
 
-/// Borders between groups of elements stay, slide along themselves, or are nothing.
+/// Borders between groups of elements stay, slide along themselves, or are ignored.
 TEST(SlidingOnSurfaces, BordersOfGroups) {
   Mesh start = mapped(lattice(10, 0.0, 3), [](Vec3 p) { return Vec3{p.x + 0.03 * std::sin(40 * p.x * p.y), p.y, 0.2 * p.x * p.x}; });
   Group left{.name = "left", .role = "physical group", .code = 0, .dimension = 2, .members = {}};

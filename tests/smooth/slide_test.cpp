@@ -1,5 +1,5 @@
 // Vertices that slide along the boundary: they never leave the input's, keep their order on it, deviate by no more than the bound, and
-// gain. All of it by plain geometry against the input's edges.
+// gain. All by plain geometry against the input's edges.
 
 #include <algorithm>
 #include <cmath>
@@ -52,7 +52,7 @@ double distance(Vec3 p, std::span<const Vec3> positions, const std::vector<Segme
   return least;
 }
 
-/// Maps a lattice on the unit square to something else.
+/// Maps a lattice on the unit square.
 Mesh bent(Index n, double jitter, std::uint64_t seed, Cells cells, Vec3 (*map)(Vec3)) {
   return mapped(lattice(n, jitter, seed, cells), map);
 }
@@ -106,7 +106,7 @@ std::vector<Specimen> specimens() {
   return all;
 }
 
-/// What holds whatever slides.
+/// Expects the properties of any sliding.
 void expect_on_the_boundary(const Specimen& specimen, const dmoscope::Run& run, const std::vector<Segment>& edges, double max_deviation) {
   const InputMesh& mesh = run.input();
   const std::span<const Vec3> before = mesh.mesh.positions, now = run.positions();
@@ -175,7 +175,7 @@ TEST(SlidingByOthers, KeepTheirPromisesAfterEveryIteration) {
   }
 }
 
-/// Of joint moves each cluster may move many that slide.
+/// Each cluster of joint moves may move many sliding vertices.
 TEST(SlidingTogether, KeepsItsPromisesAfterEveryCluster) {
   std::size_t moved = 0;
   for (const Specimen& specimen : specimens()) {
@@ -197,7 +197,7 @@ TEST(SlidingTogether, KeepsItsPromisesAfterEveryCluster) {
   EXPECT_GT(moved, 500U);
 }
 
-/// A square whose best is known: all vertices where a lattice has them. Those of its sides are moved along these, those inside anyhow.
+/// A square whose optimum is known: all vertices as in a lattice. Those of its sides are moved along these, those inside anywhere.
 TEST(SlidingTogether, FindsTheLattice) {
   for (const double scale : {1e-9, 1.0, 1e6}) {
     constexpr Index n = 6;
@@ -222,7 +222,7 @@ TEST(SlidingTogether, FindsTheLattice) {
   }
 }
 
-/// A boundary that turns by 15 degrees, where the best place of a vertex is the turn itself: sliding must end there, and know it.
+/// A boundary that turns by 15 degrees, with the turn as the best place of a vertex: sliding must end there, with a certificate.
 TEST(SlidingTogether, ACornerOfTheCurveHoldsAVertex) {
   const double slope = std::tan(7.5 * M_PI / 180.0);
   const auto on_roof = [slope](double x) { return Vec3{x, -slope * std::abs(x), 0}; };
@@ -256,7 +256,7 @@ TEST(SlidingTogether, ACornerOfTheCurveHoldsAVertex) {
   }
 }
 
-/// More than single vertices that slide reach, and more than joint moves with a boundary that stays.
+/// The result exceeds that of single sliding vertices, and that of joint moves with a fixed boundary.
 TEST(SlidingTogether, ReachesMoreThanEitherAlone) {
   const Mesh mesh = bent(14, 0.4, 41, Cells::Triangles, [](Vec3 p) { return Vec3{p.x, p.y + 0.1 * std::sin(5 * p.x), 0}; });
   const auto prepared = input(mesh);
@@ -317,7 +317,7 @@ INSTANTIATE_TEST_SUITE_P(Metrics, Sliding,
                            return name;
                          });
 
-/// What is bad at a boundary that stays gets good where it slides: its vertices crowd two by two.
+/// Elements that are bad at a fixed boundary become good if it slides: its vertices crowd two by two.
 TEST(SlidingGains, WhatTheBoundaryHolds) {
   Mesh mesh = lattice(8, 0.0, 3, Cells::Quadrilaterals);
   for (Index i = 1; i < 8; ++i) mesh.positions[i].x += (i % 2 == 0 ? -0.45 : 0.45) / 8;
@@ -351,7 +351,7 @@ TEST(SlidingInside, InterfacesStayWhereTheyAre) {
   for (const Specimen& specimen : all) {
     const auto mesh = input(specimen.mesh);
     const auto edges = boundary_edges(mesh->mesh, true);
-    std::vector<Segment> inner;  // of the group's edges, those that are not the mesh's boundary
+    std::vector<Segment> inner;  // edges of the group that are not the mesh's boundary
     for (const auto& edge : edges)
       if (mesh->topology.boundary()[edge.first] == 0 || mesh->topology.boundary()[edge.second] == 0) inner.push_back(edge);
     for (const auto& [boundary, method] : {std::pair{BoundaryRule::Fixed, "dmo"},
@@ -386,7 +386,8 @@ TEST(SlidingInside, InterfacesStayWhereTheyAre) {
   EXPECT_GT(moved, 50U);
 }
 
-/// The same bits by any number of threads and any instructions, in one go or in steps, after going back, and where others aim.
+/// Results have the same bits with any number of threads and any instructions, in one run or in steps, after going back, and with other
+/// aims.
 TEST(SlidingBits, AreTheSame) {
   for (const Specimen& specimen : specimens()) {
     const auto mesh = input(specimen.mesh);
@@ -423,7 +424,7 @@ TEST(SlidingBits, AreTheSame) {
   }
 }
 
-/// Where neighbours stand outside, on the wrong side of the boundary, elements would turn over if its vertices changed places.
+/// If neighbours are outside, on the wrong side of the boundary, elements would turn over if its vertices changed places.
 TEST(SlidingChoice, NobodyGoesPastANeighbour) {
   for (const std::uint64_t seed : {5U, 6U, 7U, 8U}) {
     Mesh mesh = lattice(9, 0.3, seed);
@@ -457,7 +458,7 @@ TEST(SlidingRefusals, AreSaid) {
   expect_refused(input(generate_mesh("globe", 300, 1, progress)), sliding_by(), "longitude");
 }
 
-/// Vertices that a person fixes stay, also on a curve, and the others slide between them.
+/// Vertices that the user fixes stay, also on a curve, and the others slide between them.
 TEST(SlidingChoice, AFixedVertexStays) {
   const auto mesh = input(lattice(8, 0.45, 4));
   RunParameters parameters = sliding_by();

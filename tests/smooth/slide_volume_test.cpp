@@ -1,5 +1,5 @@
-// Vertices that slide on the surface of a volume: they never leave the input's, keep their order along its feature edges, faces deviate by
-// no more than the bound and do not fold over. All of it by plain geometry against the input's faces.
+// Vertices that slide on the surface of a volume: they never leave the input's, keep their order along its feature edges, and faces deviate
+// by no more than the bound and do not fold over. All by plain geometry against the input's faces.
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,7 @@ using namespace testing;
 using test::Fill;
 using test::volume_grid;
 
-Vec3 rod(Vec3 p) {  // four sides become a cylinder's
+Vec3 rod(Vec3 p) {  // a block's four sides become a cylinder's
   const Vec3 q{2 * p.x - 1, 2 * p.y - 1, 0};
   const double most = std::max(std::abs(q.x), std::abs(q.y)), size = length(q);
   return size > 0.0 ? Vec3{most / size * q.x, most / size * q.y, 3 * p.z} : Vec3{0, 0, 3 * p.z};
@@ -32,7 +32,7 @@ Vec3 twisted(Vec3 p) {
 Vec3 uneven(Vec3 p) { return {p.x, p.y, p.z * p.z}; }
 Vec3 wavy(Vec3 p) { return {p.x, p.y, p.z + 0.08 * std::sin(7 * p.x) * std::cos(5 * p.y)}; }
 
-/// Blocks of which some share nothing, an edge or a vertex; or whose facing sides are 1e-6 apart.
+/// Two blocks that share nothing, an edge or a vertex; or whose facing sides are 1e-6 apart.
 Mesh two(Mesh mesh, Vec3 shift) {
   const auto count = static_cast<Index>(mesh.positions.size());
   const Mesh one = mesh;
@@ -44,7 +44,7 @@ Mesh two(Mesh mesh, Vec3 shift) {
   }
   return mesh;
 }
-/// Vertices at one place become one.
+/// Joins vertices at one place.
 Mesh joined(const Mesh& mesh) {
   Mesh result;
   std::map<std::array<double, 3>, Index> known;
@@ -123,12 +123,12 @@ TEST_P(SlidingInSpace, KeepsItsPromisesAfterEveryIteration) {
   EXPECT_GT(moved, kSanitized ? 100U : 400U);
 }
 
-/// Of joint moves each cluster may move many that slide.
+/// Each cluster of joint moves may move many sliding vertices.
 TEST(SlidingInSpaceTogether, KeepsItsPromisesAfterEveryCluster) {
   EXPECT_GT(expect_kept_by("joint", volume_specimens(), kSanitized ? 5 : 1, kSanitized ? 1 : 2), kSanitized ? 5U : 100U);
 }
 
-/// A box of hexahedra, crowded on its faces and edges: its best is known, and only if they slide it is reached.
+/// A box of hexahedra, crowded on its faces and edges: its optimum is known, and reached only by sliding.
 TEST(SlidingInSpaceTogether, FindsTheLattice) {
   constexpr Index n = 3;
   Mesh mesh;
@@ -170,7 +170,7 @@ INSTANTIATE_TEST_SUITE_P(Metrics, SlidingInSpace, ::testing::Values(Metric::Mean
                            return name;
                          });
 
-/// Rods whose worst elements touch the surface: held there, they stay as bad.
+/// Rods whose worst elements touch the surface: with a fixed surface they stay as bad.
 TEST(SlidingInSpaceGains, SweptRods) {
   for (const char* name : {"screw", "elbow"}) {
     Progress progress;
@@ -182,7 +182,7 @@ TEST(SlidingInSpaceGains, SweptRods) {
   }
 }
 
-/// Of a cube the sides are planes, which coordinates never leave by a bit.
+/// The sides of a cube are planes, which coordinates never leave by a bit.
 TEST(SlidingInSpaceExactly, ACubeStaysOne) {
   for (const Fill fill : {Fill::Hexahedra, Fill::Tetrahedra, Fill::Mixed}) {
     const Mesh start = shaken(volume_grid(5, fill, 0.4, 9), 0.09, 9);
@@ -198,7 +198,7 @@ TEST(SlidingInSpaceExactly, ACubeStaysOne) {
   }
 }
 
-/// What is bad at a surface that stays gets good where it slides.
+/// Elements that are bad at a fixed surface become good if it slides.
 TEST(SlidingInSpaceGains, WhatTheSurfaceHolds) {
   for (const Fill fill : {Fill::Hexahedra, Fill::Tetrahedra}) {
     const auto mesh = input(shaken(volume_grid(5, fill), 0.13, 4));
@@ -210,7 +210,7 @@ TEST(SlidingInSpaceGains, WhatTheSurfaceHolds) {
   }
 }
 
-/// A sphere's vertices stay on the facets of the input, so between the sphere that these are inscribed in and the one that they touch.
+/// A sphere's vertices stay on the facets of the input, hence between its circumscribed and its inscribed sphere.
 TEST(SlidingInSpaceAnalytic, ASphereKeepsItsRadius) {
   const Mesh start = mapped(shaken(volume_grid(6, Fill::Tetrahedra, 0.1, 2), 0.04, 2), ball);
   const auto mesh = input(start);
@@ -239,7 +239,7 @@ TEST(SlidingInSpaceInside, InterfacesStayWhereTheyAre) {
     for (Index e = 0; e < mesh.elements.size() / 2; ++e) lower.members.push_back(e);
     mesh.groups = {lower};
     dmoscope::testing::Random random(8);
-    for (Index v = 0; v < mesh.vertex_count(); ++v) {  // the middle layer lies on a plane, and is shaken there
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {  // the middle layer lies on a plane, and is jittered there
       if (v / ((n + 1) * (n + 1)) != n / 2) continue;
       Vec3& p = mesh.positions[v];
       p.z = 0.5;
@@ -265,7 +265,8 @@ TEST(SlidingInSpaceInside, InterfacesStayWhereTheyAre) {
   }
 }
 
-/// The same bits by any number of threads and any instructions, in one go or in steps, after going back, and where others aim.
+/// Results have the same bits with any number of threads and any instructions, in one run or in steps, after going back, and with other
+/// aims.
 TEST(SlidingInSpaceBits, AreTheSame) {
   const Index n = 3;
   for (const Fill fill : {Fill::Hexahedra, Fill::Tetrahedra, Fill::Mixed}) {

@@ -1,5 +1,5 @@
 #pragma once
-// Runs in which vertices slide, and what holds along curves.
+// Runs in which vertices slide, and properties of places along curves.
 
 #include "core/reference/domain.h"
 #include "tests/smooth/promises.h"
@@ -13,7 +13,7 @@ inline RunParameters sliding_by(double max_deviation = 1e-3) {
   return parameters;
 }
 
-/// Along every curve places rise strictly from one corner to the next, and around a closed one by its length.
+/// Expects places along every curve to rise strictly from one corner to the next, and around a closed one by its length.
 inline void expect_in_order(const Specimen& specimen, const dmoscope::Run& run) {
   const Curves& curves = run.domain()->curves();
   for (Index v = 0; v < run.positions().size(); ++v) {
@@ -27,7 +27,7 @@ inline void expect_in_order(const Specimen& specimen, const dmoscope::Run& run) 
   }
 }
 
-/// How many of those that slide stand elsewhere than in the input.
+/// Number of sliding vertices that have left their places in the input.
 inline std::size_t slid(const dmoscope::Run& run) {
   std::size_t moved = 0;
   const std::span<const Vec3> before = run.input().mesh.positions;

@@ -16,7 +16,7 @@
 namespace dmoscope {
 namespace {
 
-/// The other corners of each element of a vertex, in the element's order, element after element sorted.
+/// The other corners of each element of a vertex, in the element's order; elements are sorted.
 using Corners = std::vector<std::vector<Index>>;
 
 std::vector<Corners> stars_of(const Mesh& mesh) {
@@ -32,7 +32,7 @@ std::vector<Corners> stars_of(const Mesh& mesh) {
   return stars;
 }
 
-/// Do the elements close to one ring of triangles?
+/// Whether the elements form one closed ring of triangles.
 bool is_fan(const Corners& star) {
   std::map<Index, Index> next;
   for (const auto& corners : star)
@@ -43,7 +43,7 @@ bool is_fan(const Corners& star) {
   return seen.size() == star.size() && at == star[0][0];
 }
 
-/// The elements that a shape tells of, in the mesh's numbers.
+/// The elements that a shape describes, in the mesh's numbers.
 Corners told(const StarTable& table, const StarShape& shape) {
   const auto other = [&](std::size_t i) { return table.vertex_of_rank[table.others[shape.first + i]]; };
   const std::size_t n = shape.triangles;

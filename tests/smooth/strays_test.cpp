@@ -1,4 +1,4 @@
-// A vertex that stands far from its neighbours goes home first, and they wait for it.
+// Repair moves a vertex that is far from its neighbours first, and they wait for it.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ std::vector<Mesh> sound_meshes() {
           volume_grid(3, Fill::Mixed, 0.1)};
 }
 
-/// As far as a lost decimal point and as near as a wrong digit.
+/// Distances from a wrong digit to a lost decimal point.
 constexpr double kDistances[] = {1.5, 40.0, 1e3, 1e6};
 
 Mesh with_stray(Mesh mesh, Index vertex, double distance) {
@@ -35,7 +35,7 @@ Mesh with_stray(Mesh mesh, Index vertex, double distance) {
   return mesh;
 }
 
-/// The first iteration of a run. Returns whether the mesh was tangled and is sound now.
+/// Does the first iteration of a run. Returns whether the mesh was tangled and is sound now.
 bool expect_it_alone_goes_home(const std::shared_ptr<const InputMesh>& mesh, const RunParameters& parameters, Index stray,
                                const std::string& what) {
   dmoscope::Run run = make_run(mesh, parameters);
@@ -68,7 +68,7 @@ TEST(Strays, GoHomeInTheFirstIterationAndNoOtherVertexMoves) {
         }
     }
     EXPECT_GT(tried, 80U);
-    // Active-set ascends from where the vertex stands, and may end at a ridge.
+    // Active-set ascends from the vertex's place, and may end at a ridge.
     EXPECT_GE(home, parameters.method == "dmo" ? tried : tried * 3 / 4) << parameters.method;
   }
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What holds wherever vertices slide on a surface, measured by plain geometry against the input's faces.
+// Properties of any sliding on a surface, measured by plain geometry against the input's faces.
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 
 namespace dmoscope::testing {
 
-/// Moves the vertices on the sides of a block over the unit cube about on them, and those on its edges along these.
+/// Moves the vertices on the sides of a block over the unit cube within these, and those on its edges along these.
 inline Mesh shaken(Mesh mesh, double most, std::uint64_t seed) {
   dmoscope::testing::Random random(seed);
   for (Vec3& p : mesh.positions) {
@@ -28,7 +28,7 @@ inline Vec3 ball(Vec3 p) {  // the cube's surface becomes a sphere's
   return size > 0.0 ? (most / size) * q : q;
 }
 
-/// The surface of the input, and what the present one may do.
+/// The surface of the input, and the limits of the present one.
 class SurfaceJudge {
  public:
   SurfaceJudge(const Specimen& specimen, const InputMesh& mesh, double max_deviation)
@@ -41,7 +41,8 @@ class SurfaceJudge {
     bound_ = max_deviation * mesh.geometry.size + tolerance_;
   }
 
-  /// `rough`: the surface is, so that parts of the input between faces that do not meet edge to edge as seen from it may be farther away.
+  /// Expects vertices on the surface and faces near it. `rough`: the surface is, so that parts of the input between faces that do not meet
+  /// edge to edge as seen from it may be farther away.
   void expect_kept(const dmoscope::Run& run, bool rough = false) const {
     const std::span<const Vec3> now = run.positions();
     for (Index v = 0; v < now.size(); ++v) {
@@ -65,7 +66,7 @@ class SurfaceJudge {
   }
 
  private:
-  /// Faces whose middle does not look the same way as the input's nearest face; an input may have some itself.
+  /// Number of faces whose middle does not look the same way as the input's nearest face; an input may have some itself.
   [[nodiscard]] std::size_t folds(std::span<const Vec3> now) const {
     std::size_t count = 0;
     for (const auto& f : faces_) {
@@ -85,9 +86,9 @@ class SurfaceJudge {
     return count;
   }
 
-  /// Does the input fold back on itself along an edge, so that the facet nearest to a point may be one of another sheet?
+  /// Whether the input folds back on itself along an edge, so that the facet nearest to a point may be one of another sheet.
   [[nodiscard]] bool folds_back() const {
-    std::map<std::pair<Index, Index>, Vec3> normals;  // by the edge as one face runs it
+    std::map<std::pair<Index, Index>, Vec3> normals;  // by the edge in one face's direction
     for (const auto& [a, b, c] : facets_)
       for (const auto& [from, to] : {std::pair(a, b), {b, c}, {c, a}})
         normals[{from, to}] = unit(cross(before_[b] - before_[a], before_[c] - before_[a]));
@@ -106,8 +107,8 @@ class SurfaceJudge {
   bool is_folded_;
 };
 
-/// Whatever a method does with the elements: vertices stay on the surface, and faces near it; those that optimise worsen no star. Of some
-/// of the meshes, by a method that is not dmo; returns how many vertices slid.
+/// Expects a method to keep vertices on the surface, and faces near it; those that optimise worsen no star. Uses some of the meshes, by a
+/// method other than dmo; returns how many vertices slid.
 inline std::size_t expect_kept_by(const char* method, const std::vector<Specimen>& all, std::size_t step, std::uint64_t iterations) {
   std::size_t moved = 0;
   for (std::size_t i = 0; i < all.size(); i += step) {

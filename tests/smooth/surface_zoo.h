@@ -10,7 +10,7 @@
 
 namespace dmoscope::testing {
 
-/// The boundary of a volume as a mesh of its own; quadrilaterals as they are, or every other one, or all of them split.
+/// The boundary of a volume as a mesh of its own; quadrilaterals whole, or every other one, or all of them split.
 inline Mesh skin(const Mesh& volume, Cells cells) {
   Mesh mesh;
   std::vector<Index> now(volume.vertex_count(), kNoIndex);

@@ -1,5 +1,5 @@
 #pragma once
-// Small meshes tangled in every way that people's are: jolted, folded, with one number wrong, with swapped coordinates, turned inside out,
+// Small meshes tangled in every way that real ones are: jolted, folded, with one number wrong, with swapped coordinates, turned inside out,
 // with fixed vertices that make untangling impossible.
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// The fast search against targets: what its forms are worth against the statistics' own formulas, what it finds against a look at every
+// The fast search against targets: the values of its forms against the statistics' own formulas, its choice against a search of every
 // candidate, and the program's promises.
 
 #include <algorithm>
@@ -32,7 +32,7 @@
 namespace dmoscope::testing {
 namespace {
 
-/// As they were, with averages and with a tolerance, which makes them steep; along a direction, which makes them crossed.
+/// Targets of the input, with averages and with a tolerance, which makes them steep; and along a direction, which makes them crossed.
 constexpr std::array kPlanar{"mean-ratio@input", "mean-ratio@input:2", "mean-ratio@input:1:20%", "mean-ratio@aspect:3:30"};
 constexpr std::array kSolid{"mean-ratio@input:2", "mean-ratio@input:1:20%", "mean-ratio@aspect:2:1:2:3"};
 
@@ -49,7 +49,7 @@ std::vector<Specimen> planar_specimens() {
   add("stars", mixed_stars());
   return all;
 }
-/// Stretched so far that only the statistics' formulas tell what is gained.
+/// Meshes stretched so far that only the statistics' formulas tell a gain.
 std::vector<Specimen> needles() {
   std::vector<Specimen> all;
   for (const double stretch : {1e5, 1e7, 1e8})
@@ -69,7 +69,7 @@ std::vector<Specimen> solid_specimens() {
   return all;
 }
 
-/// Tetrahedra likewise, along no axis.
+/// Tetrahedra stretched as far, along no axis.
 std::vector<Specimen> solid_needles() {
   std::vector<Specimen> all;
   const Vec3 u{0.36, 0.48, 0.8}, v{-0.8, 0.6, 0.0}, w{-0.48, -0.64, 0.6};
@@ -85,7 +85,7 @@ std::shared_ptr<const InputMesh> generated(const std::string& words) {
   return generate_input(words, progress);
 }
 
-/// What the forms make of the star of a vertex at a few places, as the lanes judge it, against the statistics.
+/// Compares the forms' values of the star of a vertex at a few places, as the lanes judge it, with the statistics.
 template <bool Crossed>
 void expect_star_quality(const InputMesh& mesh, const DefinedJudge& judge, Index vertex, std::mt19937& random) {
   std::vector<Index> others;
@@ -115,12 +115,12 @@ void expect_star_quality(const InputMesh& mesh, const DefinedJudge& judge, Index
   for (int k = 0; k < 5; ++k) {
     const Vec2<double> wished = k == 0 ? Vec2<double>{} : Vec2<double>{reach * part(random), reach * part(random)};
     const Vec3 there = here + star_judge.mesh.frame.lift(wished);
-    const Vec2<double> p = star_judge.mesh.frame.offset(there, here);  // as stored
+    const Vec2<double> p = star_judge.mesh.frame.offset(there, here);  // the stored place
     const StarState state = defined_star_state(star_judge, mesh.mesh.positions, vertex, there);
     const double got = target_star::quality<Crossed>(star, p, target);
-    if (state.jacobian > 0.0 && state.quality > 0.0 && state.quality < 1e-8) continue;  // as good as inverted to the search
+    if (state.jacobian > 0.0 && state.quality > 0.0 && state.quality < 1e-8) continue;  // practically inverted for the search
     if (state.jacobian > 0.0) {
-      EXPECT_NEAR(got, state.quality, room) << "vertex " << vertex;  // what the search relies on
+      EXPECT_NEAR(got, state.quality, room) << "vertex " << vertex;  // the accuracy that the search relies on
     } else {
       EXPECT_LT(got, -1e20) << "vertex " << vertex;
     }
@@ -186,7 +186,7 @@ TEST(TargetKernels, JudgeTetrahedraAsTheStatisticsDo) {
     }
 }
 
-/// Level by level, by the statistics' values of the candidates: the one that was chosen is as good as the best, but for floats.
+/// Expects the chosen candidate of each level to be as good as the best, by the statistics' values, but for floats.
 template <class Frame, class Trace>
 void expect_best_of_levels(const InputMesh& mesh, const Trace& trace) {
   const auto judge = mesh.quality_context().judge(trace.metric);
@@ -205,7 +205,7 @@ void expect_best_of_levels(const InputMesh& mesh, const Trace& trace) {
   }
 }
 
-/// Is the vertex's star the kernel's, and not the formula's?
+/// Whether the vertex's star belongs to the kernel, and not to the formula.
 bool is_of_lanes(const InputMesh& mesh, Metric metric, Index vertex) {
   const SingleVertexTask task(mesh, mesh.mesh.positions, {}, vertex);
   if (task.shapes->kind == StarShape::Kind::Alone) return false;
@@ -247,7 +247,7 @@ TEST(TargetKernels, FindTheBestCandidate) {
       }
     }
   for (const Specimen& specimen : solid_specimens())
-    for (const char* metric : {kSolid[0], kSolid[2]}) {  // steep ones are the formula's
+    for (const char* metric : {kSolid[0], kSolid[2]}) {  // steep ones are left to the formula
       SCOPED_TRACE(std::string(metric) + " on " + specimen.name);
       const auto mesh = input(specimen.mesh);
       const TetrahedronTargets targets(mesh->quality_context().judge(parse_metric(metric))->targets(), mesh->mesh);
@@ -285,7 +285,7 @@ TEST(TargetKernels, KeepTheFirstPromise) {
     for (const char* metric : kSolid) keep(specimen, metric);
 }
 
-/// Where a target stretches so far that rounding is more than what a visit gains, the statistics decide. Fine grids look for little gains.
+/// If a target stretches so far that rounding exceeds the gain of a visit, the statistics decide. Fine grids find small gains.
 TEST(TargetKernels, KeepTheFirstPromiseOfNeedles) {
   for (const Specimen& specimen : needles())
     for (const char* metric : {"mean-ratio@input:3", "mean-ratio@aspect:1e6:30"}) {
@@ -310,7 +310,7 @@ TEST(TargetKernels, KeepTheFirstPromiseOfSolidNeedles) {
     }
 }
 
-/// Along no axis and far stretched, where the search in floats found next to nothing: as good as in double.
+/// Meshes far stretched along no axis, for which the search in floats found next to nothing: as good as in double.
 TEST(TargetKernels, SmoothSolidNeedlesAsInDouble) {
   for (const Specimen& specimen : solid_needles()) {
     SCOPED_TRACE(specimen.name);
@@ -328,7 +328,7 @@ TEST(TargetKernels, SmoothSolidNeedlesAsInDouble) {
   }
 }
 
-/// Along a direction and far stretched: as good as by the formula of the same metric, which knows nothing of forms.
+/// Meshes far stretched along a direction: as good as by the formula of the same metric, which has no forms.
 TEST(TargetKernels, SmoothFarStretchedMeshesLikeTheFormula) {
   for (const double stretch : {1e2, 1e4, 1e6})
     for (const double degrees : {0.0, 30.0, 45.0}) {
@@ -359,7 +359,7 @@ TEST(TargetKernels, HaveTheSameBitsForAnyThreadsAndInstructions) {
       return std::vector<Vec3>(run.positions().begin(), run.positions().end());
     };
     const auto expected = smoothed({}, 1);
-    if (std::string(metric) != "mean-ratio@input") {  // by which all is at its best
+    if (std::string(metric) != "mean-ratio@input") {  // the optimum by this metric
       EXPECT_FALSE(same_bits(expected, std::span<const Vec3>(mesh->mesh.positions)));
     }
     for (const SimdLevel level : supported_simd_levels()) EXPECT_TRUE(same_bits(expected, smoothed(level, 3))) << name(level);
@@ -393,12 +393,12 @@ TEST(TargetKernels, LooksIntoVisitsShowWhatTheyDo) {
     }
 }
 
-/// How many stars the search for the mean was compared on, and took.
+/// Number of stars on which the search for the mean was compared, and of those that it took.
 struct MeanSearches {
   int stars = 0, taken = 0, moved = 0, told = 0;
 };
-/// By any instructions it finds what a look at all candidates by the statistics' formulas finds, to the bit, and tells of two places what
-/// these tell.
+/// Compares the search, by any instructions, with a search of all candidates by the statistics' formulas, to the bit, and its comparison of
+/// two places with theirs.
 template <class Frame>
 void expect_plain_winner_of_mean(const std::shared_ptr<const InputMesh>& mesh, const CompositeObjective& mean, MeanSearches& count) {
   std::vector<std::unique_ptr<TargetCompositeKernel<Frame>>> searches;
@@ -469,7 +469,7 @@ TEST(TargetKernels, RaiseTheMeanAsThePlainSearchDoes) {
   expect(solid_needles(), std::array{kSolid[0], kSolid[2]}, true);
 }
 
-/// A target that is no other than the ideal element, though it goes through all of the arithmetic.
+/// A target equal to the ideal element, though it goes through all of the arithmetic.
 TEST(TargetKernels, TakeTheCourseOfTheIdealElementWhereThatIsTheTarget) {
   for (const auto& [words, metric] : {std::pair("random 500", "mean-ratio@aspect:1:0"), std::pair("mixed 500", "mean-ratio@aspect:1:20"),
                                       std::pair("tetrahedra 300", "mean-ratio@aspect:1:1:0:0")}) {

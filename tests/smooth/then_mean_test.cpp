@@ -1,4 +1,4 @@
-// Two smoothers in one: going from a phase to the other either way, nothing that one has done is lost to the other.
+// Two smoothers in one: on the way from a phase to the other and back, no change by one is lost to the other.
 
 #include "core/smooth/methods/then_mean.h"
 
@@ -39,7 +39,7 @@ TEST_P(Phases, FollowEachOtherEitherWay) {
   };
   const std::vector<Stretch> path{{{0}, 0, whole},      {{1, 0.3}, 0, whole}, {{2}, 0, half},     {{2, 0.4}, half, whole - half},
                                   {{3, 0.4}, 0, whole}, {{4}, 0, whole},      {{5, 0.4}, 0, half}};
-  // One is left alone; the other is brought up to date and forgets all it knows after every stretch.
+  // One is left alone; the other is brought up to date and forgets all its state after every stretch.
   const auto alone = make_smoother(task), forgetful = make_smoother(task);
   std::vector<Vec3> a = input->mesh.positions, b = a;
   for (const auto& [sweep, first, count] : path) {
@@ -54,7 +54,7 @@ TEST_P(Phases, FollowEachOtherEitherWay) {
   EXPECT_NE(std::memcmp(a.data(), input->mesh.positions.data(), a.size() * sizeof(Vec3)), 0);
 }
 
-/// While the floor stays, vertices whose stars rest are not visited again; what a person or another floor changes wakes them.
+/// While the floor stays, vertices whose stars rest are not visited again; changes by the user or another floor wake them.
 TEST(ThenMean, WhoSleepsIsNotMissed) {
   const auto input = testing::input(testing::lattice(12, 0.3, 4));
   SmoothingTask task;

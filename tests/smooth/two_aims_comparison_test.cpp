@@ -1,4 +1,4 @@
-// What the search's formulas tell of a move is believed only where rounding cannot decide.
+// The search's formulas decide about a move only if rounding cannot.
 
 #include <gtest/gtest.h>
 

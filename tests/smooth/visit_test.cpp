@@ -1,4 +1,4 @@
-// Every method with every objective on every kind of place: what each mix must do, whatever it is made of.
+// Every method with every objective on every kind of place: properties of each combination.
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +24,7 @@ std::shared_ptr<const InputMesh> sample(std::string_view kind, std::size_t size)
   return input(generate_mesh(kind, size, 3, progress));
 }
 
-/// The least of a metric and its mean, and how many elements are inverted.
+/// The least and the mean of a metric, and the number of inverted elements.
 Statistics judged(const InputMesh& mesh, std::span<const Vec3> positions, Metric metric) {
   return compute_statistics(mesh.quality_context(), positions, metric, std::span<const Index>(), nullptr);
 }
@@ -32,7 +32,8 @@ Statistics judged(const InputMesh& mesh, std::span<const Vec3> positions, Metric
 constexpr const char* kOptimisers[] = {"dmo", "smart-laplace", "dvr", "pattern-search", "active-set"};
 constexpr const char* kSamples[] = {"random", "quads", "mixed", "can", "tetrahedra", "hexahedra", "solids"};
 
-/// No visit lowers its star's first metric below what it was or the threshold, nor the second where the first is beyond it and stays.
+/// No visit lowers its star's first metric below its old value or the threshold, nor the second if the first is beyond the threshold and
+/// stays.
 TEST(TwoAims, NoVisitOfAnyMethodGivesUpTheFirst) {
   constexpr double kThreshold = 0.45;
   constexpr Metric kFirst = Metric::MeanRatio, kSecond = Metric::ScaledJacobian;
@@ -69,7 +70,7 @@ TEST(TwoAims, NoVisitOfAnyMethodGivesUpTheFirst) {
       }
 }
 
-/// Then the mean: neither least falls.
+/// A mean phase follows: neither least falls.
 TEST(TwoAims, TheMeanPhaseKeepsBothMinima) {
   constexpr Metric kSecond = Metric::ScaledJacobian;
   Progress progress;
@@ -100,7 +101,7 @@ TEST(TwoAims, TheMeanWouldUndoADensity) {
   EXPECT_THROW((void)make_run(sample("random", 60), parameters), UsageError);
 }
 
-/// All that is refused is written down for users, word by word.
+/// All refusals are documented for users, word by word.
 TEST(Refusals, StandInTheManual) {
   std::ifstream file(std::string(DMOSCOPE_SOURCE_DIR) + "/docs/user/methods.md");
   const std::string manual{std::istreambuf_iterator<char>(file), {}};
@@ -116,7 +117,7 @@ TEST(Refusals, StandInTheManual) {
   }
 }
 
-/// On the line through a vertex: as good as the best of a look at ten thousand places.
+/// The place on the line through a vertex is as good as the best of ten thousand places.
 TEST(Dvr, ComesNearTheBestPlaceOnTheLineByAnyMetric) {
   const auto mesh = input(lattice(6, 0.3, 8));
   Progress progress;
@@ -149,7 +150,7 @@ Mesh wheel_mesh(testing::Random& random) {
   for (Index k = 0; k < 6; ++k) testing::add(mesh, {0, k + 1, (k + 1) % 6 + 1});
   return mesh;
 }
-/// The least metric of the elements with the hub where it is best, by a look everywhere, finer and finer around the best place so far.
+/// The least metric of the elements with the hub at its best place, found by a search everywhere, finer and finer around the best so far.
 double best_of_wheel(const InputMesh& mesh, Metric metric) {
   std::vector<Vec3> positions = mesh.mesh.positions;
   Vec3 best = positions[0];
@@ -166,7 +167,7 @@ double best_of_wheel(const InputMesh& mesh, Metric metric) {
   return most;
 }
 
-/// By the built-in metric and by its formula.
+/// The built-in metric and its formula.
 TEST(ActiveSet, ReachesTheBestPlaceOfAStar) {
   testing::Random random(5);
   Progress progress;
@@ -188,7 +189,7 @@ TEST(ActiveSet, ReachesTheBestPlaceOfAStar) {
   }
 }
 
-/// How the least changes with the vertex, found by two places next to each other, is among how its pieces say that they do.
+/// Expects the change of the least with the vertex, by two neighbouring places, to agree with its pieces' derivatives.
 template <class Frame>
 void expect_slopes(const InputMesh& mesh, Metric metric, int& compared) {
   const StarJudge<Frame> judge(mesh, single_objective(metric));
@@ -210,7 +211,7 @@ void expect_slopes(const InputMesh& mesh, Metric metric, int& compared) {
       else
         next = std::min(next, piece.value);
     }
-    if (lowest == nullptr || next - least < 1e-3) continue;  // at a kink both sides differ
+    if (lowest == nullptr || next - least < 1e-3) continue;  // both sides differ at a kink
     const double here = score({});
     if (here > least + 1e-9) continue;  // a corner elsewhere is the least
     EXPECT_NEAR(here, least, 1e-9);

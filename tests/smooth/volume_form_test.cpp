@@ -1,4 +1,4 @@
-// The forms that the fast search has instead of elements are worth what the elements are, wherever the vertex stands.
+// The forms that replace elements in the fast search have the elements' values, at any place of the vertex.
 
 #include "core/smooth/kernels/volume_form.h"
 

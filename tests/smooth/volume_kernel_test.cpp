@@ -1,5 +1,5 @@
-// The fast search of a volume's star finds the very candidate that a look at all of them finds, whatever the star, the grid and the
-// processor; and stars laid out by indices are those of the mesh.
+// The fast search of a volume's star finds the candidate of a search of all of them, for any star, grid and processor; and stars stored by
+// indices are those of the mesh.
 
 #include <algorithm>
 #include <array>
@@ -52,7 +52,7 @@ class Sample {
       volumes::for_corner_forms(element.with(Point{}), element.kMoving, [this](const Form& form) { forms.push_back(form); });
     }
   }
-  /// The places of the others times `by`, and then each moved by up to `jolt` of its distance.
+  /// A sample with the places of the others times `by`, each then moved by up to `jolt` of its distance.
   [[nodiscard]] static Sample octants(dmoscope::Random& random, Vec3 by, double jolt, std::string_view kinds) {
     Sample sample;
     const auto jolted = [&](Vec3 corner) {
@@ -111,7 +111,7 @@ class Sample {
   std::vector<std::uint16_t> all_;
 };
 
-/// By a look at all candidates, one after the other.
+/// Searches all candidates, one after the other.
 VolumeFound search_all(const Sample& sample, const VolumeSearch& task) {
   VolumeFound found;
   float best = sample.rank({});
@@ -168,7 +168,7 @@ TEST(VolumeKernel, FindsItOnGridsOfAnySize) {
       }
 }
 TEST(VolumeKernel, FindsTheFirstOfManyThatAreEquallyGood) {
-  // The vertex stands off the middle of a star that is the same from all sides: four candidates beside the axis to the middle are alike.
+  // The vertex is off the middle of a star that is the same from all sides: four candidates beside the axis to the middle are alike.
   dmoscope::Random random(9);
   for (const int grid : {2, 4, 8}) {
     const Sample sample = Sample::octants(random, {1, 1, 1}, 0.0, "t");
@@ -189,7 +189,7 @@ TEST(VolumeKernel, LeavesStarsToThePlainSearchThatAreInvertedOrNearlyFlat) {
       EXPECT_FALSE(kernels(level).volume(Metric::MeanRatio).search(sample->search(8, 3, 0.5)).ready);
 }
 
-/// What VolumeKernel's least_ranks() tells, from the mesh's own elements.
+/// The least ranks of VolumeKernel, from the mesh's own elements.
 template <Metric M>
 double least_rank(const InputMesh& input, Index vertex, Vec3 place) {
   VolumeStar<double> star;

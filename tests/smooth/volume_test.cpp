@@ -1,4 +1,4 @@
-// Volumes: the promises on every kind of element, by every method that smooths them, and what must come of real meshes.
+// Volumes: the promises on every kind of element, by every method that smooths them, and results on real meshes.
 
 #include <gtest/gtest.h>
 
@@ -70,7 +70,8 @@ INSTANTIATE_TEST_SUITE_P(Volumes, VolumePromises, ::testing::Values("dmo", "smar
                            return text;
                          });
 
-/// A regular octahedron or icosahedron of which every face and the hub, displaced from the middle, make a tetrahedron; the hub is the last.
+/// A regular octahedron or icosahedron, each of whose faces makes a tetrahedron with the hub, displaced from the middle; the hub is the
+/// last.
 Mesh star_of_tetrahedra(bool icosahedron, Vec3 hub) {
   const double golden = 0.5 * (1.0 + std::sqrt(5.0));
   std::vector<Vec3> rim;
@@ -106,7 +107,7 @@ TEST(Volume, TheHubOfARegularStarGoesBackToItsMiddle) {
     for (const Metric metric : {Metric::MeanRatio, Metric::RadiusRatio, Metric::Condition}) {
       dmoscope::Run ascent = make_run(mesh, {.method = "active-set", .metric = metric});
       ascent.iterate(10, progress);
-      // What is within 3e-5 of the least counts as the least.
+      // Values within 3e-5 of the least count as the least.
       EXPECT_LT(length(ascent.positions()[hub]), 1e-3) << icosahedron << ' ' << info(metric).name;
     }
     for (const Directions directions : {Directions::Random, Directions::Axes}) {
@@ -117,7 +118,7 @@ TEST(Volume, TheHubOfARegularStarGoesBackToItsMiddle) {
   }
 }
 
-/// Eight hexahedra about a vertex; the outermost corner of one is the worst of all, and nothing that moves can mend it.
+/// Eight hexahedra about a vertex; the outermost corner of one is the worst of all, and no move can mend it.
 TEST(Volume, ACornerThatAVertexDoesNotChangeDoesNotHoldIt) {
   Mesh mesh = test::volume_grid(2, test::Fill::Hexahedra);
   const Index hub = 13, across = 26;
@@ -130,12 +131,12 @@ TEST(Volume, ACornerThatAVertexDoesNotChangeDoesNotHoldIt) {
   for (const char* method : {"dmo", "smart-laplace", "pattern-search", "dvr", "active-set"})
     for (const Metric metric : {Metric::MeanRatio, Metric::ScaledJacobian, Metric::Condition})
       for (const Precision precision : {Precision::Float, Precision::Double}) {
-        if (method == std::string_view("dvr") && metric != Metric::MeanRatio) continue;  // it has no other
+        if (method == std::string_view("dvr") && metric != Metric::MeanRatio) continue;  // dvr has the mean ratio alone
         dmoscope::Run run = make_run(mesh_input, {.method = method, .metric = metric, .search = {.precision = precision}});
         const double before = run.statistics().minimum;
         Progress progress;
         run.iterate(60, progress);
-        // Where it changes all eight corners alike.
+        // All eight corners change alike.
         EXPECT_LT(length(run.positions()[hub] - middle), 0.01) << method << ' ' << info(metric).name;
         EXPECT_EQ(run.statistics().minimum, before);
       }
@@ -180,8 +181,8 @@ TEST(Volume, LaplaceInABlockOfHexahedraLooksAlongTheEdges) {
   EXPECT_LT(length(run.positions()[hub] - mean), 1e-15);
 }
 
-/// What places on a line are worth to the vertex at 0. Of a tangled star the least Jacobian must not fall, and what untangles rises; where
-/// there is a sound place anywhere on the line, only sound ones count.
+/// Values of places on a line for the vertex at 0. The least Jacobian of a tangled star must not fall, and rises if it untangles; if there
+/// is a sound place anywhere on the line, only sound ones count.
 class LineOfPlaces {
  public:
   LineOfPlaces(const InputMesh& mesh, std::vector<Vec3> positions, Index hub, Vec3 d)
@@ -215,12 +216,12 @@ class LineOfPlaces {
   bool sound_ = false;
 };
 
-/// What visits of dvr to tangled stars came to.
+/// Results of visits of dvr to tangled stars.
 struct OnLines {
   std::size_t made_sound = 0, less_tangled = 0, refused = 0;
 };
 
-/// The next visits of dvr, of the first class.
+/// Makes the next visits of dvr, of the first class, and expects the best places on their lines.
 void expect_best_on_lines(dmoscope::Run& run, const std::string& what, OnLines& count) {
   const bool repair = run.sweep().untangling.repair;
   const Vec3 d = volume_dvr_direction(run.parameters().options, run.moment().iteration);
@@ -231,7 +232,7 @@ void expect_best_on_lines(dmoscope::Run& run, const std::string& what, OnLines& 
     run.step(StepUnit::Vertex, progress);
     const Vec3 way = run.positions()[hub] - old;
     EXPECT_LT(length(cross(way, d)), 1e-14) << what << ": off the line";
-    if (repair && !line.is_tangled()) {  // it waits
+    if (repair && !line.is_tangled()) {  // waits for the repair
       EXPECT_EQ(way, Vec3{}) << what;
       continue;
     }
@@ -307,7 +308,7 @@ TEST(Volume, SameBitsForAnyThreadsWhereClassesAreLarge) {
   }
 }
 
-/// Over all corners of all elements, by the elements themselves.
+/// Least value over all corners of all elements, from the elements themselves.
 double least_normalised_jacobian(const InputMesh& mesh, std::span<const Vec3> positions) {
   double least = HUGE_VAL;
   for (Index e = 0; e < mesh.mesh.elements.size(); ++e)
@@ -371,8 +372,8 @@ TEST(Volume, SameBitsForAnyInstructions) {
   }
 }
 
-/// The fast search in float against the plain one in double: vertex by vertex from the same positions, the same candidate but for ties
-/// within rounding.
+/// Compares the fast search in float with the plain one in double: vertex by vertex from the same positions, the same candidate but for
+/// ties within rounding.
 TEST(Volume, TheFastSearchFindsWhatThePlainOneFinds) {
   for (const Specimen& specimen : volumes()) {
     const auto mesh = input(specimen.mesh);
@@ -417,10 +418,9 @@ TEST(Volume, ACubeOfHexahedraBecomesPerfectWithTheSecondPhase) {
   EXPECT_GT(run.statistics().minimum, 0.99) << "the lattice it was made from is worth 1";
 }
 
-/// Units of length that are no powers of two: nothing but rounding may differ.
-/// Smoothed, and smoothed in other units: the same shape.
+/// Expects the same shape after smoothing in other units of length, which are no powers of two, but for rounding.
 void expect_same_shape_in_any_unit(Mesh mesh, std::uint64_t iterations, const std::string& name) {
-  mesh.single_precision = false;  // floats round otherwise in other units
+  mesh.single_precision = false;  // floats round differently in other units
   Progress progress;
   const auto smooth = [&](double scale) {
     Mesh scaled = mesh;
@@ -452,7 +452,7 @@ TEST(Volume, WhatIsForPlanarMeshesAloneIsRefused) {
   EXPECT_THROW(make_run(mesh, {.metric = Metric::Rectangularity}), UsageError);
 }
 
-/// A real mesh, smoothed.
+/// Statistics of a real mesh, smoothed.
 Statistics smoothed(const char* file, std::uint64_t iterations, bool then_mean = false) {
   const std::filesystem::path path = std::filesystem::path(DMOSCOPE_SHARED_DIR) / "meshes" / file;
   Progress progress;

@@ -1,6 +1,6 @@
 #pragma once
-// Meshes for the smoothing tests whose stars have every form that the lanes treat in a way of their own, and places and sizes that are
-// hard on floats.
+// Meshes for the smoothing tests whose stars have every form that the lanes treat differently, and places and sizes that are hard for
+// floats.
 
 #include <cmath>
 #include <string>
@@ -12,8 +12,8 @@
 
 namespace dmoscope::testing {
 
-/// Stars side by side, each around a free hub that stands beside its middle. `sectors[i]`: of star i, 3 for a triangle and 4 for a
-/// quadrilateral each, counter-clockwise. With `layers` every hub has as many such stars, which share nothing but the hub.
+/// Stars side by side, each around a free hub beside its middle. `sectors[i]`: of star i, 3 for a triangle and 4 for a quadrilateral each,
+/// counter-clockwise. With `layers` every hub has as many such stars, which share nothing but the hub.
 inline Mesh stars(const std::vector<std::vector<int>>& sectors, std::uint64_t seed, int layers = 1) {
   Mesh mesh;
   mesh.name = "stars";
@@ -114,7 +114,7 @@ struct Specimen {
   SearchParameters search{};
 };
 
-/// All of the above, and lattices in all sorts of places.
+/// All meshes above, and lattices in many places.
 inline std::vector<Specimen> zoo() {
   std::vector<Specimen> all;
   const char* const names[] = {"triangles", "quadrilaterals", "mixed"};
@@ -148,7 +148,7 @@ inline std::vector<Specimen> zoo() {
   return all;
 }
 
-/// Is the metric defined for all elements of the mesh?
+/// Whether the metric is defined for all elements of the mesh.
 inline bool defined_for_all(Metric metric, const Mesh& mesh) {
   for (const ElementKind kind : mesh.elements.kinds())
     if (!info(metric).defined_for(kind)) return false;

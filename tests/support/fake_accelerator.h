@@ -1,5 +1,5 @@
 #pragma once
-// A device that is none: the CPU's smoother on positions of its own, which counts what it is asked and fails when told to.
+// A simulated device: the CPU's smoother on positions of its own, which counts its calls and fails when told to.
 
 #include <algorithm>
 #include <chrono>
@@ -16,7 +16,7 @@
 
 namespace dmoscope::testing {
 
-/// What the device is asked, and when it fails; 0: never.
+/// Calls of the device, and the numbers of calls that fail; 0: none.
 struct FakeDevice {
   std::uint64_t visits = 0, stores = 0, statistics = 0;  // calls
   std::uint64_t fail_at_visit = 0, fail_at_store = 0;    // counted from 1; all calls after it fail too
@@ -24,7 +24,7 @@ struct FakeDevice {
   bool has_statistics = true;
   std::chrono::milliseconds store_takes{0};
   std::function<void()> after_visit{};
-  std::shared_ptr<FakePictureDevice> pictures{};  // its side that is drawn; none: it gives no pictures
+  std::shared_ptr<FakePictureDevice> pictures{};  // for its pictures; none: it gives no pictures
 };
 
 class FakeSmoother final : public Smoother {

@@ -1,5 +1,5 @@
 #pragma once
-// A "device" whose memory is the host's, with switches that make it fail and counters of what was asked of it.
+// A "device" whose memory is the host's, with switches that make it fail and counters of its calls.
 
 #include <cmath>
 #include <functional>
@@ -94,7 +94,7 @@ class FakePicture final : public DevicePicture {
   ElementSummary summary_;
 };
 
-/// What was said of every vertex and element in `whole`, moved to the device.
+/// A frame with all values of every vertex and element in `whole`, moved to the device.
 inline std::shared_ptr<Frame> light_frame(const Frame& whole, const std::shared_ptr<FakePictureDevice>& device) {
   auto light = std::make_shared<Frame>(whole);
   light->device = std::make_shared<FakePicture>(device, whole.input, whole.positions, whole.shown);

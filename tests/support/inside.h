@@ -1,5 +1,5 @@
 #pragma once
-// The Jacobian determinant inside elements, by places: written down apart from the program's own.
+// The Jacobian determinant inside elements, at given places: implemented apart from the program's.
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,8 @@
 
 namespace dmoscope::test {
 
-/// Its least value at 9^3 places of a hexahedron or wedge, or as many as there are parts, corners among them; +infinity for other kinds.
+/// The least determinant at 9^3 places of a hexahedron or wedge, or as many as there are parts, corners among them; +infinity for other
+/// kinds.
 inline double least_inside(ElementKind kind, std::span<const Index> v, std::span<const Vec3> at, int parts = 8) {
   double least = HUGE_VAL;
   const auto p = [&](std::size_t i) { return at[v[i]]; };
@@ -39,7 +40,7 @@ inline double least_inside(ElementKind kind, std::span<const Index> v, std::span
   return least;
 }
 
-/// The elements that have a place among these where it is not positive.
+/// The number of elements with a place among these where the determinant is not positive.
 inline Index inverted_inside(const Mesh& mesh, std::span<const Vec3> at) {
   Index count = 0;
   for (Index e = 0; e < mesh.elements.size(); ++e)
@@ -47,8 +48,7 @@ inline Index inverted_inside(const Mesh& mesh, std::span<const Vec3> at) {
   return count;
 }
 
-/// n^3 cells of a block that is turned along its axis, jittered by as much as leaves all elements valid, so that many are near to not
-/// being.
+/// n^3 cells of a block that is turned along its axis, jittered as far as all elements stay valid, so that many are nearly invalid.
 inline Mesh twisted_block(Index n, Fill fill, unsigned seed) {
   for (double jitter = 0.42;; jitter *= 0.95) {
     Mesh mesh = volume_grid(n, fill, jitter, seed);
@@ -59,14 +59,14 @@ inline Mesh twisted_block(Index n, Fill fill, unsigned seed) {
     bool valid = true;
     for (Index e = 0; e < mesh.elements.size(); ++e) {
       const double least = least_inside(mesh.elements.kind(e), mesh.elements.corners(e), mesh.positions);
-      valid = valid && least > 1e-4 / (n * n * n);  // so that it is between these places, too
+      valid = valid && least > 1e-4 / (n * n * n);  // so that it is positive between these places, too
     }
     if (valid) return mesh;
   }
 }
 
-/// Hexahedra of a block whose cells are counted by i, j and k, at places of (u, v, w) in the unit cube; along u it may close to a ring. Its
-/// inner vertices are moved by up to `jitter`, the same way for the same seed.
+/// Hexahedra of a block whose cells are counted by i, j and k, with vertices at place(u, v, w) for the unit cube; along u it may close to a
+/// ring. Its inner vertices are moved by up to `jitter`, the same way for the same seed.
 template <class Place>
 Mesh bent_block(std::array<Index, 3> cells, bool ring, const Place& place, double jitter, unsigned seed) {
   Mesh mesh;
@@ -103,7 +103,7 @@ inline Mesh crushed_can(double dent, double fold, unsigned seed) {
   return bent_block({16, 3, 8}, true, place, 0.02, seed);
 }
 
-/// A round rod, bent round a circle that it nearly fills and turned along its axis, jittered by as much as leaves all of it valid.
+/// A round rod, bent round a circle that it nearly fills and turned along its axis, jittered as far as all of it stays valid.
 inline Mesh bent_rod(double turns, double radius, double twist, unsigned seed) {
   const auto place = [&](double u, double v, double w) {
     const double a = 2.0 * std::numbers::pi * turns * w, x = u - 0.5, y = v - 0.5, c = std::cos(twist * w), s = std::sin(twist * w);

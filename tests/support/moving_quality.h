@@ -1,6 +1,7 @@
 #pragma once
-// What a vertex of a volume changes, judged without the code under test: every corner as the element that its three edges span. That is an
-// affine image of the ideal one, all of whose corners are alike, so that the judge of whole elements tells the corner's quality.
+// Quality of the parts that a vertex of a volume changes, judged without the code under test: every corner as the element that its three
+// edges span. That is an affine image of the ideal one, all of whose corners are alike, so that the judge of whole elements gives the
+// corner's quality.
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +25,7 @@ struct Spanned {
 };
 
 /// The quality of one corner, as that of an affine element which the corner spans. The scaled Jacobian depends on the edges' lengths, and
-/// those of an affine wedge or pyramid differ elsewhere; so it is taken of the hexahedron, over the value at the ideal corner.
+/// those of an affine wedge or pyramid differ elsewhere; so it is taken from the hexahedron, over the value at the ideal corner.
 template <Metric M>
 double corner_quality(const Spanned& corner, ElementKind kind) {
   constexpr bool kOfLengths = M == Metric::ScaledJacobian;
@@ -47,8 +48,8 @@ double least_moving_corner(std::span<const Index> corners, ElementKind kind, Pos
   return least;
 }
 
-/// The least metric of the star over what `vertex` changes: tetrahedra, and the corners of other volume elements at it or at the end of an
-/// edge from it, and of pyramids with the tip. The metric must be defined for all of them.
+/// The least metric of the star over the parts that `vertex` changes: tetrahedra, and the corners of other volume elements at it or at the
+/// end of an edge from it, and of pyramids with the tip. The metric must be defined for all of them.
 inline double moving_quality(const InputMesh& input, PositionView positions, Metric metric, Index vertex) {
   const auto of_element = [&](Index element) {
     const auto corners = input.mesh.elements.corners(element);

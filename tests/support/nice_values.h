@@ -1,5 +1,5 @@
 #pragma once
-// The priorities of threads (Linux): 0 is usual, and the greater the number, the more others go first.
+// Priorities of threads (Linux): 0 is usual, and a thread with a greater number gives way to others.
 
 #include <barrier>
 #include <cstddef>
@@ -14,10 +14,10 @@
 
 namespace dmoscope::testing {
 
-/// Of the calling thread.
+/// Priority of the calling thread.
 inline int own_nice_value() { return ::getpriority(PRIO_PROCESS, 0); }
 
-/// Of all threads of this program.
+/// Priorities of all threads of this program.
 inline std::vector<int> nice_values() {
   std::vector<int> values;
   for (const auto& task : std::filesystem::directory_iterator("/proc/self/task"))
@@ -25,7 +25,7 @@ inline std::vector<int> nice_values() {
   return values;
 }
 
-/// Of each thread of a pool, the caller's among them.
+/// Priorities of all threads of a pool, including the caller's.
 inline std::vector<int> nice_values_of(ThreadPool& pool) {
   std::vector<int> values(pool.size());
   std::barrier all_there(static_cast<std::ptrdiff_t>(pool.size()));  // so that each thread gets one of the pieces

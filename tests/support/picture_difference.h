@@ -1,5 +1,5 @@
 #pragma once
-// How much two pictures differ.
+// Comparison of two pictures.
 
 #include <algorithm>
 #include <cmath>
@@ -9,20 +9,20 @@
 
 namespace dmoscope::render {
 
-/// How much two pictures differ.
+/// Measures of the difference of two pictures.
 struct Difference {
   bool same_size = false;
   double off_share = 1.0;  // share of pixels with a channel that differs by more than 16
   int largest = 255;       // largest difference of a channel
   double ssim = 0.0;       // mean structural similarity of the luminance over 8 x 8 windows, 1: the same
-  /// The usual judgement in tests: same size, and less than `share` of the pixels off.
+  /// Whether the pictures are alike: same size, and less than `share` of the pixels off.
   [[nodiscard]] bool alike(double share = 0.005) const noexcept { return same_size && off_share < share; }
 };
 inline std::size_t pixel_offset(const Image& image, int x, int y) {
   return 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x));
 }
 
-/// A channel as it looks on middle grey.
+/// Value of a channel in front of middle grey.
 inline double on_grey(const std::uint8_t* pixel, std::size_t channel) {
   return 128.0 + (static_cast<double>(pixel[channel]) - 128.0) * static_cast<double>(pixel[3]) / 255.0;
 }
@@ -51,7 +51,7 @@ inline double window_ssim(const Image& a, const Image& b, int left, int top, int
   return (2 * mean_a * mean_b + kC1) * (2 * cov + kC2) / ((mean_a * mean_a + mean_b * mean_b + kC1) * (var_a + var_b + kC2));
 }
 
-/// Compares two pictures as if each lay on middle grey. Pictures of different sizes are simply different.
+/// Compares two pictures as if each lay on middle grey. Pictures of different sizes are always different.
 inline Difference compare(const Image& a, const Image& b) {
   Difference difference;
   if (a.width != b.width || a.height != b.height || a.rgba.empty()) return difference;

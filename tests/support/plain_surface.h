@@ -1,5 +1,5 @@
 #pragma once
-// The boundary of a volume by plain geometry: what tests of sliding measure against.
+// The boundary of a volume by plain geometry, for measurements in tests of sliding.
 
 #include <algorithm>
 #include <array>
@@ -23,7 +23,7 @@ inline double distance_to_segment(Vec3 p, Vec3 a, Vec3 b) {
   const double t = dot(d, d) > 0.0 ? std::clamp(dot(p - a, d) / dot(d, d), 0.0, 1.0) : 0.0;
   return length(p - (a + t * d));
 }
-/// By the plane where the point lies above the triangle, else by the sides.
+/// Distance of a point to a triangle: to its plane if the point lies above the triangle, else to its sides.
 inline double distance_to_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
   const double by_sides = std::min({distance_to_segment(p, a, b), distance_to_segment(p, b, c), distance_to_segment(p, c, a)});
   const Vec3 n = unit(cross(b - a, c - a));
@@ -50,7 +50,7 @@ inline std::vector<std::vector<Index>> boundary_faces(const Mesh& mesh) {
   return faces;
 }
 
-/// The boundary of a volume; of a surface all of it.
+/// The boundary of a volume, or all of a surface.
 inline std::vector<std::vector<Index>> surface_faces(const Mesh& mesh) {
   if (info(mesh.elements.kind(0)).dimension == 3) return boundary_faces(mesh);
   std::vector<std::vector<Index>> faces;
@@ -58,7 +58,7 @@ inline std::vector<std::vector<Index>> surface_faces(const Mesh& mesh) {
   return faces;
 }
 
-/// Quadrilaterals split by their shorter diagonals.
+/// Triangles of faces, with quadrilaterals split by their shorter diagonals.
 inline std::vector<Triangle> triangles_of(const std::vector<std::vector<Index>>& faces, std::span<const Vec3> positions) {
   std::vector<Triangle> all;
   for (const auto& f : faces) {

@@ -1,6 +1,6 @@
 #pragma once
-// Whether this is a sanitizer's build. Those look for errors of memory, of arithmetic and of threads, which show in a part of the vertices
-// as well as in all: the dearest tests of what is computed, which the other builds do in full, may look at less there.
+// Whether this is a sanitizer's build. Sanitizers find errors of memory, of arithmetic and of threads on a part of the vertices as well as
+// on all: the longest tests of results, which the other builds do in full, may use less there.
 
 namespace dmoscope::testing {
 

@@ -1,5 +1,5 @@
 #pragma once
-// Where a test may write: tests run side by side, so that no two may share a place.
+// Folders for the files of a test: tests run side by side, so that no two may share one.
 
 #include <atomic>
 #include <filesystem>

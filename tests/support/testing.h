@@ -1,5 +1,5 @@
 #pragma once
-// What the tests share lies in dmoscope::testing, whose name hides GoogleTest's own: within dmoscope, testing:: means both.
+// Declarations that the tests share are in dmoscope::testing, whose name hides GoogleTest's own: within dmoscope, testing:: means both.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -11,7 +11,7 @@
 
 namespace dmoscope::test {
 
-/// What becomes of the cells of a block.
+/// Elements that the cells of a block become.
 enum class Fill { Hexahedra, Tetrahedra, Mixed };
 
 /// n x n x n cells over the unit cube: hexahedra, six tetrahedra each along the same diagonal, or by columns hexahedra, two wedges, or six

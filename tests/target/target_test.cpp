@@ -1,4 +1,4 @@
-// Target shapes: how they are written, what they make of elements, and where boundary layers are.
+// Target shapes: their words, their effect on elements, and the detection of boundary layers.
 
 #include <cmath>
 #include <numbers>
@@ -77,8 +77,8 @@ TEST(Targets, ArePartOfAMetricsName) {
   EXPECT_THROW((void)parse_metric("mean-rati@input"), UsageError);
 }
 
-/// The aspect's singular values, where they are equal, know the half of a double's digits. Elements as they were are perfect, whatever they
-/// were; and what is made of the whole mesh by turning it stays so.
+/// Equal singular values of the aspect have half of a double's digits. Elements equal to their targets are perfect, whatever their shape;
+/// and stay so if the whole mesh is turned.
 TEST(Targets, ElementsAsTheyWereArePerfect) {
   std::vector<std::shared_ptr<const InputMesh>> meshes{generated("anisotropic 400"), generated("quads 300"),  generated("mixed 300"),
                                                        generated("tetrahedra 200"),  generated("solids 300"), generated("hexahedra 200"),
@@ -91,7 +91,7 @@ TEST(Targets, ElementsAsTheyWereArePerfect) {
 }
 
 TEST(Targets, OfSimplicesAreMeasuredInTheTargetsSpace) {
-  // Of every metric, for the target element is an ideal one there.
+  // Any metric, for the target element is the ideal one.
   for (const char* words : {"anisotropic 200", "tetrahedra 150"}) {
     const auto mesh = generated(words);
     for (const MetricInfo& entry : metric_table()) {
@@ -112,7 +112,7 @@ TEST(Targets, AStretchedElementIsJudgedAgainstItsTarget) {
   EXPECT_NEAR(qualities(*flat, "mean-ratio@aspect:10:90")[0], 2.0 * 100.0 / 10001.0, 1e-12);
   EXPECT_NEAR(qualities(*flat, "aspect@aspect:5:180")[0], 0.5, 1e-12);
   EXPECT_NEAR(qualities(*flat, "relative-size@aspect:5:45")[0], 1.0, 1e-12);
-  // The same in space.
+  // A box in space.
   Mesh box = test::volume_grid(1, test::Fill::Hexahedra);
   for (Vec3& p : box.positions) p.z *= 4.0;
   const auto tall = input(box);
@@ -120,7 +120,7 @@ TEST(Targets, AStretchedElementIsJudgedAgainstItsTarget) {
   EXPECT_NEAR(qualities(*tall, "aspect@aspect:2:0:0:7")[0], 0.5, 1e-12);
 }
 
-/// In the metric field's own words: an edge e has the length sqrt(e^T M e), and an element whose edges all have the same is perfect.
+/// Lengths in the metric field: an edge e has the length sqrt(e^T M e), and an element with edges of equal length is perfect.
 TEST(Targets, AMetricFieldMeasuresEdges) {
   const auto mesh = generated("anisotropic 300");
   const Field& field = mesh->mesh.fields.at(0);
@@ -140,7 +140,7 @@ TEST(Targets, AMetricFieldMeasuresEdges) {
     }
     ASSERT_NEAR(values[e], least / most, 1e-9);
   }
-  // The generator's cells are squares in it before they are jittered, so elements are of about unit size.
+  // The generator's cells are squares in the metric before they are jittered, so that elements are of about unit size.
   double sum = 0.0;
   for (const double size : qualities(*mesh, "formula:sqrt(size)@field")) sum += size;
   EXPECT_NEAR(sum / static_cast<double>(values.size()), std::sqrt(2.0 / std::sqrt(3.0)), 0.1);
@@ -190,7 +190,7 @@ TEST(Targets, WhatIsMissingIsNamed) {
 }
 
 TEST(Targets, AveragingTakesOutNoise) {
-  // Cells 8 times as long as high, jittered: the mean of many neighbours is near to the cell without the jitter.
+  // Cells 8 times as long as high, jittered: the mean of many neighbours is near the cell without jitter.
   Mesh mesh = lattice(16, 0.2, 7, Cells::Quadrilaterals);
   for (Vec3& p : mesh.positions) p.x *= 8.0;
   const auto noisy = input(mesh);
@@ -201,7 +201,7 @@ TEST(Targets, AveragingTakesOutNoise) {
     return sum / static_cast<double>(aspects.size());
   };
   EXPECT_LT(spread("input"), 1e-9);
-  EXPECT_GT(spread("input:5"), 0.05);                        // each differs from what it is wished to be now ...
+  EXPECT_GT(spread("input:5"), 0.05);                        // each differs from its target now ...
   EXPECT_LT(spread("input:5"), 1.3 * spread("aspect:8:0"));  // ... about as much as from the cell without noise
 }
 
@@ -229,7 +229,7 @@ TEST(Targets, ByGroup) {
   EXPECT_EQ(judge.targets().facts().phrase, "6 elements of left as they were, 30 elements ideal");
 }
 
-/// What the tolerance means: an element whose aspect changed by so much counts 0.
+/// Meaning of the tolerance: an element whose aspect changed by so much counts 0.
 TEST(Targets, KeptElementsFallSteeply) {
   Mesh mesh = lattice(2, 0.0, 1, Cells::Quadrilaterals);
   mesh.groups.push_back(group_of("all", {0, 1, 2, 3}));
@@ -240,7 +240,7 @@ TEST(Targets, KeptElementsFallSteeply) {
   EXPECT_GT(element_quality(one->quality_context(), positions, parse_metric("mean-ratio@all:input:10%"), 0), 0.7);
 }
 
-// Boundary layers.
+// --- Boundary layers
 
 /// Rows of quadrilaterals over y = 0 whose heights grow, triangles above.
 Mesh layered(Index columns, Index layers, double first_height, double growth, Index triangle_rows) {

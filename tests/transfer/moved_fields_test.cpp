@@ -1,4 +1,4 @@
-// Nodal fields at new places: what is linear stays so, in every kind of element.
+// Nodal fields at new positions: linear ones stay linear, in every kind of element.
 
 #include "core/transfer/moved_fields.h"
 
@@ -39,7 +39,7 @@ MovedFields moved_by(const InputMesh& input, const std::vector<Vec3>& positions,
   return move_fields(input, rules, positions, nullptr, progress);
 }
 
-/// The field's numbers there.
+/// The field's values at new positions.
 std::vector<double> values_at(const InputMesh& input, const std::vector<Vec3>& positions, std::size_t field = 0) {
   for (FieldValues& one : moved_by(input, positions).values)
     if (one.field == field) return std::move(one.values);
@@ -51,7 +51,7 @@ bool is_inside(Vec3 p, bool solid) {
   return within(p.x) && within(p.y) && (!solid || within(p.z));
 }
 
-/// Moves the vertices off the boundary to places anywhere in the unit square or cube, far beyond their stars, but for every third.
+/// Moves two thirds of the vertices off the boundary to places anywhere in the unit square or cube, far beyond their stars.
 void expect_linear(Mesh mesh, bool solid) {
   mesh.fields.push_back(field_of(mesh, "plane", plane_at));
   const auto prepared = input(std::move(mesh));
@@ -129,7 +129,7 @@ TEST(MovedFields, GoesRoundInLongitude) {
   EXPECT_NEAR(found[2 * kAround - 1], 0.5 + 177.0 - 1.0, 1e-9);
 }
 
-/// A roof: what lies off its faces has what the nearest of them has.
+/// A roof: a point off its faces has the value of the nearest of them.
 TEST(MovedFields, OnASurfaceTheNearestFacetCounts) {
   Mesh mesh;
   for (Index j = 0; j <= 2; ++j)
@@ -144,7 +144,7 @@ TEST(MovedFields, OnASurfaceTheNearestFacetCounts) {
   EXPECT_NEAR(values_at(*prepared, positions)[4], plane_at({0.5, 1.3, 0.5}), 1e-12);
 }
 
-/// diag(exp(a), exp(b)) with linear a and b is what the mean of logarithms keeps.
+/// Tensors diag(exp(a), exp(b)) with linear a and b are kept by the mean of logarithms.
 TEST(MovedFields, MetricTensorsAreInterpolatedByTheirLogarithms) {
   for (const int components : {3, 9}) {
     Mesh mesh = lattice(6, 0.2, 3);
@@ -233,7 +233,7 @@ TEST(MovedFields, RulesAreReadAndWritten) {
     EXPECT_THROW((void)parse_field_rules(text), UsageError) << text;
 }
 
-/// What is of a type is rounded to it; without a value none comes, and next to one a vertex keeps its own.
+/// Values of an integer type are rounded; none comes without a value, and next to a gap a vertex keeps its own.
 TEST(MovedFields, TypesAndGaps) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   Mesh mesh = lattice(4, 0.0, 1);
@@ -243,8 +243,8 @@ TEST(MovedFields, TypesAndGaps) {
   mesh.fields.back().values[6] = nan;
   const auto prepared = input(std::move(mesh));
   std::vector<Vec3> positions = prepared->mesh.positions;
-  positions[6] = {0.8, 0.8, 0.0};    // has none
-  positions[12] = {0.3, 0.28, 0.0};  // comes beside vertex 6, which has none
+  positions[6] = {0.8, 0.8, 0.0};    // without a value
+  positions[12] = {0.3, 0.28, 0.0};  // beside vertex 6, which has no value
   positions[13] = {0.8, 0.6, 0.0};
   const std::vector<double> floats = values_at(*prepared, positions), gaps = values_at(*prepared, positions, 1);
   EXPECT_EQ(floats[13], static_cast<double>(static_cast<float>(floats[13])));

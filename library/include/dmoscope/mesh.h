@@ -33,7 +33,7 @@ struct Cells {
 /// "gmsh:physical", "region" ...) make interfaces between cells of different values; interfaces stay.
 struct Numbers {
   std::string name;
-  std::vector<double> values;  // those of the first vertex or cell, then of the next
+  std::vector<double> values;  // the values of the first vertex or cell, then those of the next
   std::size_t components = 1;  // values of each vertex or cell
   bool whole = false;          // whether their type is one of whole numbers
 };

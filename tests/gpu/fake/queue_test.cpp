@@ -206,7 +206,7 @@ TEST_F(FakeQueue, OnlyWhatReadsPicturesIsUrgent) {
   const Acceleration acceleration = make_accelerator();
   ASSERT_NE(acceleration.accelerator, nullptr) << acceleration.reason;
   const auto smoother = acceleration.accelerator->make_dmo(subject.task(Metric::MeanRatio));
-  const std::vector<int> all = priorities();  // of the accelerator, the run and its side, and the reader
+  const std::vector<int> all = priorities();  // priorities of the accelerator, the run and its side, and the reader
   ASSERT_EQ(all.size(), 4U);
   EXPECT_LT(all[0], all[1]) << "the lower is the more urgent";
   EXPECT_EQ(all[1], all[3]);

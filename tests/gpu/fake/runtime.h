@@ -57,7 +57,7 @@ struct Equipment {
   int driver = 13000;     // its version; 0: none is installed
   int drawing = 0;        // the device that OpenGL draws on; negative: none
   OpenGl* gl = nullptr;   // null: no context is current anywhere
-  bool together = false;  // which lanes are told to be active at once, see ptx::Schedule
+  bool together = false;  // whether a warp's lanes count as active at once, see ptx::Schedule
 };
 void set_up(Equipment setup);
 

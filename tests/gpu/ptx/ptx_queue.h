@@ -34,7 +34,7 @@ class Kernels {
   [[nodiscard]] const Entry& find(const std::string& name);
 
   struct Name {
-    std::string text;  // as a compiler prints it
+    std::string text;  // text of the form that a compiler prints
     std::size_t team = 1;
     std::size_t each = 1;  // size of a lane's share of the work
   };

@@ -345,11 +345,11 @@ std::vector<EntryText> find_entries(std::string_view ptx) {
       (void)take_until(text, "\n");
     } else if (text.starts_with(".visible .entry ") || text.starts_with(".entry ")) {
       const std::string_view rest = text.substr(text.find(".entry ") + std::string_view(".entry ").size());
-      const std::size_t end = text.find("\n}");  // those of inner blocks are indented, or not first on a line
+      const std::size_t end = text.find("\n}");  // braces of inner blocks are indented, or not first on a line
       if (end == std::string_view::npos) throw Fault("PTX breaks off in an entry");
       entries.push_back({std::string(trimmed(rest.substr(0, rest.find('(')))), std::string(text.substr(0, end + 2)), shared});
       text.remove_prefix(end + 2);
-    } else if (text.starts_with(".shared ")) {  // of a function that several kernels have
+    } else if (text.starts_with(".shared ")) {  // memory of a function that several kernels have
       shared.emplace_back(take_until(text, ";"));
     } else if (text.starts_with(".global ")) {
       std::string_view named = take_until(text, ";");

@@ -98,7 +98,7 @@ Json simd_name(const Run& run) {
   return in_packs(p) ? name(p.search.simd.value_or(best_simd_level())) : "scalar";
 }
 
-/// Where the search ran: "2 threads", "4 ranks of 2 threads each".
+/// Units that the search ran on: "2 threads", "4 ranks of 2 threads each".
 std::string where_computed(const SmoothReport& r) {
   if (!on_cpu(r.run)) return r.run.backend_reason();
   const std::string threads = counted(r.threads, "thread", "threads");

@@ -48,7 +48,7 @@ struct QualityOptions {
 /// One metric over all elements of the mesh.
 struct Column {
   Metric metric;
-  std::vector<double> values;    // one per element, NaN where not defined
+  std::vector<double> values;    // one per element, NaN if not defined
   std::vector<Index> ascending;  // elements with a value, worst first, the lowest index first among equals
   double mean = 0.0;
   std::size_t unacceptable = 0;

@@ -9,7 +9,7 @@ namespace dmoscope {
 
 namespace {
 
-/// Finds where this rank's things are cut for their next holders, given by `to`; the first is thing 0 of the rank.
+/// Finds the cuts of this rank's things for their next holders, given by `to`; the first is thing 0 of the rank.
 std::vector<std::uint64_t> cuts(const World& world, const Ranges& from, const Ranges& to) {
   const std::uint64_t begin = from.begin(world.rank()), end = from.end(world.rank());
   std::vector<std::uint64_t> offsets{0};

@@ -126,7 +126,7 @@ inline void check_new_file(std::string_view format, const Mesh& mesh) {
   try {
     bytes = write_anew(format, mesh, mesh.positions).bytes;
   } catch (const OutputError&) {
-    return;  // the format cannot hold this mesh, and says so
+    return;  // the format cannot hold this mesh, and reports that
   }
   const Mesh again = read_bytes(format, bytes);
   // Formats of two coordinates say in a note that they drop a constant z.

@@ -2,13 +2,13 @@
 # run_all.sh [OPTION...]: all there is to try on a machine with an NVIDIA GPU, in one command. Installs what the build lacks where it can,
 # builds for that GPU, checks that the GPU gives the processor's bits, measures, draws from the GPU's memory with and without a window, runs
 # all tests that need a GPU, and ends with NVIDIA's compute-sanitizer. Writes one file, gpu-results.md, anew after every step: please send
-# it. A step that fails is told and the next one is run; the exit code is 1 then. Where CUDA was left out of the build, or the built program
-# cannot use it, it says why and stops.
-#   --out DIR      where logs, figures and gpu-results.md go (build/gpu-results)
-#   --commit ID    what is being tried, where git cannot tell
+# it. A failed step is reported and the next one is run; the exit code is 1 then. If CUDA was left out of the build, or the built program
+# cannot use it, prints the reason and stops.
+#   --out DIR      folder of logs, figures and gpu-results.md (build/gpu-results)
+#   --commit ID    the commit that is tested, if git cannot tell
 #   --build DIR    a build folder that is there already
 #   --bundle DIR   a folder made by tools/bundle, tried in place of a build: nothing is built
-#   --limit S      seconds for all of it; what comes last is cut (no limit)
+#   --limit S      seconds for the whole; the last steps are cut (no limit)
 #   --authors DIR  a checkout or git folder of the paper's authors' code, or the program that authors.sh made of it: their kernel is
 #                  measured beside ours
 # A machine without Debian's packages needs .headers in the tree (tools/collect-headers); there is no window then.
@@ -48,7 +48,7 @@ processor="$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1), $(nproc)
 if [[ $mig -gt 0 ]]; then remark "A GPU is split into parts (MIG): CUDA sees the first part alone, and OpenGL none"; fi
 if [[ $(wc -l <<<"$gpus") -gt 1 ]]; then remark "$(wc -l <<<"$gpus") GPUs: the program takes the one with most memory that works; CUDA_VISIBLE_DEVICES chooses another"; fi
 
-# Meshes of others that the tests and the bench can use, where they are at hand.
+# Other people's meshes for the tests and the bench, if they are there.
 shared=''
 for folder in shared ../shared ${bundle:+"$bundle/shared"}; do
   if [[ -z $shared && -d $folder/meshes ]]; then shared=$(realpath "$folder"); fi
@@ -74,7 +74,7 @@ if [[ -z $build && -z $bundle ]]; then
     told "all else" "**NOT RUN**: CUDA was left out of the build"
     finish
   fi
-  # -k 0: what can be built is, so that the steps below have something to try.
+  # -k 0: builds as much as possible, so that the steps below have something to try.
   targets=(dmoscope test_gpu)
   if grep -qE '^(build tests/)?test_gui[:, ]' "$build/build.ninja"; then targets+=(test_gui); fi
   step build 3600 cmake --build "$build" --target "${targets[@]}" -- -k 0
@@ -88,7 +88,7 @@ else
   program=$build/dmoscope tests=$build/tests home=$root
 fi
 
-# --- does it work?
+# --- function
 step info 60 "$program" info
 if ! grep -qE '^ +cuda +usable' "$out/info.log"; then
   broken=$((broken + 1))
@@ -98,7 +98,7 @@ fi
 bits='CudaDevice.*:*/CudaDmo.SameBitsOnTheZoo/meanratio:*/CudaDmo.SameBitsOnALargeMesh/meanratio:*/CudaDmo.SameBitsOnTheBundledMeshes/*:*/CudaVolumeDmo.SameBits/meanratio'
 test_each "the processor's bits" bits 60 test_gpu "$bits"
 
-# --- speed. Nothing else runs meanwhile; clocks, power and whoever else is on the GPU are noted.
+# --- speed. Nothing else runs meanwhile; clocks, power and other users of the GPU are noted.
 watch_gpu
 # The first repeat is cold: kernels are loaded, clocks are low. "step" has the statistics, "seconds" the smoothing alone, "prepare" the
 # copies; "end to end" is all of it, the smoothed mesh back on the host.
@@ -120,7 +120,7 @@ measure bench-formulas 120 "bench of a formula and a target" --backend cuda --si
 # --- drawing
 if [[ -x $tests/test_gui ]]; then
   step interop 90 env -C "$home" "$tests/test_gui" --gtest_filter='Cuda*:*/Cuda*'
-  # A path from the device's memory to the screen is what a GPU is tried for: where there is none, the tests of its fallback pass too.
+  # The path from the device's memory to the screen is to be tried on a GPU: without it the tests of its fallback would pass, too.
   if ! grep -q 'drawn from the device' "$out/interop.log"; then
     broken=$((broken + 1))
     remark "**Nothing was drawn from the device's memory**: $(sed -nE 's/^ +path +//p' "$out/info.log" | head -1)"
@@ -134,7 +134,7 @@ measure bench 300 "bench of generated meshes" --backend cpu,cuda --sizes 1e4,1e5
 unwatch_gpu
 profile_search
 
-# --- all else, which measures nothing
+# --- all other tests, without measurements
 test_each "tests that need a GPU" tests 600 test_gpu 'Cuda*:*/Cuda*'
 sanitize
 if [[ -n $build ]]; then

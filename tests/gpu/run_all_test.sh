@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# run_all_test.sh: what run_all.sh does on machines that are not here. Stand-ins for the driver's and the toolkit's programs, for cmake and
-# for what it would build say what those would; nothing is built, and nothing of it is run on a GPU.
+# run_all_test.sh: tests run_all.sh for machines that are not here. Stand-ins for the driver's and the toolkit's programs, for cmake and for
+# its outputs print the same text; nothing is built, and nothing runs on a GPU.
 set -uo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 folder=$(mktemp -d)
@@ -25,7 +25,7 @@ stand_in() {
   cat >"$folder/bin/$1"
   chmod +x "$folder/bin/$1"
 }
-# machine: a tree and stand-ins where everything works: one H100.
+# machine: makes a tree and stand-ins with which everything works: one H100.
 machine() {
   rm -rf "$folder/bin" "$folder/tree" "$folder/out"
   mkdir -p "$folder/bin" "$folder/tree/tests" "$folder/tree/cmake"
@@ -46,7 +46,7 @@ echo "100% tests passed, 0 tests failed out of 12"'
   say 'usable, NVIDIA H100' 'drawn from the device'
   make_cmake
 }
-# say CUDA DRAWN: what the program that is built or carried says of the cuda backend, and its tests of how they drew.
+# say CUDA DRAWN: sets the output about the cuda backend of the program that is built or bundled, and that of its tests about drawing.
 say() {
   cat >"$folder/program" <<END
 #!/bin/sh
@@ -58,7 +58,7 @@ esac
 END
   chmod +x "$folder/program"
 }
-# make_cmake: configures with $cuda_line, and builds programs that print little.
+# make_cmake: makes a stand-in that configures with $cuda_line, and builds programs with short output.
 make_cmake() {
   stand_in cmake <<END
 #!/bin/sh
@@ -73,7 +73,7 @@ echo "-- CUDA: $cuda_line"
 case "$cuda_line" in *compiled*) printf 'build test_gui: phony\n' >"\$2/build.ninja" ;; esac
 END
 }
-# gpus LINE MIG [LINE...]: what nvidia-smi shows.
+# gpus LINE MIG [LINE...]: sets the output of nvidia-smi.
 gpus() {
   local first=$1 mig=$2
   shift 2
@@ -88,7 +88,7 @@ case "\$*" in
 esac
 END
 }
-# run [VARIABLE=VALUE...] [-- OPTION...]
+# run [VARIABLE=VALUE...] [-- OPTION...]: runs run_all.sh on the stand-ins.
 run() {
   local settings=()
   while [[ $# -gt 0 && $1 != -- ]]; do settings+=("$1"); shift; done
@@ -185,7 +185,7 @@ run
 check "no interop: fails, though the tests of its fallback pass" ended 1
 check "no interop: says so" says "Nothing was drawn from the device's memory"
 
-# A limit is for all of it, and what is left of it never none or less.
+# A limit is for the whole, and the remaining time is never zero or less.
 machine
 run -- --limit 2
 check "a limit: what was cut is told" says '**NOT RUN**: CUDA was left out of the build'

@@ -89,7 +89,7 @@ TEST(DeviceTwoAimsScore, SumsAsTheProcessorDoes) {
   EXPECT_GT(otherwise, 0U) << "the order matters";
 }
 
-/// A floor that starts in the midst of a run, and a lower one, wake the vertices that slept by the one before.
+/// A floor that starts during a run, and a lower one, wake the vertices that slept by the one before.
 TEST(DeviceTwoAimsVisits, ThreadsCutsAndRecordingsChangeNothing) {
   Progress progress;
   const Subject subject(prepare_input(dmoscope::testing::lattice(24, 0.35, 52), {}, Need::Smoothing, progress));

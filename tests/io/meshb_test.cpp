@@ -1,4 +1,4 @@
-// MEDIT's binary format: every version and byte order gives what the text gives.
+// MEDIT's binary format: every version and byte order gives the mesh of the text format.
 
 #include <string>
 #include <vector>

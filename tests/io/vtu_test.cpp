@@ -355,7 +355,7 @@ TEST(Vtu, RefusesWrongDataOfTheOtherEncodings) {
   expect_refused(with(with(sample("raw"), "<AppendedData", "<AppendedDatum"), "</AppendedData", "</AppendedDatum"), 0, "");
 }
 
-/// A compressed array that says it holds 240 MB in a few bytes: nothing may be allocated for it.
+/// A compressed array that declares 240 MB in a few bytes: nothing may be allocated for it.
 TEST(Vtu, DeclaredSizesAreCheckedBeforeTheyAreBelieved) {
   const auto file = [](std::uint64_t points, const std::string& blob) {
     return "<VTKFile type=\"UnstructuredGrid\" byte_order=\"LittleEndian\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n"

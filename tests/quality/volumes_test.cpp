@@ -129,7 +129,7 @@ TEST(VolumeElements, DegenerateOnesAreWorthNothing) {
   }
 }
 
-/// Ranks of the fast search are an increasing function of the metric, 0 where it is 0.
+/// Ranks of the fast search are an increasing function of the metric, and 0 for 0.
 TEST(VolumeElements, RanksRiseWithTheMetric) {
   Random random(10);
   for (const Metric metric : kOfTetrahedra) {

@@ -213,7 +213,7 @@ TEST(InterfacesInFiles, GroupsAndValuesComeThroughEveryFormatThatHoldsThem) {
   }
 }
 
-/// 2 x 2 squares in MSH 4.1: two surfaces, 1 and 2, left and right, with physical groups where there are some, and the line between them.
+/// 2 x 2 squares in MSH 4.1: two surfaces, 1 and 2, left and right, with the line between them, and with physical groups if `physical`.
 std::string gmsh_4(bool physical) {
   const std::string surfaces = physical ? "1 0 0 0 1 2 0 1 11 0\n2 0 0 0 1 2 0 1 12 0\n" : "1 0 0 0 1 2 0 0 0\n2 0 0 0 1 2 0 0 0\n";
   std::string text = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 2 0\n" + surfaces + "$EndEntities\n$Nodes\n1 9 1 9\n2 1 0 9\n";

@@ -314,7 +314,7 @@ TEST(DefinedMetrics, ThenMeanAndTwoAims) {
     two.iterate(3, progress);
     EXPECT_GT(two.statistics().minimum, first);
     EXPECT_GT(second_mean(), before);
-    // The first aim may fall where it is met, but not below the threshold.
+    // The first aim may fall if it is met, but not below the threshold.
     both.combination->threshold = 0.5 * first;
     auto eased = make_run(mesh, both);
     eased.iterate(3, progress);

@@ -27,7 +27,7 @@ inline dmoscope::Run make_run(const std::shared_ptr<const InputMesh>& mesh, RunP
   return {mesh, std::move(parameters), std::make_shared<ThreadPool>(threads), kBudget};
 }
 
-/// Whether a method can optimise a metric there; joint moves cannot where it has no smooth pieces.
+/// Whether a method can optimise a metric there; joint moves need smooth pieces of the metric.
 inline bool can_optimise(const MethodInfo& method, Metric metric, const InputMesh& mesh) {
   return !method.joint || why_not_joint(mesh, metric).empty();
 }

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # prepare.sh [BUNDLE]: packs into .prebuilt all that run.sh needs besides the tree, so that minutes on a machine with a GPU are not spent on
 # a build: the programs and tests of BUNDLE, the meshes of ../shared where they are, and the kernel of the paper's authors as a program.
-#   BUNDLE    a folder made by tools/bundle (build/prebuilt, made where it is missing, for the GPUs that ARCHITECTURES names)
+#   BUNDLE    a folder made by tools/bundle (build/prebuilt, made if it is missing, for the GPUs that ARCHITECTURES names)
 #   ARCHITECTURES   90-real: an H100 or H200. Only the first kind's code is made of the authors' kernel
 #   AUTHORS   a checkout or git folder of their code, or nothing
 set -euo pipefail

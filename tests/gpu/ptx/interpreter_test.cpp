@@ -148,7 +148,7 @@ TEST(PtxInterpreter, BeyondItsSegmentALaneKeepsItsValue) {
   for (U32 i = 0; i < 32; ++i) EXPECT_EQ(out[i], i % 16 < 8 ? i + 100 : i - 8 + 100 + (1U << 16U));
 }
 
-/// Each team goes round as often as its number says, and its lanes wait for each other every time.
+/// Each team goes round as often as its number, and its lanes wait for each other every time.
 TEST(PtxInterpreter, TeamsGoTheirOwnWays) {
   const Words out = run_words(
       "shr.u32 %left, %tid, 3; mov.u32 %sum, 0;\n$L__BB0_1:\nshfl.sync.bfly.b32 %w|%p, %v, 1, 31, %team; add.s32 %sum, %sum, %w;\n"

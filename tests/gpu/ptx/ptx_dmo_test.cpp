@@ -190,7 +190,7 @@ TEST_P(PtxPicture, IsThatOfTheHost) {
 class PtxText : public PtxTest {};
 INSTANTIATE_TEST_SUITE_P(Any, PtxText, ::testing::Values(Metric::MeanRatio));
 
-/// Bits are the processor's only if every operation rounds as IEEE 754 says, and none is two in one.
+/// Arithmetic has the processor's bits only if every operation rounds as IEEE 754 requires, and none is fused.
 TEST_P(PtxText, NothingIsApproximate) {
   for (const EntryText& entry : kernels->texts())
     for (const char* const unwanted : {"fma.rn.f32", ".ftz", ".approx", ".full", "mad.rn", ".sat", "call"})

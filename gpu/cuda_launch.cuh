@@ -11,8 +11,8 @@
 namespace dmoscope::gpu {
 
 inline constexpr unsigned kBlock = 128;  // threads
-/// Of blocks on a multiprocessor. Left to itself ptxas caps some kernels at 80, 96 or 128 registers, and spills; with two blocks all may
-/// have 255, with three 168, which is enough for small fans alone.
+/// Least number of blocks on a multiprocessor. Left to itself ptxas caps some kernels at 80, 96 or 128 registers, and spills; with two
+/// blocks all may have 255, with three 168, which is enough for small fans alone.
 inline constexpr unsigned kBlocksAtOnce = 2;
 template <class Body>
 inline constexpr unsigned kBlocksAtOnceOf = kBlocksAtOnce;
@@ -25,7 +25,7 @@ __global__ void __launch_bounds__(kBlock, kBlocksAtOnceOf<Body>) kernel(const __
   if (i < count) Body::run(task, i, count, Team{});
 }
 
-/// What Count's lanes do, a block's into counters of its own first: most elements fall into a few bins, whose counters the whole device
+/// Runs Count's lanes, each block into counters of its own first: most elements fall into a few bins, whose counters the whole device
 /// would else wait for.
 template <class Slots>
 __global__ void __launch_bounds__(kBlock, kBlocksAtOnce) count_kernel(const __grid_constant__ Task task, std::size_t count) {
@@ -52,30 +52,6 @@ inline void start(Kernel kernel, std::size_t blocks, const Task& task, std::size
 template <class Body, class Team>
 void launch(const Task& task, std::size_t count, cudaStream_t stream) {
   start(kernel<Body, Team>, (count * Team::kSize + kBlock - 1) / kBlock, task, count, stream);
-}
-
-template <Metric M>
-Launcher metric_launcher(Work work) {
-  switch (work) {
-    case Work::VisitSmallFans:
-      if constexpr (kIsRatio<M>) return launch<bodies::Visit<M, Stars::SmallFans>, Solo>;
-      return nullptr;
-    case Work::VisitLargeFans:
-      if constexpr (kIsRatio<M>) return launch<bodies::Visit<M, Stars::LargeFans>, Solo>;
-      return nullptr;
-    case Work::VisitOthers:
-      return launch<bodies::Visit<M, Stars::Others>, Solo>;
-    case Work::VisitInTeam:
-      return launch<bodies::Visit<M, Stars::All, true>, CudaTeam>;
-    case Work::VisitComposite:
-      return composite_launcher<M>();
-    case Work::Settle:
-      return launch<bodies::Settle<M>, CudaTeam>;
-    case Work::Judge:
-      return launch<bodies::Judge<M>, Solo>;
-    default:
-      return nullptr;
-  }
 }
 
 }  // namespace dmoscope::gpu

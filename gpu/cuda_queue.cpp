@@ -2,6 +2,7 @@
 
 #ifdef DMOSCOPE_HAVE_CUDA
 
+#include <array>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -12,7 +13,6 @@
 #include <fmt/format.h>
 
 #include "core/quality/formulas.h"
-#include "core/quality/volumes.h"
 #include "gpu/cuda_error.h"
 #include "gpu/cuda_handles.h"
 #include "gpu/cuda_launch.h"
@@ -302,13 +302,19 @@ class CudaQueue final : public Queue {
     return *staging_;
   }
 
+  template <std::size_t... Part>
+  static Launcher metric_launcher(Metric metric, Work work, std::index_sequence<Part...> /*parts*/) {
+    static constexpr std::array<Launcher (*)(Metric, Work), kMetricParts> kParts{&part_launcher<Part>...};
+    return kParts[static_cast<std::size_t>(metric) % kMetricParts](metric, work);
+  }
   static Launcher launcher(Work work, Metric metric, const DefinedTask& defined) {
     if (is_by_targets(work)) return target_launcher(work, defined.crossed);
     if (is_by_defined(work))
       return defined.is_volume ? defined_launcher<Space>(work, defined.in_double) : defined_launcher<Plane>(work, defined.in_double);
     if (!is_by_metric(work)) return plain_launcher(work);
-    if (is_of_solids(work)) return formulas::with_volume_metric(metric, [work]<Metric M>() { return volume_launcher<M>(work); });
-    return formulas::with_planar_metric(metric, [work]<Metric M>() { return metric_launcher<M>(work); });
+    const Metric own = is_of_solids(work) ? formulas::with_volume_metric(metric, []<Metric M>() { return M; })
+                                          : formulas::with_planar_metric(metric, []<Metric M>() { return M; });
+    return metric_launcher(own, work, std::make_index_sequence<kMetricParts>{});
   }
 
   std::shared_ptr<const CudaDevice> about_;

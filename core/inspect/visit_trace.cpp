@@ -9,6 +9,7 @@
 #include "core/inspect/recorder.h"
 #include "core/inspect/require_star.h"
 #include "core/inspect/single_vertex_task.h"
+#include "core/quality/formulas.h"
 #include "core/quality/metric_phrase.h"
 #include "core/smooth/kernels/targets/target_visit.h"
 #include "core/smooth/kernels/targets/tetrahedron_targets.h"
@@ -22,17 +23,13 @@ namespace {
 
 /// Phrase for the value that the fast search compares: formulas::rank.
 std::string rank_phrase(Metric metric) {
-  switch (metric) {
-    case Metric::MinAngle:
-      return "squared sine of the smallest angle";
-    case Metric::MaxAngle:
-      return "tangent of half the angle outside the largest angle";
-    case Metric::Rectangularity:
-    case Metric::ScaledJacobian:
-      return "squared " + metric_phrase(metric);
-    default:
+  if (!is_built_in(metric)) return metric_phrase(metric);
+  return formulas::with_metric(metric, [&]<Metric M>() {
+    if constexpr (requires { formulas::Formula<M>::kRankPhrase; })
+      return std::string(formulas::Formula<M>::kRankPhrase);
+    else
       return metric_phrase(metric);
-  }
+  });
 }
 
 /// Phrase for a composite objective: "mean ratio up to 0.7, beyond it 0.7 + density".

@@ -4,7 +4,6 @@
 
 #include "core/mesh/plane.h"
 #include "core/quality/formulas.h"
-#include "core/quality/volumes.h"
 
 namespace dmoscope::pieces {
 
@@ -50,7 +49,7 @@ struct Piece<Metric::MinAngle> {
     using scalar::atan2;
     using scalar::sqrt;
     const RealOf<V> sine = sqrt(dot(u, u)) * formulas::determinant(u, v, w);
-    return scalar::constant<RealOf<V>>(1.0 / formulas::SolidFormula<Metric::MinAngle>::kRegular) *
+    return scalar::constant<RealOf<V>>(1.0 / formulas::Formula<Metric::MinAngle>::kRegular) *
            atan2(sine, dot(cross(u, v), cross(u, w)));
   }
 };
@@ -113,7 +112,7 @@ template <Metric M, class V>
 }
 template <Metric M, class Ideal, class V>
 [[nodiscard]] RealOf<V> solid_corner(V u, V v, V w) {
-  return formulas::SolidFormula<M>::template corner<Ideal>(u, v, w, formulas::determinant(u, v, w));
+  return formulas::Formula<M>::template corner<Ideal>(u, v, w, formulas::determinant(u, v, w));
 }
 
 }  // namespace dmoscope::pieces

@@ -36,7 +36,7 @@ std::vector<double> numbers_of(const std::string& name, const Mesh& mesh) {
 /// From there on a search in floats finds worse places than one in double, along no axis.
 constexpr double kFarStretched = 3e3;
 
-/// Of the first corner, or of all.
+/// The matrix of an element's first corner (or of the whole element, where it has one).
 SmallMatrix first_matrix(const ElementTarget& target, std::size_t dimension) {
   SmallMatrix matrix{static_cast<int>(dimension), {}};
   for (std::size_t row = 0; row < dimension; ++row)

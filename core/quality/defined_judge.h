@@ -32,10 +32,10 @@ class DefinedJudge {
   /// Do floats not hold what it computes? They hold no mesh's own unit, and no target that stretches very far.
   [[nodiscard]] bool needs_double() const noexcept { return unit_matters_ || stretches_far_; }
 
-  /// Of one element with its corners there. `moving`: of volumes, only what changes with that corner counts; kNoIndex: all. `origin`: in
-  /// the frame, of what the corners are relative to.
+  /// The metric of one element with its corners there. `moving`: of volumes, only what changes with that corner counts; kNoIndex: all.
+  /// `origin`: in the frame, of what the corners are relative to.
   [[nodiscard]] double quality(Index element, ElementKind kind, const Corners& corners, Vec3 origin, Index moving = kNoIndex) const;
-  /// The same of several elements, at most kFormulaBatch, that one program judges.
+  /// One of several elements that one program judges together, at most kFormulaBatch.
   struct Placed {
     Index element;
     Corners corners;

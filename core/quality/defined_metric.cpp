@@ -86,7 +86,7 @@ NameParts split(std::string_view name) {
   return {name, {}, false};
 }
 
-/// What is wrong in a file names it and the line.
+/// Reads a formula from a file; errors name the file and the line.
 std::shared_ptr<const Formula> formula_in_file(const std::string& path) {
   const std::string text = read_small_text(path, kMostFormulaText);
   try {
@@ -127,20 +127,18 @@ class Definitions {
  private:
   static void describe(DefinedMetric& m, Metric number) {
     const MetricInfo* base = m.base ? &info(*m.base) : nullptr;
-    KindSet kinds = m.formula->kinds();
-    if (base != nullptr) kinds = base->kinds;
     constexpr double kFar = 1e3;  // what a scale can still show
     const double lowest = m.facts.least >= -1.0 - 1e-9 ? -1.0 : std::max(m.facts.least, -kFar);
     const double highest = m.facts.greatest <= 1.0 + 1e-9 ? 1.0 : std::min(m.facts.greatest, kFar);
     m.info = {number,
               m.name,
               m.title,
-              kinds,
               base != nullptr ? base->lowest : lowest,
               base != nullptr ? base->highest : highest,
               m.acceptable,
               m.formula->text(),
-              m.doc};
+              m.doc,
+              base != nullptr ? base->kinds : m.formula->kinds()};
   }
 
   std::mutex mutex_;
@@ -161,7 +159,7 @@ std::string shortened(const std::string& text) {
   return text.substr(0, end) + "…";
 }
 
-/// Of a formula that a person wrote.
+/// The metric of a formula that a person wrote.
 DefinedMetric of_formula(std::shared_ptr<const Formula> formula) {
   DefinedMetric m;
   m.name = std::string(kFormula) + formula->text();
@@ -184,7 +182,7 @@ DefinedMetric of_name(const NamedFormula& named) {
   return m;
 }
 
-/// Of a built-in metric, with no target yet.
+/// A built-in metric as a formula, with no target yet.
 DefinedMetric of_built_in(Metric metric) {
   const MetricInfo& known = info(metric);
   DefinedMetric m;

@@ -26,14 +26,14 @@ struct DefinedMetric {
   MetricInfo info{};
 };
 
-/// Of a metric that is not built in.
+/// The definition of a metric that is not built in.
 [[nodiscard]] const DefinedMetric& defined(Metric metric);
-/// All that were defined so far, in their order.
+/// All metrics that were defined so far, in the order of definition.
 [[nodiscard]] std::vector<Metric> defined_metrics();
 /// The metric of this name where it is one that is defined: see parse_metric(), which throws what this throws.
 [[nodiscard]] std::optional<Metric> define_metric(std::string_view name);
 
-/// The same metric with another target; with the ideal one, the one that it was made of. Throws UsageError.
+/// A metric with its target replaced; with the ideal target, the metric that it was made of. Throws UsageError.
 [[nodiscard]] Metric with_target(Metric metric, const Target& target);
 [[nodiscard]] Target target_of(Metric metric);
 
@@ -43,7 +43,7 @@ struct NamedFormula {
   double acceptable = 0.3;
 };
 [[nodiscard]] std::span<const NamedFormula> named_formulas();
-/// What a built-in metric is as a formula.
+/// The formula text that computes a built-in metric.
 [[nodiscard]] std::string_view formula_of(Metric built_in);
 
 }  // namespace dmoscope

@@ -9,7 +9,6 @@
 #include "core/mesh/element_frame.h"
 #include "core/quality/formulas.h"
 #include "core/quality/quality.h"
-#include "core/quality/volumes.h"
 
 namespace dmoscope {
 
@@ -97,7 +96,7 @@ template <Metric M, class V>
     return formulas::RealOf<V>(std::numeric_limits<double>::quiet_NaN());
 }
 
-/// Likewise of a volume element.
+/// The metric of a volume element; NaN where it is not defined.
 template <Metric M, class V>
 [[nodiscard]] DMOSCOPE_ANYWHERE formulas::RealOf<V> evaluate(const formulas::Tetrahedron<V>& t) {
   if constexpr (formulas::kDefinedForTetrahedra<M>)

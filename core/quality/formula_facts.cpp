@@ -10,7 +10,7 @@
 #include "core/mesh/random.h"
 #include "core/quality/element_shape.h"
 #include "core/quality/formula_values.h"
-#include "core/quality/volumes.h"
+#include "core/quality/formulas.h"
 
 namespace dmoscope {
 
@@ -48,7 +48,7 @@ double jacobian_of(ElementKind kind, const Corners& p) {
   return info(kind).dimension == 3 ? visit_volume(corners, at, smallest) : visit_planar(Plane{}, corners, at, smallest);
 }
 
-/// Of elements of one kind, up to kFormulaBatch at once; what overflows counts as -1, and is noted.
+/// Evaluates a formula on elements of one kind, up to kFormulaBatch at once; a value that overflows counts as -1, and is noted.
 class Sampler {
  public:
   Sampler(const Formula& formula, ElementKind kind)

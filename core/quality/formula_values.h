@@ -20,7 +20,7 @@ class FormulaValues {
     count_ = slot + 1;
   }
   void run();
-  /// Of a slot, after run(). The metric as it came out.
+  /// The value of a slot, after run(), as the formula computed it.
   [[nodiscard]] double quality(std::size_t slot) const { return FormulaResult<double>(program_, uniforms_, registers_)[slot]; }
 
  private:

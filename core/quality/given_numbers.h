@@ -1,5 +1,5 @@
 #pragma once
-// What a program is given that stays when vertices move, as plain data for any processor.
+// The inputs of a formula program that stay when vertices move, as plain data for any processor.
 
 #include <cstddef>
 
@@ -15,8 +15,8 @@ struct GivenNumbers {
   std::size_t elements = 0, dimension = 2;
   double mean_measure = 1.0;  // of the mesh's elements
 
-  /// Of one element; 0 for what is of its corners and their origin. `matrices`, `steepness`: its target's, see ElementTarget. `length`: in
-  /// mesh units, of the unit of the corners.
+  /// The value of one input for an element; 0 for inputs that depend on its corners and their origin. `matrices`, `steepness`: its
+  /// target's, see ElementTarget. `length`: in mesh units, of the unit of the corners.
   [[nodiscard]] DMOSCOPE_ANYWHERE double of(const FormulaInput& input, Index element, const double* matrices, double steepness,
                                             double length) const {
     using What = FormulaInput::What;
@@ -29,7 +29,7 @@ struct GivenNumbers {
   }
 };
 
-/// What falls so many times as fast below 1, in any scalar.
+/// A value that falls `steepness` times as fast below 1, in any scalar.
 template <class R>
 [[nodiscard]] DMOSCOPE_ANYWHERE R steeper(const R& value, double steepness) {
   return steepness == 1.0 ? value : R(1.0) - (R(1.0) - value) * R(steepness);

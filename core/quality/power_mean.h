@@ -69,7 +69,7 @@ class PowerMean {
   }
 
  private:
-  /// What bad elements add to their inverse.
+  /// The sum of the steps that a bad element adds to its inverse.
   [[nodiscard]] static DMOSCOPE_ANYWHERE R steps(R quality) {
     return step<0>(quality) + step<1>(quality) + step<2>(quality) + step<3>(quality);
   }

@@ -20,16 +20,16 @@ class DefinedJudge;
 class DefinedJudges;
 class ThreadPool;
 
-/// What quality needs to know of a mesh besides its positions. A view: the mesh and geometry must outlive it.
+/// A mesh without its positions, as quality needs it. A view: the mesh and geometry must outlive it.
 struct QualityContext {
   const Mesh& mesh;
   const Geometry& geometry;               // Planar: signed in the plane. Surface: triangles unsigned, quadrilaterals against
                                           // geometry.plane.normal if that is mostly_flat, else against their own mean normal.
   std::span<const Vec3> normals{};        // of a Surface, by element, which then are signed by them: see InputMesh::surface_normals
   const DefinedJudges* judges = nullptr;  // of metrics that are defined by formulas and targets; null: built-in ones alone
-  /// Of a metric that is not built in. Throws as require_defined() where it is not defined for the mesh.
+  /// The judge of a metric that is not built in. Throws as require_defined() where it is not defined for the mesh.
   [[nodiscard]] std::shared_ptr<const DefinedJudge> judge(Metric metric) const;
-  /// The same; null where that throws: the metric is not defined for any element then.
+  /// The judge of a metric that is not built in; null where judge() throws.
   [[nodiscard]] std::shared_ptr<const DefinedJudge> find_judge(Metric metric) const;
 };
 
@@ -90,7 +90,7 @@ struct Statistics {
 /// `immovable`: see immovable_elements. The same bits for any pool (nullptr: this thread alone).
 [[nodiscard]] Statistics compute_statistics(const QualityContext& context, std::span<const Vec3> positions, Metric metric,
                                             std::span<const Index> immovable, ThreadPool* pool);
-/// The same for those who ask once; `fixed`: see immovable_elements.
+/// Statistics with the immovable elements found first; `fixed`: see immovable_elements.
 [[nodiscard]] Statistics compute_statistics(const QualityContext& context, std::span<const Vec3> positions, Metric metric,
                                             std::span<const std::uint8_t> fixed, ThreadPool* pool);
 

@@ -9,7 +9,7 @@
 
 namespace dmoscope {
 
-/// What some of the elements add to the statistics.
+/// The share of some elements in the statistics.
 class Tally {
  public:
   /// Four interleaved sums (element i adds to sum i mod 4), so that no addition waits for the one before, over stretches of this many

@@ -14,7 +14,7 @@
 
 #include "core/base/host_device.h"
 #include "core/mesh/mesh.h"
-#include "core/quality/volumes.h"
+#include "core/quality/formulas.h"
 
 namespace dmoscope {
 

@@ -20,17 +20,14 @@ namespace dmoscope {
 inline constexpr Metric kDefinedMetric = static_cast<Metric>(0xffffffffU);
 
 namespace formulas {
-/// Placeholder of a defined metric, which itself decides about inverted elements.
+/// The formula itself decides what an inverted element is worth. The functions have no body: they say that there are such elements.
 template <>
 struct Formula<kDefinedMetric> {
   static constexpr bool kSeesInversion = false;
   template <class V>
-  static RealOf<V> quadrilateral(const Quadrilateral<V>& q);  // has no body: it declares that such elements exist
-};
-template <>
-struct SolidFormula<kDefinedMetric> {
+  static RealOf<V> quadrilateral(const Quadrilateral<V>& q);
   template <class Ideal, class V>
-  static RealOf<V> corner(V u, V v, V w, RealOf<V> jacobian);  // has no body: it declares that such elements exist
+  static RealOf<V> corner(V u, V v, V w, RealOf<V> jacobian);
 };
 }  // namespace formulas
 

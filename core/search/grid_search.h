@@ -7,7 +7,6 @@
 
 #include "core/base/host_device.h"
 #include "core/quality/formulas.h"
-#include "core/quality/volumes.h"
 #include "core/search/candidate_grid.h"
 #include "core/search/parameters.h"
 #include "core/search/star.h"

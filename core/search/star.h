@@ -11,7 +11,7 @@
 #include "core/base/host_device.h"
 #include "core/base/vec.h"
 #include "core/mesh/plane.h"
-#include "core/quality/volumes.h"
+#include "core/quality/formulas.h"
 
 namespace dmoscope {
 

@@ -13,7 +13,7 @@
 
 #include "core/base/host_device.h"
 #include "core/quality/validity.h"
-#include "core/quality/volumes.h"
+#include "core/quality/formulas.h"
 #include "core/search/grid_search.h"
 
 namespace dmoscope {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/mesh/mesh_view.h"
-#include "core/quality/volumes.h"
+#include "core/quality/formulas.h"
 
 namespace dmoscope {
 

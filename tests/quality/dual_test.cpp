@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include "core/quality/formulas.h"
-#include "core/quality/volumes.h"
 #include "tests/support/meshes.h"
 
 namespace dmoscope {

@@ -1,5 +1,5 @@
 // The metrics of volume elements against elementary geometry in long double, and properties of all of them.
-#include "core/quality/volumes.h"
+#include "core/quality/formulas.h"
 
 #include <algorithm>
 #include <cmath>

@@ -86,7 +86,7 @@ double least_of_those_that_stay(const formulas::CorneredSolid<Vec3, Ideal, N, Co
   for (const CornerTable& c : Corners::kTable) {
     if (std::ranges::find(c, moving) != c.end()) continue;
     const Vec3 a = solid.at[c[0]], u = solid.at[c[1]] - a, v = solid.at[c[2]] - a, w = solid.at[c[3]] - a;
-    least = std::min(least, formulas::SolidFormula<Metric::MeanRatio>::corner<Ideal>(u, v, w, dot(cross(u, v), w)));
+    least = std::min(least, formulas::Formula<Metric::MeanRatio>::corner<Ideal>(u, v, w, dot(cross(u, v), w)));
   }
   return least;
 }

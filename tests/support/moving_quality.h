@@ -10,7 +10,7 @@
 
 #include "core/input/input_mesh.h"
 #include "core/quality/quality.h"
-#include "core/quality/volumes.h"
+#include "core/quality/formulas.h"
 
 namespace dmoscope::testing {
 

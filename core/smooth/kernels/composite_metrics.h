@@ -43,7 +43,7 @@ formulas::RealOf<V> least_elsewhere(const formulas::CorneredSolid<V, Ideal, N, C
     const CornerTable c = formulas::row_of<Corners>(i);
     if (c[0] == moving || c[1] == moving || c[2] == moving || c[3] == moving) continue;
     const V a = solid.at[c[0]], u = solid.at[c[1]] - a, v = solid.at[c[2]] - a, w = solid.at[c[3]] - a;
-    least = min(least, formulas::SolidFormula<M>::template corner<Ideal>(u, v, w, formulas::determinant(u, v, w)));
+    least = min(least, formulas::Formula<M>::template corner<Ideal>(u, v, w, formulas::determinant(u, v, w)));
   }
   return least;
 }
@@ -171,7 +171,7 @@ SecondRank<Frame, D> second_rank() {
   using Point = OffsetIn<Frame, D>;
   using Simplex = std::remove_cvref_t<decltype(CompositeLists<Frame>{}.simplices.data->with(Point{}))>;
   constexpr bool kHasRank = requires(const Simplex& simplex) { formulas::Formula<M>::rank_triangle(simplex); }
-  || requires(const Simplex& simplex) { formulas::SolidFormula<M>::rank_tetrahedron(simplex); };
+  || requires(const Simplex& simplex) { formulas::Formula<M>::rank_tetrahedron(simplex); };
   if constexpr (kHasRank && M != Metric::RadiusRatio && formulas::kSignTellsInversion<M, Point>)
     return {&least_rank<M, Frame, D>, [](double rank) { return formulas::rank_doubt<M>(rank); }};
   return {};

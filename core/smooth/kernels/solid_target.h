@@ -8,7 +8,7 @@
 #include <cstddef>
 
 #include "core/base/host_device.h"
-#include "core/quality/volumes.h"
+#include "core/quality/formulas.h"
 #include "core/smooth/kernels/volume_form.h"
 
 namespace dmoscope::volumes {

@@ -3,7 +3,7 @@
 // same order, so that both find the same bits.
 
 #include "core/base/host_device.h"
-#include "core/quality/volumes.h"
+#include "core/quality/formulas.h"
 
 namespace dmoscope::volumes {
 

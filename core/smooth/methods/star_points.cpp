@@ -70,9 +70,12 @@ bool has_metric(const IndexedStar& star, Metric metric) {
 }
 
 double metric_of_rank(Metric metric, double rank) {
-  if (metric == Metric::MeanRatio) return std::cbrt(rank);
-  if (metric == Metric::MinAngle) return 2.0 * std::atan(rank) / formulas::SolidFormula<Metric::MinAngle>::kRegular;
-  return rank;
+  return formulas::with_volume_metric(metric, [rank]<Metric M>() {
+    if constexpr (requires { formulas::Formula<M>::of_volume_rank(rank); })
+      return formulas::Formula<M>::of_volume_rank(rank);
+    else
+      return rank;
+  });
 }
 
 }  // namespace dmoscope

@@ -6,7 +6,6 @@
 
 #include "core/numeric/dual.h"
 #include "core/quality/formulas.h"
-#include "core/quality/volumes.h"
 #include "core/search/star.h"
 #include "core/search/surface_star.h"
 
@@ -98,7 +97,7 @@ constexpr void for_qualities(const VolumeStar<double>& star, Vec3Of<R> p, const 
   star_pieces::for_solids<formulas::kDefinedForCorners<M>>(
       star, p, [&](const formulas::Tetrahedron<V>& t, double /*reference*/) { f(formulas::metric<M>(t)); },
       [&]<class Ideal>(V u, V v, V w, R jacobian, double /*reference*/) {
-        if constexpr (formulas::kDefinedForCorners<M>) f(formulas::SolidFormula<M>::template corner<Ideal>(u, v, w, jacobian));
+        if constexpr (formulas::kDefinedForCorners<M>) f(formulas::Formula<M>::template corner<Ideal>(u, v, w, jacobian));
       });
 }
 template <class R, class F>

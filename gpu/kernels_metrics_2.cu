@@ -1,0 +1,5 @@
+#include "gpu/cuda_launch_metric.cuh"
+
+namespace dmoscope::gpu {
+template Launcher part_launcher<2>(Metric metric, Work work);
+}

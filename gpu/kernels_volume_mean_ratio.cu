@@ -1,5 +1,0 @@
-#include "gpu/cuda_launch_volume.cuh"
-
-namespace dmoscope::gpu {
-template Launcher volume_launcher<Metric::MeanRatio>(Work work);
-}

@@ -49,8 +49,7 @@ struct Piece<Metric::MinAngle> {
     using scalar::atan2;
     using scalar::sqrt;
     const RealOf<V> sine = sqrt(dot(u, u)) * formulas::determinant(u, v, w);
-    return scalar::constant<RealOf<V>>(1.0 / formulas::Formula<Metric::MinAngle>::kRegular) *
-           atan2(sine, dot(cross(u, v), cross(u, w)));
+    return scalar::constant<RealOf<V>>(1.0 / formulas::Formula<Metric::MinAngle>::kRegular) * atan2(sine, dot(cross(u, v), cross(u, w)));
   }
 };
 

@@ -12,8 +12,8 @@
 #include <limits>
 
 #include "core/base/host_device.h"
-#include "core/quality/validity.h"
 #include "core/quality/formulas.h"
+#include "core/quality/validity.h"
 #include "core/search/grid_search.h"
 
 namespace dmoscope {

@@ -1,6 +1,4 @@
 // The metrics of volume elements against elementary geometry in long double, and properties of all of them.
-#include "core/quality/formulas.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/mesh/random.h"
+#include "core/quality/formulas.h"
 
 namespace dmoscope {
 namespace {

@@ -9,8 +9,8 @@
 #include <span>
 
 #include "core/input/input_mesh.h"
-#include "core/quality/quality.h"
 #include "core/quality/formulas.h"
+#include "core/quality/quality.h"
 
 namespace dmoscope::testing {
 

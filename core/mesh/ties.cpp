@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 namespace dmoscope {
 
@@ -58,16 +59,16 @@ bool is_one_cell_thick(const Mesh& mesh, const Topology& topology, const FaceNei
 }
 
 std::vector<Partners> find_partners(const Mesh& mesh, const Topology& topology) {
-  std::vector<Index> ties(mesh.vertex_count(), 0);  // number of ties of each vertex
-  for (const auto& pair : mesh.periodic)
-    for (const Index v : pair) ++ties[v];
   std::vector<Partners> partners;
-  for_doubles(mesh, topology, [&](Index a, Index b) {
-    ++ties[a], ++ties[b];
-    partners.push_back({a, b});
-  });
-  std::erase_if(partners, [&ties](const Partners& pair) { return ties[pair.first] > 1 || ties[pair.second] > 1; });
-  std::ranges::sort(partners, {}, &Partners::first);
+  for (const auto& [one, other] : mesh.periodic) {
+    const Index first = std::min(one, other), second = std::max(one, other);
+    if (!share_an_element(mesh, topology, first, second))
+      partners.push_back({first, second, mesh.positions[second] - mesh.positions[first]});
+  }
+  for_doubles(mesh, topology, [&partners](Index a, Index b) { partners.push_back({a, b}); });
+  const auto ends = [](const Partners& pair) { return std::pair(pair.first, pair.second); };
+  std::ranges::stable_sort(partners, {}, ends);
+  partners.erase(std::ranges::unique(partners, {}, ends).begin(), partners.end());
   return partners;
 }
 

@@ -22,8 +22,8 @@ struct Partners {
   Index first, second;
   Vec3 shift{};
 };
-/// Pairs of vertices at one place, ordered by the first, which has the lower number. Places with more than two vertices and vertices that
-/// the file declares periodic are left out.
+/// The doubles, and the pairs of the file, by the first, which has the lower number: of three that stand for one, two pairs or more. None
+/// of which an element has both.
 [[nodiscard]] std::vector<Partners> find_partners(const Mesh& mesh, const Topology& topology);
 
 /// The tie of each vertex. `faces`: those of a volume mesh.

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/number_text.h"
+#include "core/base/rounding.h"
 #include "core/reference/hold.h"
 #include "core/reference/planar_ends.h"
 #include "core/reference/surface_ends.h"
@@ -19,7 +20,8 @@ Domain::Domain(const InputMesh& input, const StandingRule& rule, SurfaceEnds end
     : curves_(ends.onto ? Curves(input, ends.curves, *ends.onto) : Curves(input, ends.curves)),
       faces_(std::move(ends.faces)),
       surface_(ends.onto ? input.surface->mesh.name : ""),
-      is_surface_(input.is_surface()) {
+      is_surface_(input.is_surface()),
+      single_precision_(input.mesh.single_precision) {
   curves_.for_segments([this](Index curve, std::size_t segment, Index from, Index to) {
     segments_.push_back({std::min(from, to), std::max(from, to), curve, static_cast<Index>(segment)});
   });
@@ -42,7 +44,7 @@ Domain::Domain(const InputMesh& input, const StandingRule& rule, SurfaceEnds end
 
 void Domain::take_pairs(const InputMesh& input) {
   pairs_ = partners_of(input);
-  std::erase_if(pairs_, [this](const Partners& pair) { return !on_curve(pair.first) || !on_curve(pair.second); });
+  std::erase_if(pairs_, [this](const Partners& pair) { return !slides(pair.first) || !slides(pair.second); });
   if (pairs_.empty()) return;
   pair_at_.assign(held_.size(), kNoIndex);
   followers_.assign(held_.size(), kNoIndex);
@@ -54,7 +56,9 @@ void Domain::take_pairs(const InputMesh& input) {
 
 Vec3 Domain::place_of_follower(Index vertex, Vec3 place) const {
   const Vec3 shift = pairs_[pair_at_[vertex]].shift;
-  return shift == Vec3{} ? place : place + shift;
+  if (shift == Vec3{}) return place;
+  const Vec3 there = place + shift;
+  return single_precision_ ? Vec3{nearest_float(there.x), nearest_float(there.y), nearest_float(there.z)} : there;
 }
 
 bool Domain::is_within(std::span<const Curves::Stretch> stretches, Index a, Index b) const {
@@ -109,7 +113,7 @@ std::string Domain::sentence() const {
     text += fmt::format("; {} {}, for {} is too far away, or has no feature edge there", counted(unmatched, "vertex", "vertices"),
                         unmatched == 1 ? "stays" : "stay", surface_);
   if (!pairs_.empty())
-    text += fmt::format("; {} of doubled vertices {} together", counted(static_cast<Index>(pairs_.size()), "pair", "pairs"),
+    text += fmt::format("; {} of doubled or periodic vertices {} together", counted(static_cast<Index>(pairs_.size()), "pair", "pairs"),
                         pairs_.size() == 1 ? "moves" : "move");
   if (tied > 0)
     text += fmt::format("; {} {}, for each belongs to another one, from which it would part (periodic, at a seam, or one cell thick)",

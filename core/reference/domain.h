@@ -86,11 +86,11 @@ class Domain {
   std::vector<Segment> segments_;  // segments of all curves, ascending
   std::vector<EdgeEnds> feature_edges_;
   std::vector<Partners> pairs_;
-  std::vector<Index> pair_at_, followers_;  // indices and followers by vertex; empty: no pairs
-  std::vector<HeldOn> held_;                // by vertex, why it is held
-  std::string surface_;                     // name of the mesh on whose surface it slides; empty: its own
-  bool said_in_plane_ = false;              // whether the user named feature edges of a planar mesh
-  bool is_surface_;
+  std::vector<Index> pair_at_, followers_;  // by vertex; empty: no pairs
+  std::vector<HeldOn> held_;                // by vertex
+  std::string surface_;                     // the name of the mesh on whose surface it slides; empty: its own
+  bool said_in_plane_ = false;              // whether a person names feature edges of a planar mesh
+  bool is_surface_, single_precision_;
   Index sliding_ = 0, inside_ = 0, on_curves_ = 0, corners_ = 0;
 };
 

@@ -1,10 +1,62 @@
 #include "core/reference/hold.h"
 
+#include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <span>
+#include <utility>
 #include <vector>
 
 namespace dmoscope {
+
+namespace {
+
+/// Whether both of a pair slide between neighbours that stand for each other, moved alike.
+class PartnerNeighbours {
+ public:
+  /// `faces`: on which vertices off curves slide.
+  PartnerNeighbours(const InputMesh& input, const ElementTable& faces, const CurveEnds& ends)
+      : input_(input), ends_(ends), ties_(find_partners(input.mesh, input.topology)), around_(ends.size()) {
+    for (const Partners& pair : std::vector(ties_)) ties_.push_back({pair.second, pair.first, -1.0 * pair.shift});
+    std::ranges::sort(ties_, {}, both_of);
+    for (const Partners& tie : ties_) around_[tie.first].push_back(tie.first);  // as a sign that it is looked at
+    for (Index f = 0; f < faces.size(); ++f)
+      for (const Index v : faces.corners(f))
+        if (!around_[v].empty()) around_[v].insert(around_[v].end(), faces.corners(f).begin(), faces.corners(f).end());
+    for (std::vector<Index>& around : around_) {
+      std::ranges::sort(around);
+      around.erase(std::unique(around.begin(), around.end()), around.end());
+    }
+  }
+
+  [[nodiscard]] bool move_alike(const Partners& pair) const {
+    const auto on_faces = [this](Index v) { return ends_.off(v) && around_[v].size() > 1; };
+    const bool along_curves = ends_.slides(pair.first) && ends_.slides(pair.second);
+    if (!along_curves && !(on_faces(pair.first) && on_faces(pair.second))) return false;
+    const std::span<const Index> of_first = around(pair.first), of_second = around(pair.second);
+    return of_first.size() == of_second.size() && std::ranges::all_of(of_first, [&](Index a) {
+             return std::ranges::any_of(of_second, [&](Index b) { return stands_for(a, b, pair.shift); });
+           });
+  }
+
+ private:
+  static std::pair<Index, Index> both_of(const Partners& pair) { return {pair.first, pair.second}; }
+  [[nodiscard]] std::span<const Index> around(Index v) const { return ends_.slides(v) ? std::span<const Index>(ends_.of(v)) : around_[v]; }
+  /// A curve may begin at either end, and at a vertex that both have in common.
+  [[nodiscard]] bool stands_for(Index a, Index b, Vec3 shift) const {
+    constexpr double kRounding = 1e-8;  // of the mesh's size: digits that a file leaves out
+    if (a == b) return shift == Vec3{};
+    if (!std::ranges::binary_search(ties_, std::pair(a, b), {}, both_of)) return false;
+    const Vec3 apart = input_.mesh.positions[b] - input_.mesh.positions[a] - shift;
+    return length(apart) <= kRounding * input_.geometry.size;
+  }
+
+  const InputMesh& input_;
+  const CurveEnds& ends_;
+  std::vector<Partners> ties_;              // both ways, ascending
+  std::vector<std::vector<Index>> around_;  // by vertex that is tied: itself, and the other corners of its faces
+};
+
+}  // namespace
 
 void hold_corners(const InputMesh& input, const StandingRule& rule, CurveEnds& ends) {
   const Plane& plane = input.geometry.plane;
@@ -50,29 +102,26 @@ void hold_tied(const InputMesh& input, CurveEnds& ends) {
     if (ties[v] != Tie::None) ends.hold(v, HeldOn::Tied);
 }
 
-void hold_parting(const InputMesh& input, CurveEnds& ends) {
+void hold_parting(const InputMesh& input, const ElementTable& faces, CurveEnds& ends) {
   const std::vector<Partners> pairs = partners_of(input);
   if (pairs.empty()) return;
-  std::vector<Index> image(ends.size());
-  std::iota(image.begin(), image.end(), Index{0});
-  for (const Partners& pair : pairs) image[pair.first] = pair.second;
-  for (const auto& [first, second, shift] : pairs) {
-    const bool both = ends.slides(first) && ends.slides(second);
-    if (both) {
-      // Compares both ends in either order, and a vertex that both curves share with itself.
-      const auto stands_for = [&](Index of_first, Index of_second) { return image[of_first] == of_second || image[of_second] == of_first; };
-      const auto [a, b] = ends.of(first);
-      const auto [c, d] = ends.of(second);
-      if ((stands_for(a, c) && stands_for(b, d)) || (stands_for(a, d) && stands_for(b, c))) continue;
-    }
-    for (const Index v : {first, second})
-      if (ends.slides(v)) ends.hold(v, HeldOn::Tied);
+  const PartnerNeighbours neighbours(input, faces, ends);
+  for (const Partners& pair : pairs) {
+    if (neighbours.move_alike(pair)) continue;
+    for (const Index v : {pair.first, pair.second})
+      if (ends.slides(v) || ends.off(v)) ends.hold(v, HeldOn::Tied);
   }
 }
 
 std::vector<Partners> partners_of(const InputMesh& input) {
-  if (input.is_volume() || input.surface || input.share) return {};
-  return find_partners(input.mesh, input.topology);
+  if (input.surface || input.share) return {};
+  std::vector<Partners> pairs = find_partners(input.mesh, input.topology);
+  std::vector<Index> ties(input.mesh.vertex_count(), 0);  // by vertex: to how many others
+  for (const Partners& pair : pairs) ++ties[pair.first], ++ties[pair.second];
+  const bool is_cyclic = input.geometry.plane.period > 0.0;
+  std::erase_if(
+      pairs, [&](const Partners& pair) { return ties[pair.first] > 1 || ties[pair.second] > 1 || (is_cyclic && !(pair.shift == Vec3{})); });
+  return pairs;
 }
 
 }  // namespace dmoscope

@@ -41,7 +41,7 @@ CurveEnds planar_ends(const InputMesh& input, const StandingRule& rule) {
   hold_tied(input, ends);
   hold_named_points(input, ends);
   if (rule.interfaces != InterfaceRule::Free) hold_at_interfaces(input, names, ends);
-  hold_parting(input, ends);
+  hold_parting(input, {}, ends);
   return ends;
 }
 

@@ -29,7 +29,7 @@ class SurfaceFinder {
     hold_what_stays();
     const auto facets = std::make_shared<const Facets>(input_.mesh, faces_, links);
     hold_touching(*facets);
-    hold_parting(input_, ends_);
+    hold_parting(input_, faces_, ends_);
     SlidingFaces faces(input_, std::move(faces_), facets);
     const std::vector<Index> home = facets->whole_fans();
     for (Index v = 0; v < ends_.size(); ++v)

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/input/input_mesh.h"
+#include "core/reference/hold.h"
 #include "tests/support/meshes.h"
 
 namespace dmoscope {
@@ -65,7 +66,7 @@ TEST(Ties, DoublesOfASeamAreFoundAndNeighboursAreNot) {
   }
   Mesh paired = seam->mesh;
   paired.periodic = {{partners[0].first, 0}, {partners[1].second, 0}};
-  EXPECT_EQ(find_partners(paired, seam->topology).size(), 3U) << "others that the file pairs";
+  EXPECT_EQ(partners_of(*input(std::move(paired))).size(), 3U) << "others that the file pairs";
   for (Index v = 0; v < seam->mesh.vertex_count(); ++v) EXPECT_EQ(ties[v] == Tie::Double, seam->mesh.positions[v].x == 1.0) << v;
 }
 

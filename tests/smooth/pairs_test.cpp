@@ -40,8 +40,10 @@ std::size_t moved_pairs(const dmoscope::Run& run) {
       std::ranges::count_if(run.domain()->pairs(), [&](const Partners& p) { return run.positions()[p.first] != before[p.first]; }));
 }
 void expect_together(const dmoscope::Run& run) {
-  for (const auto& [first, second, shift] : run.domain()->pairs())
-    ASSERT_TRUE(same_bits(run.positions().subspan(first, 1), run.positions().subspan(second, 1))) << first << ", " << second;
+  for (const auto& [first, second, shift] : run.domain()->pairs()) {
+    const Vec3 expected = run.positions()[first] + shift;
+    ASSERT_TRUE(same_bits(std::span(&expected, 1), run.positions().subspan(second, 1))) << first << ", " << second;
+  }
 }
 
 TEST(Pairs, StayTogetherByEveryMethodAndObjective) {
@@ -154,6 +156,121 @@ TEST(Pairs, NoClassHasTwoWhoseStarsTouch) {
       }
     }
     EXPECT_EQ(elements.size(), count) << "class " << c;
+  }
+}
+
+/// A square whose left and right sides are drawn towards y = 1 alike, and which the file pairs; `turn`: how far the right half is turned.
+Mesh periodic_square(double turn) {
+  constexpr Index kCells = 6;
+  Mesh mesh = mapped(lattice(kCells, 0.3, 7, Cells::Mixed), [turn](Vec3 p) {
+    const Vec3 at{p.x, p.y * std::sqrt(p.y), 0.0};
+    return turn == 0.0 ? at : Vec3{(1.0 + at.y) * std::sin(turn * at.x), (1.0 + at.y) * std::cos(turn * at.x), 0.0};
+  });
+  for (Index row = 0; row <= kCells; ++row) mesh.periodic.push_back({row * (kCells + 1) + kCells, row * (kCells + 1)});
+  return mesh;
+}
+
+TEST(Pairs, PeriodicOnesMoveAlike) {
+  for (const char* method : {"dmo", "pattern-search", "active-set", "laplace"}) {
+    SCOPED_TRACE(method);
+    RunParameters parameters = sliding_by();
+    parameters.method = method;
+    dmoscope::Run run = make_run(input(periodic_square(0.0)), parameters);
+    EXPECT_EQ(run.domain()->pairs().size(), 5U) << "not the corners";
+    Progress progress;
+    run.iterate(8, progress);
+    expect_together(run);
+    EXPECT_GT(moved_pairs(run), 3U);
+  }
+}
+
+/// Nothing is told of how one moves where the other does.
+TEST(Pairs, PeriodicOnesThatAreTurnedStay) {
+  dmoscope::Run run = make_run(input(periodic_square(0.8)), sliding_by());
+  EXPECT_TRUE(run.domain()->pairs().empty());
+  const std::vector<Vec3> before(run.positions().begin(), run.positions().end());
+  Progress progress;
+  run.iterate(8, progress);
+  for (const auto& pair : run.input().mesh.periodic)
+    for (const Index v : pair) EXPECT_EQ(run.positions()[v], before[v]) << v;
+}
+
+/// A block of hexahedra or wedges, x from 0 to 1; its inner and boundary vertices are moved within the block and along its faces.
+Mesh block(Index n, bool wedges, std::uint64_t seed) {
+  Mesh mesh;
+  Random random(seed);
+  const double h = 1.0 / n;
+  for (Index k = 0; k <= n; ++k)
+    for (Index j = 0; j <= n; ++j)
+      for (Index i = 0; i <= n; ++i) {
+        const auto moved = [&](Index at) { return h * (at + (at > 0 && at < n ? random(-0.25, 0.25) : 0.0)); };
+        mesh.positions.push_back({h * i + (i > 0 && i < n ? random(-0.25, 0.25) * h : 0.0), moved(j), moved(k)});
+      }
+  const Index row = n + 1, layer = row * row;
+  for (Index k = 0; k < n; ++k)
+    for (Index j = 0; j < n; ++j)
+      for (Index i = 0; i < n; ++i) {
+        const Index a = k * layer + j * row + i, b = a + 1, c = b + row, d = a + row;
+        const auto add_prism = [&](ElementKind kind, std::vector<Index> corners) {
+          const std::size_t count = corners.size();
+          for (std::size_t corner = 0; corner < count; ++corner) corners.push_back(corners[corner] + layer);
+          mesh.elements.add(kind, corners);
+        };
+        if (!wedges) {
+          add_prism(ElementKind::Hexahedron, {a, b, c, d});
+        } else {
+          add_prism(ElementKind::Wedge, {a, b, c});
+          add_prism(ElementKind::Wedge, {a, c, d});
+        }
+      }
+  return mesh;
+}
+
+/// Faces of volumes: two blocks that have the face x = 1 in common, each with vertices of its own, and one whose ends the file pairs.
+TEST(Pairs, OfVolumesMoveAlike) {
+  constexpr Index kCells = 4;
+  for (const bool wedges : {false, true}) {
+    Mesh doubled = block(kCells, wedges, 3);
+    Mesh periodic = doubled;
+    const Index n = doubled.vertex_count();
+    const Mesh other = block(kCells, wedges, 4);
+    for (Index v = 0; v < n; ++v) {
+      const bool at_begin = v % (kCells + 1) == 0;
+      const Vec3 p = at_begin ? doubled.positions[v + kCells] : other.positions[v];
+      doubled.positions.push_back(at_begin ? p : Vec3{1.0 + p.x, p.y, p.z});
+      if (at_begin) {
+        periodic.periodic.push_back({v, v + kCells});
+        periodic.positions[v + kCells] = periodic.positions[v] + Vec3{1.0, 0.0, 0.0};
+      }
+    }
+    for (Index e = 0; e < other.elements.size(); ++e) {
+      std::vector<Index> corners(other.elements.corners(e).begin(), other.elements.corners(e).end());
+      for (Index& v : corners) v += n;
+      doubled.elements.add(other.elements.kind(e), corners);
+    }
+    for (const Mesh& mesh : {doubled, periodic})
+      for (const char* method : {"dmo", "pattern-search"}) {
+        SCOPED_TRACE(std::string(method) + (wedges ? ", wedges" : ", hexahedra") + (mesh.periodic.empty() ? ", doubled" : ", periodic"));
+        RunParameters parameters = sliding_by();
+        parameters.method = method;
+        const auto specimen = input(mesh);
+        dmoscope::Run run = make_run(specimen, parameters);
+        constexpr std::size_t kInside = (kCells - 1) * (kCells - 1), kEdges = 4 * (kCells - 1);
+        EXPECT_EQ(run.domain()->pairs().size(), kInside + kEdges) << "not the corners";
+        Progress progress;
+        double least = run.statistics().minimum;
+        for (int i = 0; i < 5; ++i) {
+          run.iterate(1, progress);
+          expect_together(run);
+          EXPECT_GE(run.statistics().minimum, least);
+          least = run.statistics().minimum;
+        }
+        EXPECT_GT(moved_pairs(run), kInside);
+        for (const Partners& pair : run.domain()->pairs()) EXPECT_NEAR(run.positions()[pair.first].x, mesh.positions[pair.first].x, 1e-12);
+        dmoscope::Run threads = make_run(specimen, parameters, 3);
+        threads.iterate(5, progress);
+        EXPECT_TRUE(same_bits(threads.positions(), run.positions()));
+      }
   }
 }
 

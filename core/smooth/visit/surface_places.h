@@ -121,10 +121,22 @@ class SurfacePlaces {
       target = {nearest_float(target.x), nearest_float(target.y), nearest_float(target.z)};
       if (!domain_.faces().place(vertex_, target)) return std::nullopt;
     }
+    const Index follower = domain_.follower(vertex_);
+    const Vec3 behind = follower != kNoIndex ? domain_.place_of_follower(vertex_, target) : Vec3{};
+    const auto beneath = follower != kNoIndex ? domain_.faces().place(follower, behind) : std::nullopt;
+    if (follower != kNoIndex && !beneath) return std::nullopt;
     if (confirm(target) != Confirmation::Gains) return std::nullopt;
     if (!domain_.bound().allows_faces(positions_, {vertex_, here, target, &place_, &*there}, room_.overlay, fit_now_)) return std::nullopt;
+    if (follower != kNoIndex && !follows_near(follower, behind, *beneath)) return std::nullopt;
     domain_.expect(vertex_, there->facet);
     return target;
+  }
+  [[nodiscard]] bool follows_near(Index follower, Vec3 target, const FacetPlace& beneath) const {
+    const auto now = domain_.place(follower, positions_[follower]);
+    const auto move = [&] { return DeviationBound::Move{follower, positions_[follower], target, &*now, &beneath}; };
+    if (!now || !domain_.bound().allows_faces(positions_, move(), room_.overlay, fit_of_follower_)) return false;
+    domain_.expect(follower, beneath.facet);
+    return true;
   }
 
   const SlidingDomain& domain_;
@@ -137,7 +149,7 @@ class SurfacePlaces {
   Plane plane_;  // that touches the surface where the vertex stands
   mutable std::optional<Coordinates> box_{};
   mutable std::optional<FacetWalks> walks_{};
-  mutable std::optional<Fit> fit_now_{};  // of the faces around, once it is known
+  mutable std::optional<Fit> fit_now_{}, fit_of_follower_{};  // of the faces around, once it is known
 };
 
 }  // namespace dmoscope

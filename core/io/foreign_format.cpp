@@ -74,11 +74,6 @@ bool is_freefem(const Head& h) {
   return counts.size() == 3 && all_whole(counts) && (vertex.size() == 3 || vertex.size() == 4) && whole(vertex.back()).has_value();
 }
 
-bool is_unv(const Head& h) {
-  constexpr std::array<long, 9> kDatasets{15, 55, 58, 151, 164, 781, 2411, 2412, 2420};
-  return h.line(0) == "-1" && std::ranges::find(kDatasets, whole(h.line(1)).value_or(-1)) != kDatasets.end();
-}
-
 bool is_tecplot(const Head& h) {
   if (h.bytes.starts_with("#!TDV")) return true;
   const auto sets = [&](std::string_view word) {
@@ -171,7 +166,6 @@ constexpr std::array kForeign{
     Foreign{"a 3MF model", "save it from the program that made it, or from MeshLab, as .stl or .ply",
             [](const Head& h) { return h.is(".3mf") && h.bytes.starts_with("PK\x03\x04"); }},
     Foreign{"a Tecplot file", "convert it with ParaView or meshio to .vtu", is_tecplot},
-    Foreign{"an I-deas universal file (UNV)", "open it in Gmsh or Salome and save it as .msh or .med", is_unv},
     Foreign{"an LS-DYNA keyword file", "convert it with LS-PrePost to Nastran, and that with meshio to .vtu",
             [](const Head& h) { return h.has_line("*KEYWORD"); }},
     Foreign{"an Abaqus input file", kMeshio,

@@ -74,6 +74,7 @@ struct FormatHandler {
 [[nodiscard]] const FormatHandler& sms_2dm_format();
 [[nodiscard]] const FormatHandler& nastran_format();
 [[nodiscard]] const FormatHandler& mike_format();
+[[nodiscard]] const FormatHandler& unv_format();
 [[nodiscard]] const FormatHandler& selafin_format();
 [[nodiscard]] const FormatHandler& xdmf_format();  // needs pugixml: not in every build
 [[nodiscard]] const FormatHandler& exodus_format();

@@ -15,12 +15,12 @@ namespace {
 
 const std::vector<const FormatHandler*>& handlers() {
   static const std::vector<const FormatHandler*> table{
-      &off_format(),    &obj_format(),     &ply_format(),     &stl_format(),   &vtk_format(),
+      &off_format(),     &obj_format(),     &ply_format(),  &stl_format(),   &vtk_format(),
 #ifdef DMOSCOPE_VTU
-      &vtu_format(),    &vtp_format(),     &pvtu_format(),    &xdmf_format(),
+      &vtu_format(),     &vtp_format(),     &pvtu_format(), &xdmf_format(),
 #endif
-      &fort14_format(), &su2_format(),     &gmsh_format(),    &medit_format(), &meshb_format(),   &tetgen_format(),
-      &abaqus_format(), &sms_2dm_format(), &nastran_format(), &mike_format(),  &selafin_format(), &exodus_format(),
+      &fort14_format(),  &su2_format(),     &gmsh_format(), &medit_format(), &meshb_format(),   &tetgen_format(), &abaqus_format(),
+      &sms_2dm_format(), &nastran_format(), &unv_format(),  &mike_format(),  &selafin_format(), &exodus_format(),
 #ifdef DMOSCOPE_HDF5
       &cgns_format(),
 #endif

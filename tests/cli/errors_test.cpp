@@ -67,11 +67,11 @@ TEST(BadInput, UnknownFormat) {
 /// An input whose extension is kept is to blame, not the output.
 TEST(BadInput, UnknownFormatIsNotBlamedOnTheOutput) {
   const Folder folder;
-  const std::string in = folder.file("a.unv", "    -1\n   164\n"), out = folder / "b.unv";
+  const std::string in = folder.file("a.gmv", "gmvinput ascii\nnodev 3\n"), out = folder / "b.gmv";
   for (const auto& arguments : {std::vector<std::string>{"smooth", in, "-o", out}, {"convert", in, out}}) {
     const Output output = run(arguments);
     EXPECT_EQ(output.code, 3);
-    EXPECT_THAT(output.err, HasSubstr(in + ": this is an I-deas universal file"));
+    EXPECT_THAT(output.err, HasSubstr(in + ": this is a GMV file"));
     EXPECT_THAT(output.err, ::testing::Not(HasSubstr(out)));
   }
   const Output output = run({"convert", folder.file("good.off", kTriangles), out});

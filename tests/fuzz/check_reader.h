@@ -112,6 +112,7 @@ inline void check_patch(std::string_view format, const Mesh& mesh) {
   const std::string bytes = write_again(mesh, moved).bytes;
   const auto rounded = [&](double value, std::size_t axis) {
     value = narrowed(format, value);
+    if (format == "unv" && layout.width < 24) value = number_in_field(value, layout.width, ExponentStyle::Letter).value;
     return layout.binary && layout.scalar[axis] == CoordinateScalar::Float32 ? static_cast<double>(static_cast<float>(value)) : value;
   };
   for (Vec3& p : moved) p = {rounded(p.x, 0), rounded(p.y, 1), rounded(p.z, 2)};

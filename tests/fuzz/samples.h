@@ -2,6 +2,7 @@
 // Small valid files of every format, from which mutation tests and the fuzzers start.
 
 #include <cstdint>
+#include <cstdio>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -326,6 +327,54 @@ inline std::string nastran_planar() {
          "CTRIA3,1,1,1,2,3\r\nCTRIA3,2,1,1,3,4\r\nCQUAD4,3,,2,5,6,3\r\nCROD,4,2,1,2\r\n";
 }
 
+/// A dataset of a universal file.
+inline std::string unv_dataset(std::string_view number, std::string_view records) {
+  constexpr std::string_view kMark = "    -1\n";
+  return std::string(kMark) + std::string(6 - number.size(), ' ') + std::string(number) + "\n" + std::string(records) + std::string(kMark);
+}
+
+// A hexahedron below a pyramid, a quadrilateral, a beam and a spring; two groups.
+inline std::string unv_volume() {
+  constexpr double kPlaces[9][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1.5, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}, {.5, .5, 2}};
+  std::string nodes, line(128, ' ');
+  for (int v = 0; v < 9; ++v) {
+    const auto add = [&](const char* form, auto... numbers) {
+      nodes.append(line.data(), static_cast<std::size_t>(std::snprintf(line.data(), line.size(), form, numbers...)));
+    };
+    add("%10d%10d%10d%10d\n", v < 4 ? v + 1 : v + 7, 1, 1, 11);
+    const std::size_t begin = nodes.size();
+    add("%25.16E%25.16E%25.16E\n", kPlaces[v][0], kPlaces[v][1], kPlaces[v][2]);
+    for (std::size_t i = begin; i < nodes.size(); ++i)
+      if (nodes[i] == 'E') nodes[i] = 'D';
+  }
+  return unv_dataset("164", "         1SI: Meters (newton)          2\n    1.0000000000000000D+0\n") + unv_dataset("2411", nodes) +
+         unv_dataset("2412",
+                     "         1       115         7         1         7         8\n         1         2         3         4        11"
+                     "        12        13        14\n"
+                     "         2       114         7         1         7         5\n        11        12        13        14        15\n"
+                     "         5        94         9         1         7         4\n         1         4         3         2\n"
+                     "         6        21         9         1         7         2\n         0         1         1\n         3         4\n"
+                     "         7       136         9         1         7         1\n        15\n") +
+         unv_dataset("2477",
+                     "         1         0         0         0         0         0         0         2\nrock\n"
+                     "         8         1         0         0         8         2         0         0\n"
+                     "         4         0         0         0         0         0         0         3\nskin and a node\n"
+                     "         8         5         0         0         8         6         0         0\n"
+                     "         7         3         0         0\n");
+}
+
+inline std::string unv_planar() {
+  return unv_dataset("15",
+                     "         1         0         0        11  0.00000E+00  0.00000E+00  0.00000E+00\n"
+                     "         2         0         0        11  1.00000E+00  0.00000E+00  0.00000E+00\n"
+                     "         3         0         0        11  1.00000E+00  1.00000E+00  0.00000E+00\n"
+                     "         4         0         0        11  0.00000E+00  1.50000E+00  0.00000E+00\n"
+                     "         5         0         0        11  2.00000E+00  5.00000E-01  0.00000E+00\n") +
+         unv_dataset("2412",
+                     "         1        44         1         1         7         4\n         1         2         3         4\n"
+                     "         2        41         2         1         7         3\n         2         5         3\n");
+}
+
 inline std::string sms_2dm() {
   return "MESH2D\nMESHNAME \"a square\"\nNUM_MATERIALS_PER_ELEM 1\nE3T 1 1 2 3 1\nE3T 2 1 3 4 2\nE4Q 9 2 5 6 3 1\nE2L 10 1 2 4\n"
          "ND 1 0.0 0.0 -10.5\nND 2 1.0 0 -11\nND 3 1 1 12.\nND 4 0 1.50 1.3e1\nND 5 2 0 0\nND 6 2 1 0\nNS 1 2\nNS -5 3 \"sea side\"\nNS 4 "
@@ -445,6 +494,8 @@ inline std::vector<Sample> samples() {
       {"strings", "2dm", sms_2dm()},
       {"volume", "nastran", nastran_volume()},
       {"planar", "nastran", nastran_planar()},
+      {"volume", "unv", unv_volume()},
+      {"planar", "unv", unv_planar()},
       {"mixed", "mike",
        "100079 1000 5 UTM-33\n1 0 0 -5.5 1\n2 1 0 -5 1\n3 1 1 -4 0\n4 0 1.50 -3 2\n5 2 0.5 -2 1\n2 4 25\n1 1 2 3 4\n2 2 5 3 0\n"},
       {"single_big", "selafin", selafin_sample(true, false)},

@@ -51,7 +51,6 @@ TEST(ForeignFormat, IsNamedWithWhatToDo) {
       {"case.foam", "", "an OpenFOAM file", "foamToVTK"},
       {"a.dat", "TITLE = \"x\"\nVARIABLES = \"X\" \"Y\"\nZONE T=\"a\"\n", "a Tecplot file", "ParaView"},
       {"a.plt", "#!TDV112" + zero, "a Tecplot file", "ParaView"},
-      {"a.unv", "    -1\n   164\n         1SI: Meters\n", "an I-deas universal file", "Gmsh"},
       {"a.k", "*KEYWORD\n*NODE\n", "an LS-DYNA keyword file", "LS-PrePost"},
       {"a.inp", "# made by LaGriT\n4 2 0 0 0\n1 0 0 0\n", "an AVS UCD file", ".avs"},
       {"a.vol", "mesh3d\ndimension\n3\n", "a Netgen mesh", "Gmsh2"},

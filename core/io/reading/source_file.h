@@ -104,7 +104,12 @@ class SourceFile {
   [[nodiscard]] std::filesystem::path file_of_field(std::size_t field) const {
     return beside_.empty() || field < first_beside_ ? path_ : path_.parent_path() / beside_;
   }
-  /// The line, from 1, where a row of one of the mesh's fields begins; 0 if that is not known, as in binary files.
+  /// The rows of a field of the mesh from `row` on begin at a byte of their own, as in a file of several pieces.
+  struct FieldPiece {
+    std::uint64_t field, row, begin;
+  };
+  [[nodiscard]] const std::vector<FieldPiece>& field_pieces() const noexcept { return field_pieces_; }
+  /// The 1-based line where a row of one of the mesh's fields begins; 0 where that is not known, as in binary files.
   [[nodiscard]] std::size_t line_of_row(const Mesh& mesh, std::size_t field, std::size_t row) const;
 
   // --- For readers of formats ---
@@ -123,8 +128,8 @@ class SourceFile {
   }
   /// Sets the vertex of each place, if it is not the i-th vertex at the i-th place.
   void set_place_vertices(std::vector<Index> vertices) { place_vertices_ = std::move(vertices); }
-  /// Sets the byte at which the rows of a field from `row` on begin, as in a file of several pieces. Ascending.
-  void add_piece_of_field(std::size_t field, std::size_t row, std::uint64_t begin) { field_pieces_.push_back({field, row, begin}); }
+  /// Ascending.
+  void add_field_piece(const FieldPiece& piece) { field_pieces_.push_back(piece); }
   void set_not_patchable(std::string why) { not_patchable_ = std::move(why); }
   /// Adds a kind of data, once for any number of calls.
   void add_only_in_file(std::string_view thing);
@@ -153,10 +158,6 @@ class SourceFile {
   std::vector<std::string> only_in_file_;
   std::unordered_set<std::string> met_only_in_file_;  // those of only_in_file_, for fast lookup
   std::vector<std::string> notes_;
-  struct FieldPiece {
-    std::size_t field, row;
-    std::uint64_t begin;
-  };
   std::vector<FieldPiece> field_pieces_;
 };
 

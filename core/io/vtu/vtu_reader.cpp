@@ -349,7 +349,7 @@ class VtuReader {
       if (array.ascii) field.place = {array.begin, static_cast<std::uint32_t>(array.components)};
     } else {
       if (!array.ascii) field.place = {};
-      if (field.place.words > 0) source_.add_piece_of_field(number, field.values.size() / array.components, array.begin);
+      if (field.place.words > 0) source_.add_field_piece({number, field.values.size() / array.components, array.begin});
       field.values.insert(field.values.end(), values.begin(), values.end());
     }
     if (rounded) {

@@ -8,10 +8,7 @@
 namespace dmoscope {
 
 std::vector<Index> layer_vertices(const Mesh& mesh, const Geometry& geometry) {
-  const auto prismatic = [](ElementKind kind) {
-    return kind == ElementKind::Quadrilateral || kind == ElementKind::Wedge || kind == ElementKind::Hexahedron;
-  };
-  if (geometry.shape == Shape::Surface || std::ranges::none_of(mesh.elements.kinds(), prismatic)) return {};
+  if (!may_have_layers(mesh, geometry)) return {};
   const BoundaryLayers layers = find_boundary_layers(mesh, geometry);
   const QualityContext context{mesh, geometry};
   std::vector<Index> vertices;

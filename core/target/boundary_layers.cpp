@@ -1,6 +1,7 @@
 #include "core/target/boundary_layers.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -20,7 +21,7 @@ constexpr double kFlat = 4.0,
 constexpr std::size_t kLayers = 3;  // at least
 constexpr double kEven = 0.95, kSteps = 2.5;  // least and most height over that of the layer beneath
 constexpr double kUpright = 0.5;              // sine of the angle between the wall and the way up below which an element leans
-constexpr double kMostLeaning = 0.15;         // share of elements that lean, in stacks that begin flat
+constexpr double kMostLeaning = 0.15;         // share of layers that lean, in stacks that begin flat
 constexpr std::uint16_t kHighest = 60000;     // layers of a stack
 
 struct Extent {
@@ -37,14 +38,21 @@ class Shapes {
  public:
   Shapes(const Mesh& mesh, const Plane& plane, std::span<const Vec3> positions) : mesh_(mesh), plane_(plane), positions_(positions) {}
 
-  /// Of a quadrilateral that stands on its edge.
-  [[nodiscard]] Extent extent(Index element, Index edge) const {
-    const auto c = mesh_.elements.corners(element);
-    const auto way = [&](Index i) { return difference(c[(edge + i + 1) % 4], c[(edge + i) % 4]); };
-    const auto side = [&](Index i) { return length(way(i)); };
+  /// Of a quadrilateral that stands on the edge from its first corner to the second.
+  [[nodiscard]] Extent extent(const std::array<Index, 4>& c) const {
+    const auto way = [&](std::size_t i) { return difference(c[(i + 1) % 4], c[i]); };
+    const auto side = [&](std::size_t i) { return length(way(i)); };
     const Vec3 along = way(0) - way(2), up = way(1) - way(3);
     return {0.5 * (side(0) + side(2)), 0.5 * (side(1) + side(3)), length(cross(along, up)) / (length(along) * length(up))};
   }
+  /// How high an element of the plane stands on one of its edges: a triangle by the shorter one of its others.
+  [[nodiscard]] double height(Index element, Index edge) const {
+    const auto c = mesh_.elements.corners(element);
+    const std::size_t n = c.size();
+    const auto side = [&](std::size_t i) { return distance(c[(edge + i + 1) % n], c[(edge + i) % n]); };
+    return n == 3 ? std::min(side(1), side(2)) : 0.5 * (side(1) + side(3));
+  }
+  [[nodiscard]] double distance(Index a, Index b) const { return length(difference(a, b)); }
 
   /// The face that stands opposite to one; none where there is no such face.
   [[nodiscard]] static std::optional<Index> opposite(ElementKind kind, Index face) {
@@ -100,7 +108,6 @@ class Shapes {
  private:
   /// The way to a from b.
   [[nodiscard]] Vec3 difference(Index a, Index b) const { return plane_.difference(positions_[a], positions_[b]); }
-  [[nodiscard]] double distance(Index a, Index b) const { return length(difference(a, b)); }
 
   const Mesh& mesh_;
   const Plane& plane_;
@@ -136,10 +143,16 @@ class Finder {
 
  private:
   [[nodiscard]] static bool is_flat(const Extent& extent) { return extent.width >= kFlat * extent.height; }
-  void begin_stack() { stack_.clear(); }
-  /// Keeps the steady part of the stack, from the wall on.
-  void add_to_stack(Index element, const Extent& extent) {
-    const bool is_first = height_[element] == 1;
+  void begin_stack() {
+    stack_.clear();
+    climbed_.clear();
+    steady_layers_ = climbed_layers_ = 0;
+  }
+  /// Keeps the steady part of the stack, from the wall on. `elements`: of the layer that comes next.
+  void add_to_stack(std::span<const Index> elements, const Extent& extent) {
+    climbed_.insert(climbed_.end(), elements.begin(), elements.end());
+    ++climbed_layers_;
+    const bool is_first = climbed_layers_ == 1;
     if (is_first) first_ = last_ = extent, steady_ = true, ++layers_.stacks;
     if (is_flat(first_)) {
       ++flat_;
@@ -148,14 +161,45 @@ class Finder {
     steady_ = steady_ && extent.height <= kSteps * last_.height && extent.height >= kEven * last_.height;
     if (!steady_) return;
     last_ = extent;
-    stack_.push_back(element);
+    ++steady_layers_;
+    stack_.insert(stack_.end(), elements.begin(), elements.end());
   }
   void end_stack() {
-    if (stack_.size() < kLayers || !is_flat(first_) || last_.height < kGrown * first_.height) return;
+    // A flat triangle or two on the boundary are no layers.
+    if (!climbed_.empty() && mesh_.elements.kind(climbed_[0]) == ElementKind::Triangle && climbed_layers_ < kLayers) {
+      for (const Index element : climbed_) height_[element] = 0;
+      --layers_.stacks;
+    }
+    if (steady_layers_ < kLayers || !is_flat(first_) || last_.height < kGrown * first_.height) return;
     for (const Index element : stack_) pronounced_[element] = 1;
   }
 
-  // In the plane: a side is a quadrilateral's edge i, from corner i to i + 1.
+  // In the plane: a side is an element's edge i, from corner i to i + 1.
+
+  /// A layer of a stack: a quadrilateral, or two triangles that one was cut into.
+  struct Rung {
+    std::array<Index, 2> elements{}, bases{};
+    std::size_t count = 0;
+    std::array<Index, 4> corners{};  // the first two at the base, the others above
+    [[nodiscard]] std::span<const Index> all() const { return std::span(elements).first(count); }
+  };
+  [[nodiscard]] std::optional<Rung> rung_on(Index element, Index edge) const {
+    const auto c = mesh_.elements.corners(element);
+    if (c.size() == 4) return Rung{{element}, {edge}, 1, {c[edge], c[(edge + 1) % 4], c[(edge + 2) % 4], c[(edge + 3) % 4]}};
+    const Index a = c[edge], b = c[(edge + 1) % 3], tip = c[(edge + 2) % 3];
+    const bool above_first = shapes_.distance(tip, a) < shapes_.distance(tip, b);  // the other side is the cut
+    const Index cut = above_first ? (edge + 1) % 3 : (edge + 2) % 3;
+    const Index beside = across_[4 * std::size_t{element} + cut];
+    if (beside == kNoIndex || mesh_.elements.kind(beside) != ElementKind::Triangle) return std::nullopt;
+    const Index end = above_first ? b : a;  // of the cut, at the base
+    Index corner = kNoIndex;
+    for (const Index v : mesh_.elements.corners(beside))
+      if (v != tip && v != end) corner = v;
+    if (corner == kNoIndex) return std::nullopt;
+    const Index top = edge_of(beside, {std::min(tip, corner), std::max(tip, corner)});
+    const std::array<Index, 4> corners = above_first ? std::array{a, b, corner, tip} : std::array{a, b, tip, corner};
+    return Rung{{element, beside}, {edge, top}, 2, corners};
+  }
 
   void from_edges() {
     const Topology topology(mesh_);
@@ -188,18 +232,21 @@ class Finder {
   void climb_from_edge(Index element, Index edge) {
     double below = 0.0;
     for (std::uint16_t height = 1; height < kHighest; ++height) {
-      if (mesh_.elements.kind(element) != ElementKind::Quadrilateral || height_[element] != 0) return;
-      const Extent here = shapes_.extent(element, edge);
+      const auto rung = rung_on(element, edge);
+      if (!rung || std::ranges::any_of(rung->all(), [this](Index e) { return height_[e] != 0; })) return;
+      const Extent here = shapes_.extent(rung->corners);
       if (!here.is_layer_on(below, height == 1 ? kAtWall : kAbove)) return;
       below = here.height;
-      height_[element] = height;
-      base_[element] = static_cast<std::uint8_t>(edge);
-      add_to_stack(element, here);
-      const Index opposite = (edge + 2) % 4, next = across_[4 * std::size_t{element} + opposite];
+      for (std::size_t i = 0; i < rung->count; ++i) {
+        height_[rung->elements[i]] = height;
+        base_[rung->elements[i]] = static_cast<std::uint8_t>(rung->bases[i]);
+      }
+      add_to_stack(rung->all(), here);
+      const Index last = rung->all().back(), a = rung->corners[2], b = rung->corners[3];
+      const Edge top{std::min(a, b), std::max(a, b)};
+      const Index next = across_[4 * std::size_t{last} + edge_of(last, top)];
       if (next == kNoIndex) return;
-      const auto c = mesh_.elements.corners(element);
-      const Index a = c[opposite], b = c[(opposite + 1) % 4];
-      edge = edge_of(next, {std::min(a, b), std::max(a, b)});
+      edge = edge_of(next, top);
       element = next;
     }
   }
@@ -228,7 +275,7 @@ class Finder {
       below = here.height;
       height_[at.element] = height;
       base_[at.element] = static_cast<std::uint8_t>(at.face);
-      add_to_stack(at.element, here);
+      add_to_stack(std::span(&at.element, 1), here);
       const ElementFace top{at.element, *other};
       const Index next = neighbours.of(at.element)[*other];
       if (next == kNoIndex) return;
@@ -242,15 +289,31 @@ class Finder {
   std::vector<std::uint16_t> height_;  // by element; 0: in no stack
   std::vector<std::uint8_t> base_;     // by element: the side that it stands on
   std::vector<std::uint8_t> pronounced_;
-  std::vector<Index> stack_;  // the steady part of the one that is climbed, from the wall on
-  Extent first_, last_;       // of its elements
-  Index flat_ = 0, leaning_ = 0;
-  bool steady_ = true;         // has no layer of it so far differed much from the one beneath?
-  std::vector<Index> across_;  // by element and edge
+  std::vector<Index> stack_, climbed_;  // the steady part of the one that is climbed, from the wall on, and all of it
+  Extent first_, last_;                 // of its elements
+  std::size_t steady_layers_ = 0, climbed_layers_ = 0;
+  Index flat_ = 0, leaning_ = 0;  // layers
+  bool steady_ = true;            // has no layer of it so far differed much from the one beneath?
+  std::vector<Index> across_;     // by element and edge
   BoundaryLayers layers_;
 };
 
 }  // namespace
+
+bool may_have_layers(const Mesh& mesh, const Geometry& geometry) {
+  if (geometry.shape == Shape::Surface) return false;
+  const Shapes shapes(mesh, geometry.plane, mesh.positions);
+  for (Index e = 0; e < mesh.elements.size(); ++e) {
+    const ElementKind kind = mesh.elements.kind(e);
+    if (kind == ElementKind::Quadrilateral || kind == ElementKind::Wedge || kind == ElementKind::Hexahedron) return true;
+    if (kind != ElementKind::Triangle || geometry.shape == Shape::Volume) continue;
+    const auto c = mesh.elements.corners(e);
+    const std::array<double, 3> sides{shapes.distance(c[0], c[1]), shapes.distance(c[1], c[2]), shapes.distance(c[2], c[0])};
+    const auto [least, most] = std::ranges::minmax(sides);
+    if (most >= kFlat * least) return true;
+  }
+  return false;
+}
 
 BoundaryLayers find_boundary_layers(const Mesh& mesh, const Geometry& geometry) {
   return Finder(mesh, geometry).run(geometry.shape == Shape::Volume);
@@ -258,7 +321,7 @@ BoundaryLayers find_boundary_layers(const Mesh& mesh, const Geometry& geometry) 
 
 double height_on(const Mesh& mesh, const Geometry& geometry, std::span<const Vec3> positions, Index element, Index base) {
   const Shapes shapes(mesh, geometry.plane, positions);
-  if (geometry.shape != Shape::Volume) return shapes.extent(element, base).height;
+  if (geometry.shape != Shape::Volume) return shapes.height(element, base);
   const auto other = Shapes::opposite(mesh.elements.kind(element), base);
   return other ? shapes.extent(element, base, *other).height : 0.0;
 }

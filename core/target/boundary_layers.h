@@ -1,5 +1,5 @@
 #pragma once
-// Boundary layers: stacks of stretched quadrilaterals, wedges or hexahedra that grow from a boundary.
+// Boundary layers: stacks of stretched quadrilaterals, of pairs of triangles, of wedges or hexahedra that grow from a boundary.
 
 #include <cstdint>
 #include <span>
@@ -22,14 +22,18 @@ struct BoundaryLayers {
 
 /// A stack begins at an edge (in a volume: a face) of the boundary whose element is at least twice as wide along it as it is high. It goes
 /// on from one side of an element to the opposite one, while elements are at least 1.2 times as wide as high, and not less than 0.8 times
-/// as high as the one below: layers get higher from the wall on. An element is in the stack that comes first to it. Linear in their number.
+/// as high as the one below: layers get higher from the wall on. Two triangles count as the quadrilateral that the longer side of the first
+/// one cuts into them, in stacks of at least 3 layers. An element is in the stack that comes first to it. Linear in their number.
 /// Pronounced is a stack, as far as each layer is at least 0.95 and at most 2.5 times as high as the one beneath, if it has at least 3
 /// layers, begins with an element 4 times as wide as high, and ends with one 1.5 times as high as that: as somebody makes them who wants to
 /// resolve what happens at a wall. None is in a mesh where over 15 % of the elements of stacks that begin so flat stand at less than 30
 /// degrees on the wall: its grid is distorted.
 [[nodiscard]] BoundaryLayers find_boundary_layers(const Mesh& mesh, const Geometry& geometry);
+/// Is there an element that a pronounced stack could have? Much faster.
+[[nodiscard]] bool may_have_layers(const Mesh& mesh, const Geometry& geometry);
 
-/// How high an element of a stack stands on one of its sides: the mean of the edges away from it, in mesh units.
+/// How high an element of a stack stands on one of its sides: the mean of the edges away from it, of a triangle the shorter one, in mesh
+/// units.
 [[nodiscard]] double height_on(const Mesh& mesh, const Geometry& geometry, std::span<const Vec3> positions, Index element, Index base);
 
 }  // namespace dmoscope

@@ -63,6 +63,41 @@ TEST(Layers, StayUnlessTheyAreLetGo) {
   EXPECT_EQ(kept.why_fixed(inside), "it lies in a boundary layer, which is kept");
 }
 
+/// How quadrilaterals are cut into triangles: all alike, in turn, or at random.
+enum class Cut { Alike, InTurn, AtRandom };
+Mesh in_triangles(const Mesh& mesh, Cut cut) {
+  Mesh result;
+  result.positions = mesh.positions;
+  testing::Random random(5);
+  for (Index e = 0; e < mesh.elements.size(); ++e) {
+    const auto c = mesh.elements.corners(e);
+    const bool other = cut == Cut::AtRandom ? random() < 0.5 : cut == Cut::InTurn && e % 2 == 1;
+    const std::size_t first = other ? 1 : 0;
+    add(result, {c[first], c[first + 1], c[first + 2]});
+    add(result, {c[first], c[first + 2], c[(first + 3) % 4]});
+  }
+  return result;
+}
+
+TEST(Layers, OfTrianglesAreThoseThatQuadrilateralsWereCutInto) {
+  for (const Cut cut : {Cut::Alike, Cut::InTurn, Cut::AtRandom}) {
+    const auto mesh = input(in_triangles(with_layers(5, 1.5, 0.01), cut));
+    EXPECT_EQ(mesh->layers, input(with_layers(5, 1.5, 0.01))->layers);
+    const dmoscope::Run kept = smoothed(mesh, LayerRule::Keep);
+    for (const Index v : mesh->layers) EXPECT_EQ(kept.positions()[v], mesh->mesh.positions[v]);
+    EXPECT_TRUE(input(in_triangles(with_layers(5, 1.0, 0.03), cut))->layers.empty()) << "they do not grow";
+    EXPECT_TRUE(input(in_triangles(with_layers(5, 3.0, 0.01), cut))->layers.empty()) << "they grow too fast";
+    EXPECT_TRUE(input(in_triangles(with_layers(5, 1.5, 0.1), cut))->layers.empty()) << "the first is only twice as wide as high";
+    Mesh distorted = with_layers(5, 1.5, 0.01);
+    for (Vec3& p : distorted.positions) p.x += 4.0 * p.y;
+    EXPECT_TRUE(input(in_triangles(distorted, cut))->layers.empty());
+  }
+  Mesh flat = testing::lattice(12, 0.0, 1);
+  EXPECT_TRUE(input(flat)->layers.empty());
+  for (Vec3& p : flat.positions) p.y *= 0.1;
+  EXPECT_TRUE(input(flat)->layers.empty()) << "all of a height";
+}
+
 TEST(Layers, AreNotWhatIsMerelyStretched) {
   EXPECT_TRUE(input(with_layers(5, 1.0, 0.03))->layers.empty()) << "they do not grow";
   EXPECT_TRUE(input(with_layers(5, 1.5, 0.1))->layers.empty()) << "the first is only twice as wide as high";

@@ -259,11 +259,8 @@ std::vector<std::string> Mesh::write(const std::string& path, const Progress& pr
 
 Mesh Mesh::with_materials(const std::vector<std::string>& names) const {
   return translated([&] {
-    auto data = std::make_shared<Data>();
+    auto data = std::make_shared<Data>(*data_);
     data->input = dmoscope::with_materials(*data_->input, names);
-    data->as_read = data_->as_read;
-    data->moved = data_->moved;
-    data->thin = data_->thin;
     return Mesh(std::shared_ptr<const Data>(std::move(data)));
   });
 }

@@ -34,7 +34,8 @@ struct SourceParts {
   std::vector<std::uint64_t> places;
   std::vector<Index> place_vertices;
   std::vector<std::string> only_in_file, notes;
-  std::vector<SourceParts> companion;  // one or none
+  std::vector<SourceFile::FieldPiece> field_pieces;
+  std::vector<SourceParts> companion;  // one, or none
 };
 
 struct MeshParts {
@@ -71,8 +72,8 @@ template <class Archive>
 void pass(Archive& archive, SourceParts& s) {
   CoordinateLayout& l = s.layout;
   archive(s.path, s.bytes, s.format, s.beside, s.first_beside, s.not_patchable, s.size_on_disk, s.places, s.place_vertices, s.only_in_file,
-          s.notes, s.companion, l.binary, l.components, l.at, l.syntax.comment, l.syntax.comma_is_blank, l.syntax.backslash_joins_lines,
-          l.syntax.free_form, l.width, l.scalar, l.big_endian);
+          s.notes, s.field_pieces, s.companion, l.binary, l.components, l.at, l.syntax.comment, l.syntax.comma_is_blank,
+          l.syntax.backslash_joins_lines, l.syntax.free_form, l.width, l.scalar, l.big_endian);
 }
 template <class Archive>
 void pass(Archive& archive, MeshParts& m) {
@@ -82,7 +83,7 @@ void pass(Archive& archive, MeshParts& m) {
 
 template <class T>
 concept Plain = std::is_arithmetic_v<T> || std::is_enum_v<T> || std::same_as<T, Vec3> || std::same_as<T, std::array<std::uint32_t, 3>> ||
-    std::same_as<T, std::array<dmoscope::CoordinateScalar, 3>>;
+    std::same_as<T, std::array<dmoscope::CoordinateScalar, 3>> || std::same_as<T, SourceFile::FieldPiece>;
 
 class Saver {
  public:
@@ -205,6 +206,7 @@ SourceParts parts_of(const SourceFile& file) {
                     .place_vertices = {},
                     .only_in_file = file.only_in_file(),
                     .notes = file.notes(),
+                    .field_pieces = file.field_pieces(),
                     .companion = {}};
   bool other_order = false;
   for (std::size_t i = 0; i < file.place_count(); ++i) {
@@ -228,6 +230,7 @@ std::shared_ptr<const SourceFile> source_of(SourceParts parts) {
   file->set_place_vertices(std::move(parts.place_vertices));
   for (const std::string& thing : parts.only_in_file) file->add_only_in_file(thing);
   for (std::string& note : parts.notes) file->add_note(std::move(note));
+  for (const SourceFile::FieldPiece& piece : parts.field_pieces) file->add_field_piece(piece);
   if (!parts.companion.empty()) file->set_companion(source_of(std::move(parts.companion.front())));
   return file;
 }

@@ -248,6 +248,19 @@ TEST(Library, ARecipeGoesOnUntilItHasConverged) {
   EXPECT_EQ(dmo::smooth(mesh, options).iteration, 3U);
 }
 
+TEST(Library, AGapThatIsSaidCountsMoreThanTheRecipes) {
+  const dmo::Mesh mesh = sheet(6).mesh();
+  dmo::SmoothOptions options, spelled;
+  options.options["recipe"] = "best";
+  spelled.options["then"] = "joint,mean";
+  options.options["joint-gap"] = spelled.options["joint-gap"] = "0.2";
+  spelled.until_converged = true;
+  const dmo::Smoothed one = dmo::smooth(mesh, options), other = dmo::smooth(mesh, spelled);
+  EXPECT_EQ(std::memcmp(one.mesh.positions(), other.mesh.positions(), 3 * mesh.vertex_count() * sizeof(double)), 0);
+  options.options.erase("joint-gap");
+  EXPECT_NE(std::memcmp(dmo::smooth(mesh, options).mesh.positions(), one.mesh.positions(), 3 * mesh.vertex_count() * sizeof(double)), 0);
+}
+
 TEST(Library, ACallbackEndsARunAndTheMeshIsKept) {
   const dmo::Mesh mesh = sheet(30).mesh();
   dmo::SmoothOptions options;
@@ -335,6 +348,7 @@ TEST(Library, PointDataBelongToPlaces) {
   // After a move by hand fields are carried, from the last positions.
   const dmo::Mesh elsewhere = once.mesh.with_positions(arrays.positions.data());
   EXPECT_EQ(elsewhere.point_data()[0].values, once.mesh.point_data()[0].values);
+  EXPECT_EQ(once.mesh.with_materials({}).point_data()[0].values, once.mesh.point_data()[0].values);
 
   const std::string file = (std::filesystem::temp_directory_path() / "dmoscope_library_depth.14").string();
   const auto written = [&](const dmo::Mesh& what) {
@@ -382,6 +396,9 @@ TEST(Library, DegreesAreJudgedOnTheEarth) {
   EXPECT_NEAR(smoothed.mesh.positions()[3 * 4 + 1], 60.01, 1e-4);
   EXPECT_EQ(smoothed.mesh.positions()[3 * 8 + 1], 60.02);
   EXPECT_TRUE(dmo::Mesh::from_bytes(smoothed.mesh.to_bytes()).in_degrees());
+  const dmo::Mesh named = smoothed.mesh.with_materials({});
+  EXPECT_TRUE(named.in_degrees());
+  EXPECT_EQ(dmo::statistics(named).minimum, dmo::statistics(smoothed.mesh).minimum);
 }
 
 /// Four squares, one cell thick, with a misplaced middle.
@@ -417,6 +434,7 @@ TEST(Library, OneCellThickIsSmoothedAsItsFront) {
   EXPECT_LT(dmo::statistics(smoothed.mesh.with_thin(false)).minimum, 0.5) << "eight times as wide as thick";
   EXPECT_EQ(dmo::smooth(mesh.with_thin(false)).mesh.positions()[3 * 4], 1.3) << "all of its vertices are on the boundary";
   EXPECT_TRUE(dmo::Mesh::from_bytes(smoothed.mesh.to_bytes()).thin());
+  EXPECT_TRUE(smoothed.mesh.with_materials({}).thin());
   EXPECT_THROW((void)sheet(3).mesh().with_thin(true), dmo::InputError);
   std::vector<double> apart(at, at + 54);
   apart[3 * 13] += 0.5;

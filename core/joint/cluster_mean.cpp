@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/joint/cluster_search.h"
+#include "core/joint/defined_atoms.h"
 #include "core/quality/quality.h"
 
 namespace dmoscope {
@@ -47,37 +48,42 @@ template <int D>
 void ClusterSearch<D>::raise_mean(const std::vector<Index>& cluster) {
   const JointSolution<D>& raised = solved_.solution;
   const bool done = raised.end == InteriorPointEnd::Gap || raised.end == InteriorPointEnd::LeftEarly;
-  if (!done || first_ != nullptr || function_.defined() != nullptr) return;
+  if (!done || (threshold_ < HUGE_VAL && first_ == nullptr)) return;  // what is raised then is not what the mean is of
   const double bound = function_.quality_of(raised.last.tau - raised.last.gap());
   const double floor = std::max((1.0 - options_.gap) * bound, function_.quality_of(raised.start_worst));
   Solved better = posed(cluster);
   JointProblem<D>& problem = better.local.problem;
-  problem.limited = &function_;
-  const double lowest = floor + kMargin * (reached() - floor);
-  for (std::size_t a = 0; a < problem.atoms.size(); ++a) {
+  const std::span<const Index> free = better.local.free();
+  const std::vector<Index> elements = mesh_.elements_at(free);
+  const auto judged = [&] { return mean_and_least(mesh_.input(), mesh_.metric(), *options_.mean, elements, positions_); };
+  const MeanAndLeast before = judged();
+  if (!(before.least > 0.0)) return;  // a formula's, or of an element that is inverted
+  const double lowest = floor + kMargin * (function_.quality_of(1.0 / reached()) - floor);
+  std::vector<double> limits;
+  for (std::size_t a = 0; a < problem.raised(); ++a) {
     const double f = function_.value(problem.atoms[a], problem.edges[a], problem.reference(a));
-    const double step = *options_.mean == MeanKind::Harmonic ? step_below(function_.quality_of(f)) : 0.0;
-    const double kept = std::max(lowest, (1.0 + kStepMargin) * step);
-    problem.limits.push_back(std::max(function_.inverse_of(kept), (1.0 + kRoom) * f));
+    const bool steps = *options_.mean == MeanKind::Harmonic && problem.atoms[a].piece != kGuardPiece;
+    const double kept = std::max(lowest, (1.0 + kStepMargin) * (steps ? step_below(function_.quality_of(f)) : 0.0));
+    limits.push_back(std::max(function_.inverse_of(kept), (1.0 + kRoom) * f));
   }
+  problem.beside = problem.limits.size();
+  problem.limits.insert(problem.limits.begin(), limits.begin(), limits.end());
+  if (problem.limited == nullptr) problem.limited = &function_;
   better.solution =
       solve_joint<D>(problem, function_, {.gap = kMeanGap, .max_steps = options_.max_steps, .pool = options_.pool}, {}, progress_);
   newton_steps_ += better.solution.last.steps;
   ++solutions_;
   if (!(better.solution.best_worst < better.solution.start_worst)) return;
 
-  const std::span<const Index> free = better.local.free();
-  const std::vector<Index> elements = mesh_.elements_at(free);
-  const auto judged = [&] { return mean_and_least(mesh_.input(), mesh_.metric(), *options_.mean, elements, positions_); };
-  const MeanAndLeast before = judged();
   double share = 1.0;
   for (int i = 0; i <= kMostHalvings; ++i, share *= 0.5) {
     std::vector<Vec3> targets = targets_of(better, share);
     if (problem.path != nullptr) (void)better.path->settle(share, free, positions_, targets);
+    const std::vector<double> guarded_before = guarded(elements);
     const JudgedMove move = mesh_.move_to(better.local, targets, positions_, mesh_.metric());
     const MeanAndLeast after = judged();
-    const bool good =
-        after.mean > before.mean && after.least >= std::min(before.least, floor) && move.inverted_after <= move.inverted_before;
+    const bool good = after.mean > before.mean && after.least >= std::min(before.least, floor) &&
+                      move.inverted_after <= move.inverted_before && keeps_others(elements, guarded_before);
     for (std::size_t k = 0; k < move.moved_from.size(); ++k) {
       if (good)
         moved_from_.emplace_back(free[k], move.moved_from[k]);

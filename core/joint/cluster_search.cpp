@@ -284,13 +284,27 @@ void ClusterSearch<D>::commit() {
   }
 }
 
-/// Do all elements around the cluster have more of the first aim than its threshold?
+/// What elements have of the guard's metric; nothing where there is no guard.
 template <int D>
-bool ClusterSearch<D>::first_stays_beyond() const {
+std::vector<double> ClusterSearch<D>::guarded(std::span<const Index> elements) const {
+  std::vector<double> qualities;
+  if (!options_.guard) return qualities;
   const QualityContext context = mesh_.input().quality_context();
-  return std::ranges::all_of(mesh_.elements_at(solved_.local.free()), [&](Index e) {
-    return element_quality(context, std::span<const Vec3>(positions_), first_->metric(), e) > threshold_;
-  });
+  for (const Index e : elements)
+    qualities.push_back(element_quality(context, std::span<const Vec3>(positions_), options_.guard->metric, e));
+  return qualities;
+}
+
+/// Do elements that moved have more of the first aim than its threshold, and no less of the guard's metric than its floor, or than before?
+template <int D>
+bool ClusterSearch<D>::keeps_others(std::span<const Index> elements, std::span<const double> guarded_before) const {
+  const std::vector<double> now = guarded(elements);
+  for (std::size_t i = 0; i < now.size(); ++i)
+    if (now[i] < std::min(options_.guard->floor, guarded_before[i])) return false;
+  if (first_ == nullptr) return true;
+  const QualityContext context = mesh_.input().quality_context();
+  return std::ranges::all_of(
+      elements, [&](Index e) { return element_quality(context, std::span<const Vec3>(positions_), first_->metric(), e) > threshold_; });
 }
 
 /// Targets of the free vertices, at a share of the way to the solution.
@@ -314,8 +328,10 @@ bool ClusterSearch<D>::try_move(double share, bool& less_may_do) {
   std::vector<Vec3> targets = targets_of(solved_, share);
   bool stayed = false;  // some that slide
   if (solved_.local.problem.path != nullptr) stayed = solved_.path->settle(share, free, positions_, targets) > 0;
+  const std::vector<Index> elements = mesh_.elements_at(free);
+  const std::vector<double> guarded_before = guarded(elements);
   const JudgedMove move = mesh_.move_to(solved_.local, targets, positions_, mesh_.metric());
-  const bool inverts = move.inverted_after > move.inverted_before, keeps = first_ == nullptr || first_stays_beyond();
+  const bool inverts = move.inverted_after > move.inverted_before, keeps = keeps_others(elements, guarded_before);
   const bool better = move.after > move.before && !inverts && keeps;
   less_may_do = stayed || (D == 3 && inverts) || !keeps;
   for (std::size_t k = 0; k < move.moved_from.size(); ++k) {

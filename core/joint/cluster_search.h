@@ -54,7 +54,8 @@ class ClusterSearch {
   void raise_mean(const std::vector<Index>& cluster);
   [[nodiscard]] std::vector<Vec3> targets_of(const Solved& solved, double share) const;
   [[nodiscard]] bool try_move(double share, bool& less_may_do);
-  [[nodiscard]] bool first_stays_beyond() const;
+  [[nodiscard]] std::vector<double> guarded(std::span<const Index> elements) const;
+  [[nodiscard]] bool keeps_others(std::span<const Index> elements, std::span<const double> guarded_before) const;
   void measure_rim(const JointIterate<D>& at);
   [[nodiscard]] std::vector<Index> enlarged(const std::vector<Index>& cluster, int growth, int rings) const;
   void settle(Index worst, bool certified);

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "core/joint/atom_blocks.h"
+#include "core/joint/defined_atoms.h"
 #include "core/numeric/product_log.h"
 
 namespace dmoscope {
@@ -35,14 +35,21 @@ class InteriorPoint {
   void evaluate(std::size_t first, std::size_t end, const std::vector<Place>& displacements, std::vector<double>& values) const;
   [[nodiscard]] std::size_t at_once() const { return pool_ != nullptr ? kAtOnce : kAloneAtOnce; }
   [[nodiscard]] double slack(std::size_t atom) const { return problem_.bound(atom, at_.tau) - at_.values[atom]; }
-  [[nodiscard]] const AtomFunction<D>& function(std::size_t atom) const { return atom < raised_ ? function_ : *problem_.limited; }
-  /// The objective: the greatest f of the raised atoms, or the sum of all f over that at the start.
+  [[nodiscard]] const AtomFunction<D>& function(std::size_t atom) const { return atom < own_ ? function_ : *problem_.limited; }
+  /// In the sum, where that falls; else 0.
+  [[nodiscard]] double weight(std::size_t atom) const { return atom < own_ && problem_.atoms[atom].piece != kGuardPiece ? weight_ : 0.0; }
+  [[nodiscard]] double sum() const {
+    double sum = 0.0;
+    for (std::size_t a = 0; a < own_; ++a) sum += weight(a) * at_.values[a];
+    return sum;
+  }
+  /// The objective: the greatest f of the raised atoms, or the sum over that at the start.
   [[nodiscard]] double worst() const {
-    if (raised_ == 0) return weight_ * std::accumulate(at_.values.begin(), at_.values.end(), 0.0);
+    if (raised_ == 0) return sum();
     return *std::max_element(at_.values.begin(), at_.values.begin() + static_cast<std::ptrdiff_t>(raised_));
   }
   /// An atom's part in the Lagrangian.
-  [[nodiscard]] double share(std::size_t atom) const { return at_.multipliers[atom] + weight_; }
+  [[nodiscard]] double share(std::size_t atom) const { return at_.multipliers[atom] + weight(atom); }
   bool start();
   void choose_ways();
   void assemble(Curvature curvature);
@@ -58,6 +65,7 @@ class InteriorPoint {
   const JointProblem<D>& problem_;
   const AtomFunction<D>& function_;
   std::size_t raised_;   // atoms, the first ones
+  std::size_t own_;      // of these and of the sum: those whose f is `function_`
   double weight_ = 0.0;  // of each f in the sum, where that falls
   ThreadPool* pool_;
   AtomBlocks<D> system_;
@@ -78,7 +86,12 @@ class InteriorPoint {
 
 template <int D>
 InteriorPoint<D>::InteriorPoint(const JointProblem<D>& problem, const AtomFunction<D>& function, ThreadPool* pool)
-    : problem_(problem), function_(function), raised_(problem.raised()), pool_(pool), system_(problem, pool) {
+    : problem_(problem),
+      function_(function),
+      raised_(problem.raised()),
+      own_(raised_ > 0 ? raised_ : problem.atoms.size() - problem.beside),
+      pool_(pool),
+      system_(problem, pool) {
   if (problem.path == nullptr) return;
   const auto bound = problem.path->bound();
   for (std::size_t a = 0; a < problem.atoms.size(); ++a)
@@ -108,7 +121,10 @@ bool InteriorPoint<D>::start() {
   at_.values.resize(count);
   at_.multipliers.resize(count);
   evaluate(0, count, at_.displacements, at_.values);
-  if (raised_ == 0) weight_ = 1.0 / std::accumulate(at_.values.begin(), at_.values.end(), 0.0);
+  if (raised_ == 0) {
+    weight_ = 1.0;
+    weight_ = 1.0 / sum();
+  }
   at_.worst = worst();
   if (!std::isfinite(at_.worst)) return false;
   for (std::size_t a = raised_; a < count; ++a)
@@ -139,7 +155,7 @@ void InteriorPoint<D>::choose_ways() {
   for (const std::size_t a : bound_atoms_) {
     function(a).derive(problem_.atoms[a], displaced_edges<D>(problem_, a, at_.displacements), problem_.reference(a), Curvature::Exact,
                        derivatives);
-    system_.add_gradient(a, -at_.mu / slack(a) - weight_, derivatives.gradient, forces);
+    system_.add_gradient(a, -at_.mu / slack(a) - weight(a), derivatives.gradient, forces);
   }
   problem_.path->choose(forces);
 }
@@ -209,7 +225,7 @@ typename InteriorPoint<D>::Damping InteriorPoint<D>::damping(std::size_t atom, c
 
 template <int D>
 void InteriorPoint<D>::add_atom(std::size_t atom, const AtomDerivatives<D>& derivatives) {
-  const double multiplier = share(atom), s = slack(atom), ratio = at_.multipliers[atom] / s, barrier = at_.mu / s + weight_;
+  const double multiplier = share(atom), s = slack(atom), ratio = at_.multipliers[atom] / s, barrier = at_.mu / s + weight(atom);
   const auto& g = gradients_[atom] = derivatives.gradient;
   Damping damped = damping(atom, derivatives);
   for (double& x : damped) x *= sigma_;
@@ -283,10 +299,10 @@ bool InteriorPoint<D>::search_line() {
       const double left = (problem_.bound(a, tau) - new_values_[a]) / slack(a);
       inside = left > kLeastSlack && std::isfinite(left);
       if (inside) slacks.multiply(left);
-      rise += new_values_[a] - at_.values[a];
+      rise += weight(a) * (new_values_[a] - at_.values[a]);
     }
     if (!inside) continue;
-    const double change = (alpha_ * dtau_ + weight_ * rise) / at_.mu - slacks.value();
+    const double change = (alpha_ * dtau_ + rise) / at_.mu - slacks.value();
     if (!(change <= 1e-4 * alpha_ * slope_ + 1e-12 * (1.0 + std::fabs(at_.tau / at_.mu)))) continue;
     step_multipliers();
     if (problem_.path != nullptr) problem_.path->take();

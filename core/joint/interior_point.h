@@ -25,7 +25,8 @@ struct JointProblem {
   JointWays<D>* path = nullptr;               // of those that slide; null: all may go anywhere
   std::vector<double> limits{};               // of the last atoms: their f stay below these, which they are at the begin
   const AtomFunction<D>* limited = nullptr;   // whose f; null where there are none
-  /// Those that are raised; 0: the sum of all f falls instead.
+  std::size_t beside = 0;                     // where all have limits: so many of the last are of `limited`, and not of the sum
+  /// Those that are raised; 0: the sum of all f falls instead, but of guards (kGuardPiece).
   [[nodiscard]] std::size_t raised() const { return atoms.size() - limits.size(); }
   /// What an atom's f is to stay below.
   [[nodiscard]] double bound(std::size_t atom, double tau) const { return atom < raised() ? tau : limits[atom - raised()]; }
@@ -63,7 +64,7 @@ struct JointIterate {
   std::vector<std::array<double, D>> displacements;  // of the free vertices
   std::vector<double> values;                        // f of each atom
   std::vector<double> multipliers;                   // of each atom, > 0; the sum of those that are raised is about 1
-  double worst = 0.0;                                // greatest f of those that are raised; or the sum of all, over that at the start
+  double worst = 0.0;                                // greatest f of those that are raised; or the sum, over that at the start
   double tau = 0.0, mu = 0.0;                        // f < tau; multiplier * (tau - f) is about mu
   int steps = 0;                                     // Newton steps so far
   /// How far tau may be above the least possible, by duality; for convex f a bound, else an estimate.

@@ -15,12 +15,13 @@ namespace dmoscope {
 
 namespace {
 
-JointOptions joint_options(const RunParameters& parameters) {
+JointOptions joint_options(const RunParameters& parameters, const std::optional<Guard>& guard) {
   JointOptions options;
   options.gap = parameters.joint_gap;
   options.push_first = true;  // it raises the mean as well
   options.push_gap = std::max(options.push_gap, options.gap);
-  if (parameters.then_mean) options.mean = parameters.mean;
+  if (parameters.then_mean && !parameters.combination) options.mean = parameters.mean;
+  options.guard = guard;
   return options;
 }
 
@@ -126,7 +127,7 @@ void Run::move_jointly(Progress& progress) {
   const bool anew = at_.moment.edits > 0;
   std::optional<JointState> before = anew ? JointState{} : joint_course_.state_after(iteration, since);
   if (!before) return restore(since);
-  JointOptions options = joint_options(parameters_);
+  JointOptions options = joint_options(parameters_, guard_);
   options.pool = pool_.get();
   options.on_step = [&](const JointStep& step) {
     progress.set(share_done((step.bound - step.minimum) / step.bound, options.gap));

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <random>
 #include <string>
 
@@ -49,10 +50,10 @@ TEST(ClusterMean, TheSumOfARegularFanIsLeastInItsMiddle) {
   }
 }
 
-double harmonic_mean(const InputMesh& mesh, std::span<const Vec3> positions) {
+double harmonic_mean(const InputMesh& mesh, std::span<const Vec3> positions, Metric metric) {
   double sum = 0.0;
   const Index count = mesh.mesh.elements.size();
-  for (Index e = 0; e < count; ++e) sum += 1.0 / element_quality(mesh.quality_context(), positions, Metric::MeanRatio, e);
+  for (Index e = 0; e < count; ++e) sum += 1.0 / element_quality(mesh.quality_context(), positions, metric, e);
   return count / sum;
 }
 
@@ -60,14 +61,15 @@ struct Ended {
   double minimum, mean;
   Index inverted;
 };
-Ended raised(const InputMesh& mesh, std::span<const std::uint8_t> fixed, const JointOptions& options) {
-  JointClusters clusters(mesh, Metric::MeanRatio, fixed);
+Ended raised(const InputMesh& mesh, std::span<const std::uint8_t> fixed, const JointOptions& options, Metric metric = Metric::MeanRatio,
+             std::optional<Guard> guard = {}) {
+  const JointObjective guarded = guard ? JointObjective(guard->metric, CompositeTerms{guard->floor, metric}) : JointObjective(metric);
+  JointClusters clusters(mesh, guarded, fixed);
   std::vector<Vec3> positions = mesh.mesh.positions;
   JointState state;
   Progress progress;
   const auto judged = [&] {
-    return compute_statistics(mesh.quality_context(), std::span<const Vec3>(positions), Metric::MeanRatio, std::span<const Index>(),
-                              nullptr);
+    return compute_statistics(mesh.quality_context(), std::span<const Vec3>(positions), metric, std::span<const Index>(), nullptr);
   };
   Statistics before = judged();
   for (int call = 0; call < 40; ++call) {
@@ -82,8 +84,12 @@ Ended raised(const InputMesh& mesh, std::span<const std::uint8_t> fixed, const J
         EXPECT_TRUE(same_bits(std::span(positions).subspan(v, 1), std::span(old).subspan(v, 1))) << "vertex " << v;
       }
     before = now;
+    if (!guard) continue;
+    for (Index e = 0; e < mesh.mesh.elements.size(); ++e) {
+      EXPECT_GT(element_quality(mesh.quality_context(), std::span<const Vec3>(positions), guard->metric, e), guard->floor) << e;
+    }
   }
-  return {before.minimum, harmonic_mean(mesh, positions), before.inverted};
+  return {before.minimum, harmonic_mean(mesh, positions, metric), before.inverted};
 }
 
 /// The boundary, too, out of order, so that no lattice is the best.
@@ -116,6 +122,35 @@ TEST(ClusterMean, RaisesTheMeanAndGivesUpNoMoreOfTheMinimumThanTheGap) {
     EXPECT_GE(both.minimum, (1.0 - 1.01 * kGap) * tight.minimum);
     EXPECT_GT(both.mean, plain.mean);
     EXPECT_EQ(both.inverted, 0U);
+  }
+}
+
+TEST(ClusterMean, OfAFormulaIsThatOfTheMetricThatItSays) {
+  constexpr double kGap = 0.01;
+  const Metric formula = parse_metric("formula:2*det/norm^2");
+  for (const Cells cells : {Cells::Triangles, Cells::Mixed}) {
+    const auto mesh = input(roughened(lattice(10, 0.3, 7, cells), 0.1));
+    const dmoscope::Run run = make_run(mesh, {});
+    const Ended plain = raised(*mesh, run.fixed(), {.gap = 0.5 * kGap}, formula);
+    const Ended both = raised(*mesh, run.fixed(), {.gap = kGap, .mean = MeanKind::Harmonic}, formula);
+    const Ended built_in = raised(*mesh, run.fixed(), {.gap = kGap, .mean = MeanKind::Harmonic});
+    EXPECT_GT(both.mean, plain.mean);
+    EXPECT_NEAR(both.mean, built_in.mean, 0.01);
+    EXPECT_NEAR(both.minimum, built_in.minimum, 2.0 * kGap * built_in.minimum);
+  }
+}
+
+TEST(ClusterMean, KeepsAGuard) {
+  for (const Cells cells : {Cells::Triangles, Cells::Quadrilaterals}) {
+    const auto mesh = input(roughened(lattice(10, 0.3, 7, cells), 0.1));
+    const dmoscope::Run run = make_run(mesh, {});
+    const double least =
+        compute_statistics(mesh->quality_context(), std::span(mesh->mesh.positions), Metric::MeanRatio, run.immovable(), nullptr).minimum;
+    const Guard guard{Metric::MeanRatio, 0.999 * least};
+    const Ended plain = raised(*mesh, run.fixed(), {.gap = 0.005}, Metric::ScaledJacobian, guard);
+    const Ended both = raised(*mesh, run.fixed(), {.gap = 0.01, .mean = MeanKind::Harmonic}, Metric::ScaledJacobian, guard);
+    EXPECT_GT(both.mean, plain.mean);
+    EXPECT_GE(both.minimum, 0.98 * plain.minimum);
   }
 }
 

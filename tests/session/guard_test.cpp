@@ -89,6 +89,29 @@ TEST(Guard, KeepsItInVolumesAndWhereVerticesSlide) {
   EXPECT_GT(fell, 0);
 }
 
+/// Joint moves by two aims make no more of a way than the guard lets them.
+TEST(Guard, KeepsItWhereTwoAimsMoveJointly) {
+  Progress progress;
+  int fell = 0;
+  for (const std::uint64_t seed : {3U, 4U, 5U, 6U}) {
+    Mesh flat = lattice(6, 0.35, seed, Cells::Quadrilaterals);
+    for (Vec3& p : flat.positions) p.y *= 0.03;
+    const auto mesh = input(std::move(flat));
+    RunParameters parameters{
+        .method = "joint", .metric = Metric::ScaledJacobian, .combination = CompositeTerms{0.9, Metric::Condition}, .guard = std::nullopt};
+    dmoscope::Run off = make_run(mesh, parameters);
+    off.iterate(10, progress);
+    parameters.guard = GuardRule{};
+    dmoscope::Run on = make_run(mesh, parameters);
+    const double before = least(on, Metric::MeanRatio), first_before = least(on, Metric::ScaledJacobian);
+    on.iterate(10, progress);
+    EXPECT_GE(least(on, Metric::MeanRatio), before);
+    EXPECT_GE(least(on, Metric::ScaledJacobian), first_before);
+    fell += least(off, Metric::MeanRatio) < before ? 1 : 0;
+  }
+  EXPECT_GT(fell, 0) << "else the guard has nothing to do";
+}
+
 TEST(Guard, ByAValueIsReachedByNoneThatWasAboveIt) {
   Progress progress;
   const auto mesh = input(stretched(Cells::Quadrilaterals, 3));

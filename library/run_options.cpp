@@ -72,6 +72,7 @@ RunRequest request_of(const dmoscope::InputMesh& input, const SmoothOptions& opt
   RunRequest request;
   dmoscope::RunParameters& parameters = request.parameters;
   Words words = options.options;
+  const bool said_gap = words.count("joint-gap") > 0;
   dmoscope::require_thread_count(options.threads);
   request.until_converged = options.until_converged || (words.count("recipe") > 0 && !options.iterations);
   refuse_together(words, request.until_converged);
@@ -89,7 +90,8 @@ RunRequest request_of(const dmoscope::InputMesh& input, const SmoothOptions& opt
   if (const std::string fix = take(words, "fix"); !fix.empty())
     for (const Index v : naming("fix", [&] { return dmoscope::vertices_named(input.mesh, fix); })) parameters.fixed.push_back(v);
   if (const std::string recipe = take(words, "recipe"); !recipe.empty()) {
-    std::string without = follow_recipe(dmoscope::recipe(recipe), input, parameters);
+    std::string without =
+        follow_recipe(dmoscope::recipe(recipe), input, parameters, said_gap ? std::optional(parameters.joint_gap) : std::nullopt);
     if (!without.empty()) request.warnings.push_back(std::move(without));
   }
   if (const std::string patience = take(words, "patience"); !patience.empty())

@@ -149,8 +149,12 @@ int smooth(const SmoothOptions& options) {
     complain(sentence);
     warnings.push_back(std::move(sentence));
   };
-  if (!options.run.recipe.empty())
-    if (std::string without = follow_recipe(recipe(options.run.recipe), *input, parameters); !without.empty()) warn(std::move(without));
+  if (!options.run.recipe.empty()) {
+    const double gap = parameters.joint_gap;
+    const auto said_gap = gap != RunParameters{}.joint_gap ? std::optional(gap) : std::nullopt;
+    if (std::string without = follow_recipe(recipe(options.run.recipe), *input, parameters, said_gap); !without.empty())
+      warn(std::move(without));
+  }
   if (options.goal.until_converged) be_patient(parameters, options.goal.limits.patience);
 
   Run& run = begin_run(session, input, parameters, options.checkpoints, progress);

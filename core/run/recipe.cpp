@@ -28,10 +28,10 @@ const Recipe& recipe(std::string_view name) {
   return *found;
 }
 
-std::string follow_recipe(const Recipe& recipe, const InputMesh& input, RunParameters& parameters) {
+std::string follow_recipe(const Recipe& recipe, const InputMesh& input, RunParameters& parameters, std::optional<double> said_gap) {
   parameters.method = recipe.method;
   parameters.combination.reset();
-  parameters.joint_gap = recipe.joint_gap;
+  parameters.joint_gap = said_gap.value_or(recipe.joint_gap);
   set_then(parameters, recipe.then, {});
   const std::string why_not = parameters.then_joint ? why_not_joint(input, parameters.metric) : std::string();
   if (why_not.empty()) return {};

@@ -1,6 +1,7 @@
 #pragma once
 // Chains of phases that go by one name.
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,8 +20,9 @@ struct Recipe {
 /// Throws UsageError that lists the known ones.
 [[nodiscard]] const Recipe& recipe(std::string_view name);
 
-/// Sets method and phases, with a PhaseBegin of its own. Returns what of it this mesh and metric do not allow, which is left out, in a
-/// sentence; usually empty.
-[[nodiscard]] std::string follow_recipe(const Recipe& recipe, const InputMesh& input, RunParameters& parameters);
+/// Sets method and phases, with a PhaseBegin of its own, and the gap of joint moves, where a person has not `said_gap`. Returns what of it
+/// this mesh and metric do not allow, which is left out, in a sentence; usually empty.
+[[nodiscard]] std::string follow_recipe(const Recipe& recipe, const InputMesh& input, RunParameters& parameters,
+                                        std::optional<double> said_gap = {});
 
 }  // namespace dmoscope

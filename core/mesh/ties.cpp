@@ -68,7 +68,8 @@ std::vector<Partners> find_partners(const Mesh& mesh, const Topology& topology) 
   for_doubles(mesh, topology, [&partners](Index a, Index b) { partners.push_back({a, b}); });
   const auto ends = [](const Partners& pair) { return std::pair(pair.first, pair.second); };
   std::ranges::stable_sort(partners, {}, ends);
-  partners.erase(std::ranges::unique(partners, {}, ends).begin(), partners.end());
+  const auto same = [&ends](const Partners& a, const Partners& b) { return ends(a) == ends(b); };
+  partners.erase(std::unique(partners.begin(), partners.end(), same), partners.end());
   return partners;
 }
 

@@ -284,7 +284,7 @@ void ClusterSearch<D>::commit() {
   }
 }
 
-/// What elements have of the guard's metric; nothing where there is no guard.
+/// The quality of elements by the guard's metric; empty where there is no guard.
 template <int D>
 std::vector<double> ClusterSearch<D>::guarded(std::span<const Index> elements) const {
   std::vector<double> qualities;

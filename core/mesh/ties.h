@@ -22,8 +22,8 @@ struct Partners {
   Index first, second;
   Vec3 shift{};
 };
-/// The doubles, and the pairs of the file, by the first, which has the lower number: of three that stand for one, two pairs or more. None
-/// of which an element has both.
+/// Pairs of vertices at one place and periodic pairs of the file, ordered by the first, which has the lower number. Three vertices that
+/// stand for one make two pairs or more. Pairs of which one element has both vertices are left out.
 [[nodiscard]] std::vector<Partners> find_partners(const Mesh& mesh, const Topology& topology);
 
 /// The tie of each vertex. `faces`: those of a volume mesh.

@@ -23,8 +23,8 @@ void hold_named_points(const InputMesh& input, CurveEnds& ends);
 
 /// Holds vertices that are tied to others, except partners, which may move together.
 void hold_tied(const InputMesh& input, CurveEnds& ends);
-/// Holds those partners, too, that do not both slide between places that stand for each other, all of them moved alike: periodic ones that
-/// are turned. `faces`: on which vertices of a volume slide. After all else that holds.
+/// Holds partners that do not both slide between corresponding neighbours, all shifted alike (periodic sides that are turned against each
+/// other). `faces`: the faces on which vertices of a volume slide. To be called after all other rules.
 void hold_parting(const InputMesh& input, const ElementTable& faces, CurveEnds& ends);
 /// Pairs of vertices that may slide as one, of meshes that slide along their own curves and surfaces.
 [[nodiscard]] std::vector<Partners> partners_of(const InputMesh& input);

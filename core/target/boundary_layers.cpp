@@ -38,14 +38,14 @@ class Shapes {
  public:
   Shapes(const Mesh& mesh, const Plane& plane, std::span<const Vec3> positions) : mesh_(mesh), plane_(plane), positions_(positions) {}
 
-  /// Of a quadrilateral that stands on the edge from its first corner to the second.
+  /// Height and width of a quadrilateral that stands on the edge from its first corner to the second.
   [[nodiscard]] Extent extent(const std::array<Index, 4>& c) const {
     const auto way = [&](std::size_t i) { return difference(c[(i + 1) % 4], c[i]); };
     const auto side = [&](std::size_t i) { return length(way(i)); };
     const Vec3 along = way(0) - way(2), up = way(1) - way(3);
     return {0.5 * (side(0) + side(2)), 0.5 * (side(1) + side(3)), length(cross(along, up)) / (length(along) * length(up))};
   }
-  /// How high an element of the plane stands on one of its edges: a triangle by the shorter one of its others.
+  /// The height of a planar element above one of its edges; a triangle's is the shorter one of its two other edges.
   [[nodiscard]] double height(Index element, Index edge) const {
     const auto c = mesh_.elements.corners(element);
     const std::size_t n = c.size();

@@ -23,6 +23,8 @@ namespace dmoscope::ui {
 namespace {
 
 constexpr double kRestAfter = 0.25;  // seconds without movement until full detail comes back
+bool compares_runs(std::string_view line) { return line.starts_with("compare "); }
+
 constexpr double kNotByItself = std::numeric_limits<double>::infinity();
 
 /// What side panels that lie over the meshes leave of them.
@@ -124,10 +126,14 @@ void App::take_news(double now) {
     if (listener_) listener_(message);
     add_message(state_, std::move(message));
   }
+  bool compared = false;
   for (const CommandEnd& end : engine_.take_ends()) {
-    state_.result.ended(state_.commands.line_of(end.id), end);
+    const std::string_view line = state_.commands.line_of(end.id);
+    compared = compared || (compares_runs(line) && end.kind == CommandEnd::Kind::Done);
+    state_.result.ended(line, end);
     state_.commands.ended(end);
   }
+  show_comparison(compared);
   activity_.pending = engine_.pending();
   activity_.busy = activity_.pending != 0;
   activity_.command = engine_.current_command();
@@ -149,6 +155,17 @@ void App::take_news(double now) {
   }
   activity_.frames_per_second = frame_interval_ > 0.0 ? 1.0 / frame_interval_ : 0.0;
   last_draw_ = now;
+}
+
+/// Runs that a command compares are seen side by side, and in the matrix, from when they are there.
+void App::show_comparison(bool ended) {
+  const bool more = std::exchange(runs_before_, session_->runs.size()) < session_->runs.size();
+  const bool at_work = compares_runs(engine_.current_command());
+  if ((ended || (at_work && more)) && !std::exchange(comparison_shown_, true)) {
+    state_.show_comparison(session_->runs.size());
+    state_.commands.keep_look(look());
+  }
+  if (!at_work) comparison_shown_ = false;
 }
 
 bool App::moving(double now) const { return now - widgets_.moved_at < kRestAfter; }
@@ -263,14 +280,14 @@ void App::draw_panels(PanelContext& context) {
     draw_column(context, Side::Left, layout.left, false);
     draw_column(context, Side::Right, layout.right, false);
   }
-  draw_plots(context, layout.bottom);
+  draw_plots(context, layout);
   draw_strips(context, layout);
   draw_splitters(context, layout);
   if (layout.folded) {
     draw_column(context, Side::Left, layout.left, true);
     draw_column(context, Side::Right, layout.right, true);
   }
-  draw_timeline(context, layout.timeline);
+  draw_timeline(context, layout);
   draw_status(context, layout.status);
   draw_message(context, layout.viewport);
   draw_tour(context, layout);

@@ -105,6 +105,7 @@ class App {
 
  private:
   void take_news(double now);
+  void show_comparison(bool ended);
   [[nodiscard]] std::vector<std::string> look() const;
   [[nodiscard]] std::shared_ptr<const SessionView> shown_view();
   void post_by_itself(const std::string& line);
@@ -164,6 +165,8 @@ class App {
   double busy_since_ = -1.0, last_draw_ = -1.0, frame_interval_ = 0.0;
   double redraw_in_ = 0.0;
   int focus_moves_ = 0;
+  std::size_t runs_before_ = 0;    // in the last frame
+  bool comparison_shown_ = false;  // of the command at work
   double view_kept_at_ = 0.0;
   std::uint64_t seen_restored_ = 0;
   MeshWatch meshes_;

@@ -68,6 +68,28 @@ TEST_F(ComparisonWindow, EveryRunIsJudgedByTheMetricsOfAll) {
   EXPECT_EQ(comparison.remark, "Each metric wins by its own measure.");
 }
 
+TEST_F(ComparisonWindow, WhatACommandComparesIsSeenSideBySide) {
+  good("generate random 300 3");
+  good("run 2");
+  EXPECT_TRUE(window_->run("compare with dmo:nothing 3").has_value());
+  EXPECT_TRUE(state().panes.one()) << "nothing is compared";
+  good("compare with dmo:min-angle 3");
+  EXPECT_EQ(state().panes.layout, ui::PaneLayout::Two);
+  EXPECT_EQ(state().plot, ui::PlotTab::Compare);
+  EXPECT_TRUE(state().panels.plots());
+  EXPECT_TRUE(window_->app().items().boxes().contains("viewport:2"));
+  good("viewports 1");
+  good("plot histogram");
+  good("select-run 1");
+  EXPECT_EQ(state().plot, ui::PlotTab::Histogram) << "only the comparison itself shows its runs";
+  good("compare with laplace 3");
+  EXPECT_EQ(state().panes.layout, ui::PaneLayout::Four);
+  good("viewports 1");
+  good("compare methods 3");
+  EXPECT_TRUE(state().panes.one()) << "more than there could be";
+  EXPECT_EQ(state().plot, ui::PlotTab::Compare);
+}
+
 TEST_F(ComparisonWindow, CurvesAreJudgedByTheShownMetricOrEachByItsOwn) {
   good("generate random 400 3");
   good("compare with dmo:min-angle 12");

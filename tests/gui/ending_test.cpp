@@ -114,6 +114,7 @@ TEST_F(Ending, WhatEndsWorseThanItsBestOffersThat) {
   EXPECT_FALSE(best_is_possible());
   good("timeline last");
   EXPECT_TRUE(best_is_possible());
+  good("click timeline-more");
   good("click best");
   EXPECT_EQ(run().moment, (Moment{best}));
   good("timeline last");

@@ -8,6 +8,7 @@
 #include <imgui.h>
 
 #include "tests/gui/headless_test.h"
+#include "ui/panels/widgets.h"
 #include "ui/state/format.h"
 
 namespace dmoscope::ui {
@@ -72,10 +73,11 @@ TEST_F(StepWindow, AClassAndAnIterationSayHowManyMoved) {
   const auto after = session()->frame;
   std::size_t moved = 0;
   for (std::size_t v = 0; v < after->positions.size(); ++v) moved += length(after->positions[v] - before->positions[v]) > 0.0 ? 1 : 0;
-  EXPECT_EQ(news().sentence, fmt::format("iteration 1: {} of {} moved; {}; {}", count(moved),
-                                         counted(session()->runs[0].free_vertices, "vertex", "vertices"),
-                                         course("minimum", before->shown_statistics.minimum, after->shown_statistics.minimum),
-                                         course("mean", before->shown_statistics.mean, after->shown_statistics.mean)));
+  EXPECT_EQ(news().sentence,
+            fmt::format("iteration 1: {}; {}; {} of {} moved",
+                        course("minimum", before->shown_statistics.minimum, after->shown_statistics.minimum),
+                        course("mean", before->shown_statistics.mean, after->shown_statistics.mean), count(moved),
+                        counted(session()->runs[0].free_vertices, "vertex", "vertices")));
   good("back iteration");
   EXPECT_EQ(news().sentence, "");
 }
@@ -101,6 +103,22 @@ TEST_F(StepWindow, TheStatusBarShowsItWhole) {
     const auto said = window_->app().items().find("message");  // over the mesh, since the status is as narrow as the column
     EXPECT_NEAR(said[2] - said[0], ImGui::CalcTextSize(news().sentence.c_str()).x, 1.0F) << step;
   }
+}
+
+TEST_F(StepWindow, ANarrowStatusBarEndsWithAWholeClause) {
+  const auto width = [](const char* text) { return ImGui::CalcTextSize(text).x; };
+  constexpr const char* kSaid = "iteration 1: minimum 0.07 → 0.5925; mean unchanged 0.9, 4,075 of 4,080 vertices moved";
+  EXPECT_EQ(fit_clauses(kSaid, 1e4F), kSaid);
+  EXPECT_EQ(fit_clauses(kSaid, width("iteration 1: minimum 0.07 → 0.5925; mean unchanged 0.9, 4,0")),
+            "iteration 1: minimum 0.07 → 0.5925; mean unchanged 0.9");
+  EXPECT_EQ(fit_clauses(kSaid, width("iteration 1: minimum 0.07 → 0.5925; mean")), "iteration 1: minimum 0.07 → 0.5925");
+  EXPECT_EQ(fit_clauses(kSaid, width("iteration 1: min")), "iteration 1");
+  EXPECT_TRUE(fit_clauses(kSaid, width("iterat")).ends_with("…")) << "no clause fits";
+  good("generate coast");
+  good("step iteration");
+  const auto said = window_->app().items().find("status-message");
+  const std::string clause = news().sentence.substr(0, news().sentence.find(';'));
+  EXPECT_NEAR(said[2] - said[0], width(clause.c_str()), 1.0F) << "at 1280 x 800: " << clause;
 }
 
 TEST_F(StepWindow, AFlashIsForAMomentAndOnlyWhereItIsAskedFor) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "render/image.h"
@@ -44,6 +45,30 @@ TEST_F(Timeline, FlippingShowsTheMarkedMomentsWhole) {
   EXPECT_EQ(shown().positions, at_a);
   good("key Shift+X");
   EXPECT_EQ(shown().serial, session()->frame->serial);
+}
+
+TEST_F(Timeline, LiesOnTheAxisOfThePlotAboveIt) {
+  good("generate annulus 400");
+  good("run 12");
+  const auto box = [&](const char* item) { return window_->app().items().find(item); };
+  for (const char* axis : {"x-axis log", "x-axis linear", "plot-x seconds"}) {
+    good(axis);
+    EXPECT_NEAR(box("timeline")[0], box("plot")[0], 0.51F) << axis;
+    EXPECT_NEAR(box("timeline")[2], box("plot")[2], 0.51F) << axis;
+    // A click in the plot and one below it lead to the same iteration.
+    for (const float share : {0.0F, 0.31F, 0.62F, 1.0F}) {
+      const float x = box("plot")[0] + share * (box("plot")[2] - box("plot")[0]);
+      good(fmt::format("click {} {}", x, (box("plot")[1] + box("plot")[3]) / 2));
+      const std::uint64_t by_plot = session()->frame->moment.iteration;
+      good("seek 6");
+      good(fmt::format("click {} {}", x, (box("timeline")[1] + box("timeline")[3]) / 2));
+      EXPECT_EQ(session()->frame->moment.iteration, by_plot) << axis << ' ' << share;
+    }
+  }
+  good("plot histogram");
+  EXPECT_LT(box("plot")[0], box("timeline")[0]) << "which has no iterations along it";
+  good("panel bottom off");
+  EXPECT_EQ(box("timeline")[2] - box("timeline")[0] > 600.0F, true);
 }
 
 TEST_F(Timeline, WhateverMovesTheMeshShowsNowAgain) {

@@ -150,8 +150,8 @@ std::optional<StepNews> report_step(const Frame& before, const Frame& after, con
     news.sentence = fmt::format("vertex {} stays: no place is better; {}", *one, gains(before, after));
   } else {
     const double was = before.shown_statistics.mean, is = after.shown_statistics.mean;
-    news.sentence = fmt::format("{}: {} of {} moved; {}; {}", step_name(before.moment, after.moment, run), count(news.moved.size()),
-                                counted(run.free_vertices, "vertex", "vertices"), gains(before, after), course("mean", was, is));
+    news.sentence = fmt::format("{}: {}; {}; {} of {} moved", step_name(before.moment, after.moment, run), gains(before, after),
+                                course("mean", was, is), count(news.moved.size()), counted(run.free_vertices, "vertex", "vertices"));
   }
   return news;
 }

@@ -63,9 +63,6 @@ void send_all(PanelContext& context, const CompareDialog& dialog, const std::vec
   std::string line = "compare with";
   for (const std::string& run : runs) line += " " + quote_word(run);
   context.send(line + (dialog.until_converged ? std::string(" converged") : fmt::format(" {}", dialog.iterations)));
-  context.send("plot compare");
-  context.send("panel bottom on");
-  context.send(runs.size() == 1 ? "viewports 2" : "viewports 4");
 }
 
 void draw_presets(PanelContext& context, CompareDialog& dialog, const RunView& run) {

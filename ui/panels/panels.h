@@ -68,8 +68,15 @@ void draw_notice(PanelContext& context, const Rect& rect);
 /// The tour's card, or the offer of a tour, over all panels; last of these, since it looks for the control that it is about.
 void draw_tour(PanelContext& context, const Layout& layout);
 void draw_start_page(PanelContext& context, const Rect& rect);
-void draw_plots(PanelContext& context, const Rect& rect);
-void draw_timeline(PanelContext& context, const Rect& rect);
+/// Where the timeline's groove lies, in pixels across the window; the plot above it, if it is over iterations, has its inside there, too.
+struct TimelineRoom {
+  float left = 0, right = 0;
+  bool labelled = true;  // with the iteration at its right
+  bool below_plot = false;
+};
+[[nodiscard]] TimelineRoom timeline_room(const PanelContext& context, const Layout& layout);
+void draw_plots(PanelContext& context, const Layout& layout);
+void draw_timeline(PanelContext& context, const Layout& layout);
 void draw_status(PanelContext& context, const Rect& rect);
 /// Over the mesh: a message that the status has no room for.
 void draw_message(PanelContext& context, const Rect& viewport);

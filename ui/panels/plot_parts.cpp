@@ -76,12 +76,7 @@ void draw_plot_menu(PanelContext& context, const char* item) {
   draw_choices(context, item, x_choices(context.state));
   draw_choices(context, item, along_choices(context.state));
   if (const auto axes = option_choices(context.state, "axis"); axes.size() > 1) draw_choices(context, item, axes);
-  for (const char* id : {"plot-all", "plot-copy", "plot-save"}) {
-    const Action& action = *find_action(id);
-    if (ImGui::MenuItem(std::string(action.title).c_str(), std::string(action.key).c_str(), false, enabled(action, context.situation())))
-      context.send(std::string(action.command));
-    context.items.record_last(id);
-  }
+  for (const char* id : {"plot-all", "plot-copy", "plot-save"}) action_entry(context, id);
 }
 
 void draw_more_menu(PanelContext& context) {
@@ -143,7 +138,7 @@ void draw_plot_controls(PanelContext& context, const Rect& rect) {
   action_button(context, "plot-save", "Save…");
 }
 
-void draw_plot_area(PanelContext& context) {
+void draw_plot_area(PanelContext& context, std::optional<Range> inside) {
   if (!context.widgets.plot) context.widgets.plot = std::make_shared<PlotCache>();
   PlotCache& cache = *context.widgets.plot;
   const ViewState& state = context.state;
@@ -153,7 +148,7 @@ void draw_plot_area(PanelContext& context) {
     cache.plot_key = std::move(key);
     cache.plot = build_plot(state, context.session, sorted, context.palette);
   }
-  const PlotOutcome outcome = draw_plot(cache, context.state.plot_view(), context.palette, state.scale, context.items);
+  const PlotOutcome outcome = draw_plot(cache, context.state.plot_view(), context.palette, state.scale, context.items, inside);
   for (const std::string& line : outcome.commands) context.send(line);
   const RunView* run = context.run();
   if (outcome.clicked && over_iterations(state.plot) && run != nullptr && !context.activity.busy)

@@ -2,6 +2,7 @@
 // What the bottom panel's plots are made of.
 
 #include "ui/panels/panels.h"
+#include "ui/plots/plot.h"
 
 namespace dmoscope::ui {
 
@@ -15,7 +16,7 @@ void draw_run_table(PanelContext& context);
 void draw_run_cell(PanelContext& context, std::size_t run, const std::string& item, const std::string& title);
 /// All runs by every metric that one of them optimises, in the space that is left.
 void draw_comparison(PanelContext& context);
-/// The plot in the space that is left; a click in it shows that iteration.
-void draw_plot_area(PanelContext& context);
+/// The plot in the space that is left; a click in it shows that iteration. `inside`: see PlotArea.
+void draw_plot_area(PanelContext& context, std::optional<Range> inside = {});
 
 }  // namespace dmoscope::ui

@@ -6,7 +6,8 @@
 
 namespace dmoscope::ui {
 
-void draw_plots(PanelContext& context, const Rect& rect) {
+void draw_plots(PanelContext& context, const Layout& layout) {
+  const Rect& rect = layout.bottom;
   if (rect.empty()) return;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {context.px(12), context.px(6)});
   begin_panel("plots", rect);
@@ -23,7 +24,8 @@ void draw_plots(PanelContext& context, const Rect& rect) {
   } else if (context.state.plot == PlotTab::Compare) {
     draw_comparison(context);
   } else {
-    draw_plot_area(context);
+    const TimelineRoom below = timeline_room(context, layout);
+    draw_plot_area(context, below.below_plot ? std::optional(Range{below.left, below.right}) : std::nullopt);
   }
   ImGui::EndChild();
   end_panel();

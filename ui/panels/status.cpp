@@ -132,7 +132,7 @@ void draw_newest(PanelContext& context, float room) {
   const std::string text = first_line(context, *message);
   context.widgets.message_is_cut = ImGui::CalcTextSize(text.c_str()).x > room + 1;
   if (room < 3 * context.em()) return;
-  ImGui::TextColored(colour_vector(ink_of(context, *message)), "%s", fit_text(text, room + 1).c_str());
+  ImGui::TextColored(colour_vector(ink_of(context, *message)), "%s", fit_clauses(text, room + 1).c_str());
   std::string recent = message->text;
   const std::deque<Message>& log = context.state.log;
   for (std::size_t k = log.size() - std::min<std::size_t>(8, log.size()); k < log.size(); ++k)

@@ -220,9 +220,7 @@ void draw_context_menu(PanelContext& context) {
     if (action.needs == Needs::Selected && !context.situation().selected) continue;
     if (action.needs == Needs::Volume && !context.state.in_space) continue;
     if (action.needs == Needs::Planar && context.state.in_space) continue;
-    if (ImGui::MenuItem(std::string(action.title).c_str(), std::string(action.key).c_str(), false, enabled(action, context.situation()))) {
-      context.send(std::string(action.command));
-    }
+    action_entry(context, id);
   }
   ImGui::EndPopup();
 }

@@ -210,6 +210,13 @@ bool action_button(PanelContext& context, std::string_view id, const char* label
   return pressed;
 }
 
+void action_entry(PanelContext& context, std::string_view id) {
+  const Action& action = *find_action(id);
+  if (ImGui::MenuItem(std::string(action.title).c_str(), std::string(action.key).c_str(), false, enabled(action, context.situation())))
+    context.send(std::string(action.command));
+  context.items.record_last(id);
+}
+
 void beside_or_below(const char* label, float gap) {
   ImGui::SameLine(0, gap);
   if (ImGui::GetContentRegionAvail().x < widest_button({label})) ImGui::NewLine();
@@ -326,6 +333,16 @@ std::string fit_text(const std::string& text, float width) {
     if (ImGui::CalcTextSize((cut + "…").c_str()).x <= width) break;
   }
   return cut + "…";
+}
+
+std::string fit_clauses(const std::string& text, float width) {
+  if (ImGui::CalcTextSize(text.c_str()).x <= width) return text;
+  for (std::size_t end = text.rfind(' '); end != std::string::npos && end > 0; end = text.rfind(' ', end - 1)) {
+    const std::string_view stop = ",;:";
+    if (stop.find(text[end - 1]) == std::string_view::npos) continue;
+    if (std::string clauses = text.substr(0, end - 1); ImGui::CalcTextSize(clauses.c_str()).x <= width) return clauses;
+  }
+  return fit_text(text, width);
 }
 
 }  // namespace dmoscope::ui

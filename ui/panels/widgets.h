@@ -25,6 +25,8 @@ bool fold_row(PanelContext& context, const char* item, const char* title, const 
 /// A button for an action, with tooltip and key; records the item under the action's id.
 /// `width`: in pixels, for labels that change; 0: as the label needs.
 bool action_button(PanelContext& context, std::string_view id, const char* label, bool primary = false, float width = 0);
+/// The same as an entry of a menu.
+void action_entry(PanelContext& context, std::string_view id);
 /// Beside the last item where a button with this label has room, else below it.
 void beside_or_below(const char* label, float gap = -1.0F);
 /// Of a button whose label is one of these: what stands beside it stays where it is.
@@ -76,5 +78,7 @@ void integer(PanelContext& context, const char* item, int value, int least, int 
 void metric_combo(PanelContext& context, const char* item, Metric current, const char* command);
 /// Text cut with "…" so that it is at most `width` pixels wide.
 [[nodiscard]] std::string fit_text(const std::string& text, float width);
+/// As many whole clauses of a sentence as fit; where none does, as fit_text.
+[[nodiscard]] std::string fit_clauses(const std::string& text, float width);
 
 }  // namespace dmoscope::ui

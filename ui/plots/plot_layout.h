@@ -30,6 +30,7 @@ struct PlotLayout {
 struct PlotArea {
   double left = 0.0, top = 0.0, width = 0.0, height = 0.0;
   double font = 12.0;
+  std::optional<Range> inside{};  // from where to where across the plot's inside lies, so that something else is in line with it
 };
 
 /// Nothing when there is no value that could be shown.

@@ -91,8 +91,15 @@ void paint_sample(const Series& look, ImVec2 at, float s, float alpha) {
 
 class Widget {
  public:
-  Widget(PlotCache& cache, const PlotView& view, const Palette& palette, double scale, Items& items)
-      : cache_(cache), plot_(cache.plot), view_(view), palette_(palette), scale_(scale), s_(static_cast<float>(scale)), items_(items) {}
+  Widget(PlotCache& cache, const PlotView& view, const Palette& palette, double scale, Items& items, std::optional<Range> inside)
+      : cache_(cache),
+        plot_(cache.plot),
+        view_(view),
+        palette_(palette),
+        scale_(scale),
+        s_(static_cast<float>(scale)),
+        items_(items),
+        inside_(inside) {}
 
   PlotOutcome draw() {
     draw_head();
@@ -238,13 +245,14 @@ class Widget {
     add(view_.x_range);
     add(view_.y_range);
     add(plot_.brush);
+    add(inside_);
     key += ' ' + view_.isolated;
     for (const std::string& name : view_.hidden) key += '|' + name;
     if (key == cache_.drawing_key) return;
     cache_.drawing_key = std::move(key);
     cache_.drawing = {};
     const double font = static_cast<double>(ImGui::GetFontSize());
-    cache_.layout = lay_out(plot_, view_, {origin.x, origin.y, size.x, size.y, font});
+    cache_.layout = lay_out(plot_, view_, {origin.x, origin.y, size.x, size.y, font, inside_});
     if (cache_.layout) {
       draw_plot_area(cache_.drawing, plot_, view_, *cache_.layout, ink_of(palette_), font, scale_);
     } else {
@@ -384,14 +392,16 @@ class Widget {
   double scale_;
   float s_;
   Items& items_;
+  std::optional<Range> inside_;
   PlotOutcome out_;
 };
 
 }  // namespace
 
-PlotOutcome draw_plot(PlotCache& cache, const PlotView& view, const Palette& palette, double scale, Items& items) {
+PlotOutcome draw_plot(PlotCache& cache, const PlotView& view, const Palette& palette, double scale, Items& items,
+                      std::optional<Range> inside) {
   ImGui::PushID("plot");
-  PlotOutcome outcome = Widget(cache, view, palette, scale, items).draw();
+  PlotOutcome outcome = Widget(cache, view, palette, scale, items, inside).draw();
   ImGui::PopID();
   return outcome;
 }

@@ -18,6 +18,8 @@ struct PlotCache {
 
 /// Draws cache.plot into the space that is left, with its legend above, and reads what the mouse points at. Returns what a person does with
 /// it. Records the items "plot", its inside, "plot-y", the value axis' labels, and "legend:NAME".
-PlotOutcome draw_plot(PlotCache& cache, const PlotView& view, const Palette& palette, double scale, Items& items);
+/// `inside`: see PlotArea.
+PlotOutcome draw_plot(PlotCache& cache, const PlotView& view, const Palette& palette, double scale, Items& items,
+                      std::optional<Range> inside = {});
 
 }  // namespace dmoscope::ui

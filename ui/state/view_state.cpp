@@ -95,6 +95,14 @@ void ViewState::set_layout(PaneLayout layout) {
   panes.set_layout(layout);
 }
 
+void ViewState::show_comparison(std::size_t runs) {
+  plot = PlotTab::Compare;
+  panels.bottom = true;
+  panels.plots_wait = false;
+  const PaneLayout wanted = runs == 2 ? PaneLayout::Two : PaneLayout::Four;
+  if (runs > panes.count() && runs <= pane_count(PaneLayout::Four)) set_layout(wanted);
+}
+
 void move_to_monitor(ViewState& state, double monitor_scale) {
   if (!(monitor_scale > 0.0) || monitor_scale == state.monitor_scale) return;
   state.scale = std::clamp(state.scale * monitor_scale / state.monitor_scale, 0.5, 4.0);

@@ -234,6 +234,8 @@ struct ViewState {
   void follow(const SessionView& session);
   /// See Panes::set_layout.
   void set_layout(PaneLayout layout);
+  /// The matrix of so many runs, and where four viewports have room for them a viewport each.
+  void show_comparison(std::size_t runs);
 
   [[nodiscard]] PlotView& plot_view() { return plots[static_cast<std::size_t>(plot)]; }
 };

@@ -83,11 +83,17 @@ void Fill::set_shading(const Shading* shading) {
 }
 
 void Fill::set_selection(const Selection& selection) {
-  if (selection.members && selection.members != selection_.members) {
-    const std::vector<std::uint8_t>& members = *selection.members;
-    std::vector<std::uint32_t> bits((members.size() + 31) / 32, 0);
-    for (std::size_t e = 0; e < members.size(); ++e) bits[e / 32] |= static_cast<std::uint32_t>(members[e] != 0 ? 1 : 0) << (e % 32);
-    members_.write(std::span<const std::uint32_t>(bits));
+  if (selection.members != selection_.members || selection.tinted != selection_.tinted) {
+    std::vector<std::uint32_t> bits;
+    const auto add = [&bits](const auto& flags, std::size_t bit) {
+      if (!flags) return;
+      bits.resize(std::max(bits.size(), flags->size() / 16 + 1), 0);
+      for (std::size_t e = 0; e < flags->size(); ++e)
+        bits[e / 16] |= static_cast<std::uint32_t>((*flags)[e] != 0 ? 1 : 0) << (2 * (e % 16) + bit);
+    };
+    add(selection.members, 0);
+    add(selection.tinted, 1);
+    if (!bits.empty()) members_.write(std::span<const std::uint32_t>(bits));
   }
   selection_ = selection;
 }
@@ -98,7 +104,7 @@ void Fill::bind(const Program& program, const Style& style, const Buffer& shades
   shades.bind_storage(1);
   order.bind_storage(2);
   (by_ ? values_ : shades).bind_storage(5);
-  (selection_.members ? members_ : shades).bind_storage(6);
+  (selection_.members || selection_.tinted ? members_ : shades).bind_storage(6);
   program.set("u_colours", 0);
   program.set("u_palette", 1);
   program.set("u_by", !by_ ? 0 : *by_ == Shading::By::Elements ? 1 : 2);
@@ -117,6 +123,8 @@ void Fill::bind(const Program& program, const Style& style, const Buffer& shades
   program.set("u_filter", range.first, range.second, selection_.quality ? 1.0F : 0.0F,
               in_quality_range(range, kInvertedShade) ? 1.0F : 0.0F);
   program.set("u_has_members", selection_.members ? 1 : 0);
+  set_colour(program, "u_tint", {style.tint.r, style.tint.g, style.tint.b},
+             selection_.tinted ? static_cast<float>(style.tint.a) / 255.0F : 0.0F);
   program.set("u_others", static_cast<int>(selection_.others));
 }
 

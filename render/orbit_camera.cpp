@@ -84,26 +84,36 @@ double Projection::depth(Vec3 point) const {
 
 double OrbitCamera::distance() const { return 0.5 * height / std::tan(0.5 * kFieldOfView); }
 
+namespace {
+
+/// Looks along -towards, which has length 1, with the upright axis up.
+void look_upright(OrbitCamera& camera, Vec3 towards) {
+  const Vec3 axis = camera.upright(), beside = camera.up_axis == UpAxis::Z ? Vec3{0, 1, 0} : Vec3{0, 0, -1};
+  camera.right = normalised(cross(std::abs(dot(towards, axis)) < 0.99 ? axis : beside, towards));
+  camera.up = cross(towards, camera.right);
+}
+
+}  // namespace
+
 void OrbitCamera::look_from(ViewPreset preset) {
-  // To the right and up, in the order of ViewPreset.
-  const std::array<std::pair<Vec3, Vec3>, 7> directions{{{{0, 1, 0}, {0, 0, 1}},
-                                                         {{0, -1, 0}, {0, 0, 1}},
-                                                         {{-1, 0, 0}, {0, 0, 1}},
-                                                         {{1, 0, 0}, {0, 0, 1}},
-                                                         {{1, 0, 0}, {0, 1, 0}},
-                                                         {{-1, 0, 0}, {0, 1, 0}},
-                                                         {normalised({1, 1, 0}), normalised({-1, 1, 2})}}};
-  std::tie(right, up) = directions[static_cast<std::size_t>(preset)];
+  // Towards the eye, in the order of ViewPreset; the corner is on the right in front, whichever axis is up.
+  const Vec3 corner = up_axis == UpAxis::Z ? Vec3{1, -1, 1} : Vec3{1, 1, 1};
+  const std::array<Vec3, 7> directions{{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}, normalised(corner)}};
+  look_upright(*this, directions[static_cast<std::size_t>(preset)]);
 }
 
 void OrbitCamera::face(Vec3 outward) {
   constexpr double kWellEnough = 0.3;  // of the cosine
   const double size = length(outward);
   if (!(size > 0.0) || dot(outward, back()) >= kWellEnough * size) return;
-  const Vec3 towards = (1.0 / size) * outward;
-  const Vec3 upright = std::abs(towards.z) < 0.99 ? Vec3{0, 0, 1} : Vec3{0, 1, 0};
-  right = normalised(cross(upright, towards));
-  up = cross(towards, right);
+  look_upright(*this, (1.0 / size) * outward);
+}
+
+void OrbitCamera::raise(UpAxis axis) {
+  if (axis == std::exchange(up_axis, axis)) return;
+  const auto with_mesh = [axis](Vec3 v) { return axis == UpAxis::Y ? Vec3{v.x, v.z, -v.y} : Vec3{v.x, -v.z, v.y}; };
+  right = with_mesh(right);
+  up = with_mesh(up);
 }
 
 bool OrbitCamera::is_valid() const {
@@ -177,15 +187,15 @@ void OrbitCamera::fit(const Bounds3& bounds, Vec2<double> viewport, double margi
 }
 
 void OrbitCamera::turn(Vec2<double> pixels, Vec2<double> viewport) {
-  constexpr Vec3 kUpright{0, 0, 1};
-  const double each = kDragTurn / shorter_side(viewport);
-  const double elevation = std::asin(std::clamp(back().z, -1.0, 1.0));
+  const Vec3 axis = upright();
+  const double each = kDragTurn / shorter_side(viewport), height_of_eye = dot(back(), axis);
+  const double elevation = std::asin(std::clamp(height_of_eye, -1.0, 1.0));
   // Level, should it have been rolled; straight above or below `right` alone tells where it looks.
-  const Vec3 level = std::abs(back().z) < 1.0 - 1e-9 ? cross(kUpright, back()) : Vec3{right.x, right.y, 0.0};
-  right = turned(length(level) > 0.0 ? normalised(level) : Vec3{1, 0, 0}, kUpright, -each * pixels.x);
+  const Vec3 level = std::abs(height_of_eye) < 1.0 - 1e-9 ? cross(axis, back()) : right - dot(right, axis) * axis;
+  right = turned(length(level) > 0.0 ? normalised(level) : Vec3{1, 0, 0}, axis, -each * pixels.x);
   const double raised = std::clamp(elevation + each * pixels.y, -0.5 * std::numbers::pi, 0.5 * std::numbers::pi);
-  const Vec3 outwards = cross(right, kUpright);  // of a camera that looks along the ground
-  up = std::cos(raised) * kUpright - std::sin(raised) * outwards;
+  const Vec3 outwards = cross(right, axis);  // of a camera that looks along the ground
+  up = std::cos(raised) * axis - std::sin(raised) * outwards;
   straighten(*this);
 }
 

@@ -61,6 +61,9 @@ class Projection {
   Vec2<double> viewport_;
 };
 
+/// The axis that points up where a mesh in space is turned, and looked at from the side.
+enum class UpAxis { Z, Y };
+
 /// Pixels: as those of Camera2D, (0, 0) is the left upper corner of the viewport.
 struct OrbitCamera {
   static constexpr double kFieldOfView = 0.5235987755982988;  // 30 degrees, from the lower to the upper border
@@ -69,6 +72,7 @@ struct OrbitCamera {
   double height = 1.0;               // units from the lower to the upper border of the viewport, at the centre; > 0
   Vec3 right{1, 0, 0}, up{0, 1, 0};  // of length 1 and at right angles
   bool perspective = false;
+  UpAxis up_axis = UpAxis::Z;
   friend bool operator==(const OrbitCamera&, const OrbitCamera&) = default;
 
   [[nodiscard]] Vec3 back() const { return cross(right, up); }
@@ -79,23 +83,25 @@ struct OrbitCamera {
 
   /// Whether its numbers make a view: the height greater than 0, the directions as they must be up to rounding.
   [[nodiscard]] bool is_valid() const;
-  /// Looks from there, at the same centre; z is up, or y where that is the line of sight.
+  [[nodiscard]] Vec3 upright() const { return up_axis == UpAxis::Z ? Vec3{0, 0, 1} : Vec3{0, 1, 0}; }
+  /// Looks from there, at the same centre, upright; along the upright axis y is up of z, and -z of y.
   void look_from(ViewPreset preset);
-  /// Turns to where a surface looks, along `outward`, unless it is seen well enough from here; z is up, or y where that is the line of
-  /// sight.
+  /// Turns to where a surface looks, along `outward`, unless it is seen well enough from here; upright as look_from().
   void face(Vec3 outward);
   /// Shows all of `points` within that part of the viewport, as large as can be: they reach two opposite borders of it, and are in the
   /// middle between the other two. Half-way into their depth they are turned about. None or a single point give a sensible view.
   void fit(std::span<const Vec3> points, Vec2<double> viewport, const PicturePart& room);
   /// The same of the corners of a box, with `margin` pixels around it.
   void fit(const Bounds3& bounds, Vec2<double> viewport, double margin = 24.0);
-  /// Turns by a drag of a number of pixels: sideways about the z axis, which stays upright, and up and down until straight above or below.
+  /// Turns by a drag of a number of pixels: sideways about the upright axis, and up and down until straight above or below.
   void turn(Vec2<double> pixels, Vec2<double> viewport);
   /// Turns by a drag from one pixel to another as if the mesh were a ball that fills the viewport.
   void roll(Vec2<double> from, Vec2<double> to, Vec2<double> viewport);
   void pan(Vec2<double> pixels, Vec2<double> viewport);
   /// Makes everything `factor` times as big (> 1: closer); the point under `cursor` at the centre's depth stays there.
   void zoom_at(Vec2<double> cursor, Vec2<double> viewport, double factor);
+  /// Another axis is up: looks at the mesh as before, as if it had been turned that way.
+  void raise(UpAxis axis);
   /// Moves `point` to the middle: it is what the mesh turns about from now on.
   void orbit_about(Vec3 point) { centre = point; }
 

@@ -29,8 +29,9 @@ void Scene::set_shading(std::shared_ptr<const Shading> shading) {
 
 void Scene::set_selection(const Selection& selection) {
   if (selection_ == selection) return;
-  if (selection.members && (empty() || selection.members->size() != value_count(Shading::By::Elements)))
-    throw UsageError("as many members as the mesh has elements are needed");
+  for (const auto& flags : {selection.members, selection.tinted})
+    if (flags && (empty() || flags->size() != value_count(Shading::By::Elements)))
+      throw UsageError("as many members as the mesh has elements are needed");
   fill().set_selection(selection);
   selection_ = selection;
   changed();

@@ -28,6 +28,7 @@ struct Selection {
   enum class Others { Fade, Hide, Outline };
   std::optional<std::pair<float, float>> quality;            // from, to; inverted elements count when `from` is 0 or less
   std::shared_ptr<const std::vector<std::uint8_t>> members;  // one per element, 0: does not count; null: all do
+  std::shared_ptr<const std::vector<std::uint8_t>> tinted;   // likewise, 1: with Style::tint over its colour; null: none
   Others others = Others::Fade;                              // how the others are drawn; hidden ones are not picked, either
   [[nodiscard]] bool all() const noexcept { return !quality && !members; }
   friend bool operator==(const Selection&, const Selection&) = default;

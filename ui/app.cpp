@@ -189,8 +189,9 @@ void App::update_backend() {
 void App::update_drawing() {
   const Frame* frame = session_->frame.get();
   const bool snapshot_failed = frame != nullptr && !frame->device_trouble.empty();
-  activity_.drawing = drawing_path(activity_.backend, activity_.backend_reason,
-                                   snapshot_failed ? frame->device_trouble : viewports_.active().planar().device_trouble());
+  const render::PlanarScene* scene = viewports_.active().planar();
+  const std::string of_scene = scene == nullptr ? std::string() : scene->device_trouble();
+  activity_.drawing = drawing_path(activity_.backend, activity_.backend_reason, snapshot_failed ? frame->device_trouble : of_scene);
 }
 
 void App::notice_new_input() {
@@ -212,6 +213,7 @@ void App::notice_new_input() {
   if (change == MeshChange::Opened || (change == MeshChange::ReadAgain && !meshes_.same_ids())) {
     state_.inside = {};
     state_.panels.plots_wait = true;
+    if (session_->input) state_.orbit.up_axis = guessed_up(*session_->input);
     state_.orbit.look_from(render::ViewPreset::Isometric);
   }
   if (change == MeshChange::Beside) show_beside();

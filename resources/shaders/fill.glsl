@@ -2,7 +2,7 @@
 layout(std430, binding = 1) readonly buffer Shades { float shades[]; };    // quality by element, see shade_of
 layout(std430, binding = 2) readonly buffer Order { uint order[]; };       // drawn order to element
 layout(std430, binding = 5) readonly buffer Values { float values[]; };    // what is shown instead of quality, by element or by vertex
-layout(std430, binding = 6) readonly buffer Members { uint members[]; };   // a bit an element
+layout(std430, binding = 6) readonly buffer Members { uint members[]; };   // two bits an element: it is a member, it is tinted
 uniform int u_by;              // 0 quality, 1 values of elements, 2 values of vertices
 uniform int u_categories;      // how many the values are numbers of; 0: they go through the map
 uniform sampler2D u_colours;   // the map
@@ -13,9 +13,12 @@ uniform vec4 u_undefined_colour;
 uniform vec4 u_neutral_colour;  // of no category
 uniform vec4 u_filter;          // lowest and highest quality that counts; 1: it is asked for; 1: inverted elements count
 uniform int u_has_members;
+uniform vec4 u_tint;            // straight alpha; 0: nothing is tinted
+
+bool has_bit(uint element, uint bit) { return (members[element / 16u] >> (2u * (element % 16u) + bit) & 1u) != 0u; }
 
 bool counts(uint element) {
-  if (u_has_members != 0 && (members[element / 32u] >> (element % 32u) & 1u) == 0u) return false;
+  if (u_has_members != 0 && !has_bit(element, 0u)) return false;
   if (u_filter.z == 0.0) return true;
   float shade = shades[element];
   if (shade < -1e38) return u_filter.w != 0.0;
@@ -39,6 +42,7 @@ vec4 colour_of(float value) {
 
 // Not of those that are coloured corner by corner. rgb; 0 plain, 1 inverted, 2 not defined
 vec4 fill_of(uint element) {
-  if (inverted(element)) return vec4(u_inverted_colour.rgb, 1.0);
-  return colour_of(u_by == 1 ? values[element] : shades[element]);
+  vec4 fill = inverted(element) ? vec4(u_inverted_colour.rgb, 1.0) : colour_of(u_by == 1 ? values[element] : shades[element]);
+  if (u_tint.a > 0.0 && has_bit(element, 1u)) fill.rgb = mix(fill.rgb, u_tint.rgb, u_tint.a);
+  return fill;
 }

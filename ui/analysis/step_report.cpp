@@ -12,7 +12,6 @@
 namespace dmoscope::ui {
 namespace {
 
-constexpr std::size_t kFewMoved = 200;  // whose elements are worth outlines
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
 bool same_place(const Vec3& a, const Vec3& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
@@ -91,26 +90,17 @@ std::optional<Index> visited(const Moment& before, const Moment& after, const Ru
   return at < run.colouring->order.size() ? std::optional(run.colouring->order[at]) : std::nullopt;
 }
 
-std::vector<Index> elements_around(const Frame& frame, const std::vector<Index>& vertices) {
-  std::vector<Index> elements;
-  for (const Index v : vertices)
-    for (const Incidence& incidence : frame.input->topology.star(v)) elements.push_back(incidence.element);
-  std::ranges::sort(elements);
-  elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
-  return elements;
-}
-
 /// How strong the flash is now. Returns when it will be another.
 double fade(SteppingState& stepping, double now) {
-  constexpr double kFull = 0.6, kFading = 1.2;  // seconds
+  constexpr double kFading = 0.7;  // seconds
   const StepNews& news = stepping.news;
   const bool any = !news.moved.empty() || news.vertex != kNoIndex;
   stepping.flash_level = stepping.flash == Flash::Hold && any ? kFlashLevels : 0;
   if (stepping.flash != Flash::On || !any) return kForever;
-  const double age = now - news.since - kFull, each = kFading / kFlashLevels;
+  const double age = now - news.since, each = kFading / kFlashLevels;
   stepping.flash_level = std::clamp(kFlashLevels - static_cast<int>(std::ceil(age / each)), 0, kFlashLevels);
   if (stepping.flash_level == 0) return kForever;
-  return std::max(0.01, age < 0.0 ? -age : each - std::fmod(age, each));
+  return std::max(0.01, each - std::fmod(age, each));
 }
 
 }  // namespace
@@ -141,7 +131,6 @@ std::optional<StepNews> report_step(const Frame& before, const Frame& after, con
   StepNews news;
   for (Index v = 0; v < after.positions.size(); ++v)
     if (!same_place(before.positions[v], after.positions[v])) news.moved.push_back(v);
-  if (news.moved.size() <= kFewMoved) news.elements = elements_around(after, news.moved);
   const auto one = visited(before.moment, after.moment, run);
   if (news.moved.size() == 1) {
     news.sentence = of_one(before, after, news.moved.front());

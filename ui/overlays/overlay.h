@@ -72,7 +72,7 @@ using OverlayPointer = std::unique_ptr<Overlay>;
 [[nodiscard]] OverlayPointer arrow_overlay();       // from where vertices were to where they are
 [[nodiscard]] OverlayPointer feature_overlay();     // curves along which vertices slide, and the edge that is pointed at
 [[nodiscard]] OverlayPointer next_class_overlay();  // vertices that move next
-[[nodiscard]] OverlayPointer flash_overlay();       // what the last step moved, for a moment
+[[nodiscard]] OverlayPointer flash_overlay();       // the vertex of a step of one, for a moment
 [[nodiscard]] OverlayPointer holder_overlay();      // what holds the minimum
 [[nodiscard]] OverlayPointer selection_overlay();   // selected vertices
 [[nodiscard]] OverlayPointer inspection_overlay();  // the search of a vertex

@@ -204,6 +204,7 @@ void draw_from(PanelContext& context) {
   option_box(context, "perspective", "perspective", "inside:perspective");
   ImGui::SameLine(0, context.px(12));
   option_box(context, "roll freely", "trackball", "inside:trackball");
+  option_row(context, "up-axis", "inside:up");
 }
 
 }  // namespace

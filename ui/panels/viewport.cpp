@@ -140,7 +140,7 @@ void pick_at(PanelContext& context, const PaneFacts& pane, Vec2<double> pixel) {
   ViewState& state = context.state;
   if (state.placing_size_point) {
     state.placing_size_point = false;
-    if (pane.frame()->input->in_space()) return;  // in a plane alone a pixel is a point
+    if (pane.in_space()) return;  // in a plane alone a pixel is a point
     const Vec2<double> there =
         state.camera.to_pixel(pane.camera.to_plane(pixel, state.viewport), state.viewport);  // as the active one has it
     context.send(size_point_command(state, *context.session.input, there));
@@ -250,8 +250,10 @@ void open_menu(PanelContext& context, const PaneFacts& pane, Vec2<double> at) {
   ImGui::OpenPopup("viewport menu");
 }
 
-/// A drag of a volume mesh: it turns, with another button than the left one or Shift it moves.
-void drag_volume(ViewState& state, Vec2<double> at, Vec2<double> move, bool moves) {
+/// A drag: a mesh in space turns, with another button than the left one or Shift it moves, as a planar one always does.
+void drag_mesh(PanelContext& context, const PaneFacts& pane, Vec2<double> at, Vec2<double> move, bool moves) {
+  ViewState& state = context.state;
+  if (!pane.in_space()) return state.camera_of(pane.number).pan(move);
   if (moves) {
     state.orbit.pan(move, state.viewport);
   } else if (state.trackball) {
@@ -261,64 +263,49 @@ void drag_volume(ViewState& state, Vec2<double> at, Vec2<double> move, bool move
   }
 }
 
-/// The mouse over a volume mesh.
-void handle_volume_mouse(PanelContext& context, const PaneFacts& pane) {
-  const ImGuiIO& io = ImGui::GetIO();
+void zoom_mesh(PanelContext& context, const PaneFacts& pane, Vec2<double> at, double factor) {
   ViewState& state = context.state;
-  const Vec2<double> at = mouse_in(pane.rect);
-  const bool hovered = ImGui::IsItemHovered();
-  if (hovered && io.MouseWheel != 0) {
-    state.orbit.zoom_at(at, state.viewport, std::pow(1.2, static_cast<double>(io.MouseWheel)));
-    context.widgets.moved_at = context.now;
-  }
-  if (ImGui::IsItemActivated()) context.widgets.dragged = false;
-  for (const int button : {ImGuiMouseButton_Left, ImGuiMouseButton_Middle, ImGuiMouseButton_Right}) {
-    if (!ImGui::IsItemActive() || !ImGui::IsMouseDragging(button, context.widgets.dragged ? 0.0F : context.px(4))) continue;
-    const ImVec2 move = context.widgets.dragged ? io.MouseDelta : ImGui::GetMouseDragDelta(button, 0.0F);
-    context.widgets.dragged = true;
-    drag_volume(state, at, {static_cast<double>(move.x), static_cast<double>(move.y)}, button != ImGuiMouseButton_Left || io.KeyShift);
-    if (move.x != 0 || move.y != 0) context.widgets.moved_at = context.now;
-  }
-  if (hovered && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
-    const auto point = context.point_at(pane.number, at);
-    context.send(point ? fmt::format("orbit-about {} {} {}", point->x, point->y, point->z) : "fit");
-  } else if (hovered && ImGui::IsMouseReleased(ImGuiMouseButton_Left) && ImGui::IsItemDeactivated() && !context.widgets.dragged) {
-    pick_at(context, pane, at);
-  }
-  if (hovered && ImGui::IsMouseReleased(ImGuiMouseButton_Right) && !context.widgets.dragged) open_menu(context, pane, at);
+  if (pane.in_space()) return state.orbit.zoom_at(at, state.viewport, factor);
+  state.camera_of(pane.number).zoom_at(at, state.viewport, factor);
+}
+
+/// A double click: what is there in space is what the mesh turns about from now on; all else shows the whole mesh.
+void fit_or_orbit(PanelContext& context, const PaneFacts& pane, Vec2<double> at) {
+  if (const auto point = context.point_at(pane.number, at))
+    return context.send(fmt::format("orbit-about {} {} {}", point->x, point->y, point->z));
+  if (!pane.focus && !context.state.panes.linked && !pane.in_space()) context.send(fmt::format("focus-pane {}", pane.number + 1));
+  context.send("fit");
 }
 
 void handle_mouse(PanelContext& context, const PaneFacts& pane) {
-  if (pane.frame()->input->in_space()) return handle_volume_mouse(context, pane);
   const ImGuiIO& io = ImGui::GetIO();
-  ViewState& state = context.state;
-  render::Camera2D& camera = state.camera_of(pane.number);
   const Vec2<double> at = mouse_in(pane.rect);
   const bool hovered = ImGui::IsItemHovered();
+  bool& dragged = context.widgets.dragged;
   if (hovered && io.MouseWheel != 0) {
-    camera.zoom_at(at, state.viewport, std::pow(1.2, static_cast<double>(io.MouseWheel)));
+    zoom_mesh(context, pane, at, std::pow(1.2, static_cast<double>(io.MouseWheel)));
     context.widgets.moved_at = context.now;
   }
-  if (ImGui::IsItemActivated()) context.widgets.dragged = false;
-  const bool painting = handle_brush(context, pane, at);
+  if (ImGui::IsItemActivated()) dragged = false;
+  const bool painting = !pane.in_space() && handle_brush(context, pane, at);
   for (const int button : {ImGuiMouseButton_Left, ImGuiMouseButton_Middle, ImGuiMouseButton_Right}) {
     if (painting && button == ImGuiMouseButton_Left) continue;
-    if (!ImGui::IsItemActive() || !ImGui::IsMouseDragging(button, context.widgets.dragged ? 0.0F : context.px(4))) continue;
+    if (!ImGui::IsItemActive() || !ImGui::IsMouseDragging(button, dragged ? 0.0F : context.px(4))) continue;
     // The first drag event carries the way from the press on, so that the grabbed point stays under the cursor.
-    const ImVec2 move = context.widgets.dragged ? io.MouseDelta : ImGui::GetMouseDragDelta(button, 0.0F);
-    context.widgets.dragged = true;
-    camera.pan({static_cast<double>(move.x), static_cast<double>(move.y)});
+    const ImVec2 move = dragged ? io.MouseDelta : ImGui::GetMouseDragDelta(button, 0.0F);
+    dragged = true;
+    drag_mesh(context, pane, at, {static_cast<double>(move.x), static_cast<double>(move.y)},
+              button != ImGuiMouseButton_Left || io.KeyShift);
     if (move.x != 0 || move.y != 0) context.widgets.moved_at = context.now;
   }
   if (painting) {
     // Neither a pick nor a fit.
   } else if (hovered && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
-    if (!pane.focus && !state.panes.linked) context.send(fmt::format("focus-pane {}", pane.number + 1));
-    context.send("fit");
-  } else if (hovered && ImGui::IsMouseReleased(ImGuiMouseButton_Left) && ImGui::IsItemDeactivated() && !context.widgets.dragged) {
+    fit_or_orbit(context, pane, at);
+  } else if (hovered && ImGui::IsMouseReleased(ImGuiMouseButton_Left) && ImGui::IsItemDeactivated() && !dragged) {
     pick_at(context, pane, at);
   }
-  if (hovered && ImGui::IsMouseReleased(ImGuiMouseButton_Right) && !context.widgets.dragged) open_menu(context, pane, at);
+  if (hovered && ImGui::IsMouseReleased(ImGuiMouseButton_Right) && !dragged) open_menu(context, pane, at);
 }
 
 /// The handle between two viewports that lie over each other.
@@ -384,7 +371,7 @@ void draw_pane(PanelContext& context, const PaneFacts& pane) {
   ImGui::PushClipRect({clip.x, clip.y}, {clip.x + clip.w, clip.y + clip.h}, true);
   if (pane.frame() != nullptr) draw_labels(context, pane);
   if (pane.frame() != nullptr && !pane.current) draw_preparing(context, pane);
-  if (pane.frame() != nullptr && !pane.frame()->input->in_space()) draw_field_in_view(context, pane);
+  if (pane.frame() != nullptr && !pane.in_space()) draw_field_in_view(context, pane);
   draw_clip_plane(context, pane);
   if (pane.frame() != nullptr && pane.inspected) draw_level_label(context, pane);
   const bool plain = context.state.panes.one() && pane.session->frame == context.session.frame;

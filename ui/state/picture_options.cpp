@@ -96,6 +96,12 @@ std::vector<ViewOption> inside_options() {
       row("perspective", "what is farther away looks smaller", at<&V::orbit, &render::OrbitCamera::perspective>(),
           {"/volume/perspective", "", kScript}, {"Perspective", "from-minus-z", "Alt+E", "from-perspective", Volume, kApart}, {},
           {"perspective"}),
+      row("up-axis", "the axis that points up: guessed of a mesh that is opened",
+          words(at<&V::orbit, &render::OrbitCamera::up_axis>(), choice("z", "z"), choice("y", "y")).changed_by([](V& state, double axis) {
+            state.orbit.raise(static_cast<render::UpAxis>(static_cast<int>(axis)));
+            state.requests.fit = true;
+          }),
+          {"/volume/up_axis", "", kScript}, {"The other axis up", "from-perspective", "", "from-up-axis", Volume}, {}, {"up"}),
   };
 }
 

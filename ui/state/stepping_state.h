@@ -22,13 +22,13 @@ enum class Reference {
   B  // what was marked on the timeline
 };
 
-/// Whether what a step moved is shown: for a moment after it, or until the next one.
+/// Whether what a step moved is tinted: for a moment after it, or until the next one.
 enum class Flash { Off, On, Hold };
 
 /// What the last step did.
 struct StepNews {
   std::string sentence;                 // empty: nothing to be said
-  std::vector<Index> moved, elements;   // vertices; the elements around them where these are few
+  std::vector<Index> moved;             // vertices
   Index vertex = kNoIndex;              // that was visited and stayed
   std::shared_ptr<const Frame> before;  // where they were
   std::uint64_t messages = 0;           // how many there had been: a later one takes the sentence's place

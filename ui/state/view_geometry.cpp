@@ -5,6 +5,7 @@
 
 #include "core/view/patch.h"
 #include "render/draw_order.h"
+#include "ui/state/format.h"
 
 namespace dmoscope::ui {
 
@@ -40,7 +41,38 @@ Vec3 outward(const Frame& frame, std::span<const Index> elements) {
   return volume < 0.0 ? -1.0 * sum : sum;
 }
 
+/// The share of a mesh's faces, by area, that are at its lowest end along an axis and look there.
+double share_of_base(const InputMesh& input, double Vec3::*axis) {
+  constexpr double kNear = 0.01, kFlat = 0.98;  // of the extent; of the cosine
+  const std::vector<Vec3>& at = input.mesh.positions;
+  const auto [low, high] = std::ranges::minmax(at, {}, axis);
+  const double below = low.*axis + kNear * (high.*axis - low.*axis);
+  double base = 0.0, all = 0.0;
+  const auto add = [&](ElementFace face) {
+    const auto corners = vertices_of(input.mesh.elements, face);
+    Vec3 area;
+    bool at_end = true;
+    for (std::size_t i = 0; i < corners.size() && corners[i] != kNoIndex; ++i) {
+      if (i >= 2) area = area + cross(at[corners[i - 1]] - at[corners[0]], at[corners[i]] - at[corners[0]]);
+      at_end = at_end && at[corners[i]].*axis <= below;
+    }
+    all += length(area);
+    if (at_end && std::abs(area.*axis) >= kFlat * length(area)) base += length(area);
+  };
+  std::ranges::for_each(input.faces.boundary(), add);
+  if (!input.is_volume())
+    for (Index e = 0; e < input.mesh.elements.size(); ++e) add({e, 0});
+  return all > 0.0 ? base / all : 0.0;
+}
+
 }  // namespace
+
+render::UpAxis guessed_up(const InputMesh& input) {
+  constexpr double kBase = 0.02;  // of the area
+  if (!input.in_space() || input.mesh.positions.empty() || share_of_base(input, &Vec3::z) >= kBase) return render::UpAxis::Z;
+  const bool is_obj = lower_case(input.path.extension().string()) == ".obj";
+  return is_obj || share_of_base(input, &Vec3::y) >= kBase ? render::UpAxis::Y : render::UpAxis::Z;
+}
 
 Vec2<double> plane_point(const Frame& frame, Index vertex) {
   return frame.input->geometry.plane.place(positions_of(frame, {&vertex, 1}).front());

@@ -18,6 +18,10 @@ namespace dmoscope::ui {
 /// Moves the camera to what is picked, close enough to read it. Does nothing when nothing is picked. Throws DeviceError.
 void look_at_picked(ViewState& state, const Frame& frame);
 
+/// Which axis of a mesh in space points up: y where it stands on a flat face below in y and on none below in z, or where neither is so and
+/// its file is of a format whose meshes mostly have y up (OBJ); else z.
+[[nodiscard]] render::UpAxis guessed_up(const InputMesh& input);
+
 /// Metrics defined for every element of the mesh.
 [[nodiscard]] std::vector<Metric> usable_metrics(const Mesh& mesh);
 

@@ -30,6 +30,9 @@ ClippingView ghost_alone() {
 render::Style picture_style(const ViewState& state, const Derived& derived) {
   render::Style style = scene_style(state);
   style.colours = shown_scale(state, derived);
+  const render::Rgb ink = palette(state.theme).text;
+  constexpr int kStrongest = 115;  // 45 %
+  style.tint = {ink.r, ink.g, ink.b, static_cast<std::uint8_t>(kStrongest * state.stepping.flash_level / kFlashLevels)};
   return style;
 }
 
@@ -46,19 +49,17 @@ void PaneView::update_colours(const ViewState& state, std::shared_ptr<const Fram
 }
 
 bool PaneView::bring(render::Loading loading) {
-  if (in_space()) {
-    if (!volume_) {
-      volume_ = std::make_unique<render::VolumeScene>();
-      picture_.forget();
+  if (frame() != nullptr && in_space() != (volume() != nullptr)) {
+    picture_.forget();
+    if (in_space()) {
+      scene_.emplace<render::VolumeScene>();
+    } else {
+      scene_.emplace<render::PlanarScene>().draw_through_host(no_interop_);
+      fixed_serial_ = 0;
     }
-    planar_.show(nullptr);
-    volume_->set_pool(pool_);
-    volume_->show(session_->frame);
-    return current_ = true;
   }
-  volume_.reset();
-  current_ = planar_.show(session_->frame, loading);
-  return current_;
+  if (render::VolumeScene* scene = volume()) scene->set_pool(pool_);
+  return current_ = scene().show(session_->frame, loading);
 }
 
 render::Camera PaneView::seen_from(const ViewState& state, const render::Camera2D& camera) const {
@@ -72,8 +73,8 @@ render::Pick PaneView::pick(const ViewState& state, const render::Camera2D& came
 
 std::string PaneView::note(const ViewState& state) const {
   std::string text = overlays_.note(state, *session_);
-  if (!in_space() || !volume_ || state.inspection.open) return text;
-  const render::VolumeScene& scene = *volume_;
+  if (!in_space() || state.inspection.open) return text;
+  const render::Scene& scene = this->scene();
   std::string faint;
   const auto add = [&faint](const std::string& what) { faint += (faint.empty() ? "" : " and ") + what; };
   const bool marks_worst = state.worst_marker && !frame()->worst.empty();
@@ -85,9 +86,8 @@ std::string PaneView::note(const ViewState& state) const {
   return "hidden, so marked faintly: " + faint + (text.empty() ? "" : " · ") + text;
 }
 
-void PaneView::update_volume(const Scenery& scenery, const Wish& wish) {
+void PaneView::update_volume(render::VolumeScene& scene, const Scenery& scenery, const Wish& wish) {
   const ViewState& state = scenery.state;
-  render::VolumeScene& scene = *volume_;
   const bool by_elements = colours_ && colours_->shading && colours_->shading->by == render::Shading::By::Elements;
   scene.set_shading(by_elements ? colours_->shading : nullptr);
   // What is isolated of the histogram is taken out of the volume; what is merely chosen keeps its place, and the rest fades.
@@ -106,7 +106,25 @@ render::Selection PaneView::selection(const Scenery& scenery) {
     refresh_members(members_, scenery.state, *session_);
     selection.members = members_.members;
   }
+  selection.tinted = moved_just_now(scenery.state.stepping);
   return selection;
+}
+
+/// Elements around the vertices that the last step moved, as long as that is shown.
+std::shared_ptr<const std::vector<std::uint8_t>> PaneView::moved_just_now(const SteppingState& stepping) {
+  constexpr std::size_t kMostElements = 300'000;  // beyond, to draw them anew would take longer than the tint lasts
+  const StepNews& news = stepping.news;
+  const Frame& frame = *this->frame();
+  const bool any = stepping.flash_level > 0 && news.serial == frame.serial && !news.moved.empty();
+  if (!any || frame.element_count() > kMostElements) return nullptr;
+  if (tinted_serial_ != news.serial) {
+    std::vector<std::uint8_t> tinted(frame.element_count(), 0);
+    for (const Index v : news.moved)
+      for (const Incidence& incidence : frame.input->topology.star(v)) tinted[incidence.element] = 1;
+    tinted_ = std::make_shared<const std::vector<std::uint8_t>>(std::move(tinted));
+    tinted_serial_ = news.serial;
+  }
+  return tinted_;
 }
 
 void PaneView::find_labels(const Scenery& scenery, const render::Camera& camera) {
@@ -119,22 +137,22 @@ void PaneView::find_labels(const Scenery& scenery, const render::Camera& camera)
   labels_lack_room_ = (wish.vertices || wish.elements) && labels_.empty();
 }
 
-void PaneView::update_planar(const Scenery& scenery) {
+void PaneView::update_planar(render::PlanarScene& scene, const Scenery& scenery) {
   const RunView& run = session_->runs[session_->active];
   if (fixed_serial_ != frame()->serial && run.fixed.size() == frame()->vertex_count()) {
-    planar_.set_fixed(run.fixed);
+    scene.set_fixed(run.fixed);
     fixed_serial_ = frame()->serial;
   }
-  planar_.set_shading(current_ && colours_ ? colours_->shading : nullptr);
-  if (current_) planar_.set_selection(selection(scenery));
+  scene.set_shading(current_ && colours_ ? colours_->shading : nullptr);
+  if (current_) scene.set_selection(selection(scenery));
 }
 
 void PaneView::draw(const Scenery& scenery, const Wish& wish) {
   const ViewState& state = scenery.state;
-  if (in_space()) {
-    update_volume(scenery, wish);
+  if (render::VolumeScene* in_space = volume()) {
+    update_volume(*in_space, scenery, wish);
   } else {
-    update_planar(scenery);
+    update_planar(plane(), scenery);
   }
   const render::Camera camera = seen_from(state, wish.camera);
   find_labels(scenery, camera);

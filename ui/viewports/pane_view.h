@@ -3,6 +3,8 @@
 
 #include <memory>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "render/live_picture.h"
@@ -19,6 +21,8 @@ namespace dmoscope::ui {
 
 class PaneView {
  public:
+  /// `no_interop`: why a device cannot write what is drawn; empty where it can.
+  explicit PaneView(std::string no_interop = {}) : no_interop_(std::move(no_interop)) { plane().draw_through_host(no_interop_); }
   /// What it shows from now on: a session with this viewport's frame and run in place of the active ones. Its frame is null when it shows
   /// nothing.
   void show(std::shared_ptr<const SessionView> session) { session_ = std::move(session); }
@@ -51,19 +55,20 @@ class PaneView {
   void set_pool(ThreadPool* pool) noexcept { pool_ = pool; }
 
   /// The scene of the mesh that it shows.
-  [[nodiscard]] render::Scene& scene() noexcept { return in_space() && volume_ ? static_cast<render::Scene&>(*volume_) : planar_; }
-  [[nodiscard]] const render::Scene& scene() const noexcept {
-    return in_space() && volume_ ? static_cast<const render::Scene&>(*volume_) : planar_;
+  [[nodiscard]] render::Scene& scene() noexcept {
+    return std::visit([](auto& scene) -> render::Scene& { return scene; }, scene_);
   }
-  /// Of planar meshes.
-  [[nodiscard]] render::PlanarScene& planar() noexcept { return planar_; }
-  [[nodiscard]] const render::PlanarScene& planar() const noexcept { return planar_; }
+  [[nodiscard]] const render::Scene& scene() const noexcept {
+    return std::visit([](const auto& scene) -> const render::Scene& { return scene; }, scene_);
+  }
+  /// The same of a planar mesh, or of one in space; null for one of the other kind.
+  [[nodiscard]] render::PlanarScene* planar() noexcept { return std::get_if<render::PlanarScene>(&scene_); }
+  [[nodiscard]] const render::PlanarScene* planar() const noexcept { return std::get_if<render::PlanarScene>(&scene_); }
+  [[nodiscard]] render::VolumeScene* volume() noexcept { return std::get_if<render::VolumeScene>(&scene_); }
+  [[nodiscard]] const render::VolumeScene* volume() const noexcept { return std::get_if<render::VolumeScene>(&scene_); }
   /// From where its mesh is seen; `camera`: of a planar one.
   [[nodiscard]] render::Camera seen_from(const ViewState& state, const render::Camera2D& camera) const;
   [[nodiscard]] bool in_space() const noexcept { return frame() != nullptr && frame()->input->in_space(); }
-  /// Of a volume mesh; null until the first one.
-  [[nodiscard]] render::VolumeScene* volume() noexcept { return volume_.get(); }
-  [[nodiscard]] const render::VolumeScene* volume() const noexcept { return volume_.get(); }
   /// Faces or elements there are to draw.
   [[nodiscard]] std::size_t drawn_count() const noexcept { return scene().drawn_count(); }
   /// What lies at a pixel of its picture.
@@ -78,16 +83,18 @@ class PaneView {
   [[nodiscard]] bool labels_lack_room() const noexcept { return labels_lack_room_; }
 
  private:
-  void update_planar(const Scenery& scenery);
-  void update_volume(const Scenery& scenery, const Wish& wish);
+  [[nodiscard]] render::PlanarScene& plane() noexcept { return std::get<render::PlanarScene>(scene_); }
+  void update_planar(render::PlanarScene& scene, const Scenery& scenery);
+  void update_volume(render::VolumeScene& scene, const Scenery& scenery, const Wish& wish);
   /// Which elements of its frame count.
   [[nodiscard]] render::Selection selection(const Scenery& scenery);
+  [[nodiscard]] std::shared_ptr<const std::vector<std::uint8_t>> moved_just_now(const SteppingState& stepping);
   void find_labels(const Scenery& scenery, const render::Camera& camera);
 
   std::shared_ptr<const SessionView> session_;
-  render::PlanarScene planar_;
+  std::string no_interop_;
+  std::variant<render::PlanarScene, render::VolumeScene> scene_;  // of the kind of mesh that was shown last
   render::LivePicture picture_;
-  std::unique_ptr<render::VolumeScene> volume_;  // from the first volume mesh on
   ThreadPool* pool_ = nullptr;
   Overlays overlays_;
   ColourWorker worker_;
@@ -97,6 +104,8 @@ class PaneView {
   bool labels_lack_room_ = false;
   bool current_ = true;
   std::uint64_t fixed_serial_ = 0;
+  std::shared_ptr<const std::vector<std::uint8_t>> tinted_;
+  std::uint64_t tinted_serial_ = 0;  // of the frame that they are of
 };
 
 /// How the mesh is drawn now.

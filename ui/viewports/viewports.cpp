@@ -48,9 +48,8 @@ bool cover_alike(const InputMesh& a, const InputMesh& b) {
 }
 
 Viewports::Viewports(Options options) : options_(std::move(options)), session_(std::make_shared<SessionView>()) {
-  views_[0] = std::make_unique<PaneView>();
+  views_[0] = std::make_unique<PaneView>(options_.no_interop);
   views_[0]->show(session_);
-  views_[0]->planar().draw_through_host(options_.no_interop);
 }
 
 void Viewports::show(std::size_t pane, std::shared_ptr<const Frame> frame, std::size_t run, std::string name, std::string why_not,
@@ -140,10 +139,7 @@ void Viewports::follow(const ViewState& state, const std::shared_ptr<const Sessi
       shown_[k] = {};
       continue;
     }
-    if (!views_[k]) {
-      views_[k] = std::make_unique<PaneView>();
-      views_[k]->planar().draw_through_host(options_.no_interop);
-    }
+    if (!views_[k]) views_[k] = std::make_unique<PaneView>(options_.no_interop);
     show_content(state, k);
     const auto& frame = shown_[k].frame;
     if (frame && std::ranges::find(frames_, frame) == frames_.end()) frames_.push_back(frame);
@@ -222,9 +218,8 @@ bool Viewports::fit(ViewState& state, double em) {
   const double top = 2.4 * em, bottom = bar_within ? 4.4 * em : 0.5 * em;
   const Vec2<double> free{state.viewport.x, std::max(1.0, state.viewport.y - top - bottom)};
   const double margin = std::min(1.2 * em, 0.05 * std::min(free.x, free.y));
-  if (views_[focus_]->in_space()) {
-    views_[focus_]->volume()->fit(state.orbit, state.viewport,
-                                  {{margin, top + margin}, {state.viewport.x - margin, state.viewport.y - bottom - margin}});
+  if (const render::VolumeScene* volume = views_[focus_]->volume()) {
+    volume->fit(state.orbit, state.viewport, {{margin, top + margin}, {state.viewport.x - margin, state.viewport.y - bottom - margin}});
     state.requests.fit_all = false;
     fitted_orbit_ = state.orbit;
     return true;
@@ -257,8 +252,8 @@ bool Viewports::fit(ViewState& state, double em) {
 /// Of the planar mesh that a viewport shows; before it is ready to be drawn, of its input.
 render::Bounds2 Viewports::box_of_pane(std::size_t pane) const {
   const PaneView& view = *views_[pane];
-  const bool ready = view.frame() != nullptr && view.current();
-  const render::Bounds2 bounds = ready ? view.planar().bounds() : render::Bounds2{};
+  const bool ready = view.frame() != nullptr && view.current() && view.planar() != nullptr;
+  const render::Bounds2 bounds = ready ? view.planar()->bounds() : render::Bounds2{};
   return bounds.empty() && view.session()->input ? input_box(*view.session()->input) : bounds;
 }
 
@@ -335,7 +330,7 @@ PaneFacts Viewports::facts_of_pane(ViewState& state, std::size_t pane, const Rec
   facts.reduced = view.frame() != nullptr && !view.complete();
   facts.current = view.current();
   facts.lacks_room = view.labels_lack_room();
-  if (const render::VolumeScene* volume = view.volume(); volume != nullptr && view.in_space()) {
+  if (const render::VolumeScene* volume = view.volume(); volume != nullptr && view.frame() != nullptr) {
     facts.cells_seen = volume->faces().visible_cells;
     facts.box = volume->bounds();
   }
@@ -348,12 +343,13 @@ render::Pick Viewports::pick(const ViewState& state, std::size_t pane, Vec2<doub
 }
 
 std::optional<Vec3> Viewports::point_at(const ViewState& state, std::size_t pane, Vec2<double> pixel) const {
-  render::VolumeScene* volume = views_[pane]->volume();
+  const render::VolumeScene* volume = views_[pane]->volume();
   return volume == nullptr ? std::nullopt : volume->point_at(state.orbit, state.viewport, pixel);
 }
 
 std::vector<Index> Viewports::vertices_near(const ViewState& state, std::size_t pane, Vec2<double> pixel, double radius) const {
-  return views_[pane]->planar().vertices_near(facts_[pane].camera, state.viewport, pixel, radius);
+  const render::PlanarScene* planar = views_[pane]->planar();
+  return planar == nullptr ? std::vector<Index>() : planar->vertices_near(facts_[pane].camera, state.viewport, pixel, radius);
 }
 
 bool Viewports::settled() const noexcept { return !loading_ && !refining_ && colours_settled(); }

@@ -38,6 +38,7 @@ struct PaneFacts {
   render::Bounds3 box;                    // of it
   std::string stepping_note;
   [[nodiscard]] const Frame* frame() const { return session->frame.get(); }
+  [[nodiscard]] bool in_space() const { return frame() != nullptr && frame()->input->in_space(); }
   [[nodiscard]] const RunView* run() const { return session->runs.empty() ? nullptr : &session->runs[session->active]; }
 };
 

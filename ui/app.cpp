@@ -10,6 +10,7 @@
 #include "core/quality/quality.h"
 #include "ui/analysis/derived.h"
 #include "ui/analysis/element_colours.h"
+#include "ui/analysis/scene_points.h"
 #include "ui/commands/inspection_commands.h"
 #include "ui/commands/tour_commands.h"
 #include "ui/commands/view_to_commands.h"
@@ -48,7 +49,7 @@ App::App(Options options)
   host_.post = [this](const std::string& line) {
     if (state_.sequence) end_sequence("the sequence of pictures ended early: another command came", Message::Kind::Warning);
     if (std::exchange(state_.timeline.shown, Shown::Now) != Shown::Now)
-      add_message(state_, {Message::Kind::Info, "left the mark: commands apply to the current mesh", 0});
+      add_message(state_, {Message::Kind::Info, "showing the current mesh again: commands do not apply to a mark", 0});
     if (reach_of(line) != CommandReach::Look) state_.timeline.play.kind = Playback::Kind::Off;
     post_by_itself(line);
   };
@@ -265,6 +266,29 @@ void App::update_viewports(PanelContext& context, const Rect& rect) {
   context.panes = viewports_.facts();
 }
 
+/// In a small window the facts of a pick lie over the mesh: what they would cover moves out from under them.
+void App::uncover_pick(const Layout& layout) {
+  const Picked picked = state_.picked;
+  if (std::exchange(seen_pick_, picked) == picked || !layout.folded || picked.kind == Picked::Kind::None) return;
+  const PaneFacts& pane = viewports_.facts()[state_.panes.focus];
+  const Rect free = uncovered(layout);
+  const Frame* frame = pane.frame();
+  if (!pane.view || frame->device || frame->positions.empty() || free.w < 6 * ImGui::GetFontSize()) return;
+  const Index vertex = picked.kind == Picked::Kind::Vertex ? picked.id : frame->input->mesh.elements.corners(picked.id)[0];
+  const auto place = pane.view->place(ScenePoints::of(*frame->input).at(frame->positions[vertex]));
+  if (!place) return;
+  const double at = static_cast<double>(pane.rect.x) + 0.5 * state_.viewport.x + place->x, left = static_cast<double>(free.x),
+               right = left + static_cast<double>(free.w);
+  if (at >= left && at <= right) return;
+  const Vec2<double> move{0.5 * (left + right) - at, 0.0};
+  if (pane.in_space()) {
+    state_.orbit.pan(move, state_.viewport);
+  } else {
+    state_.camera_of(pane.number).pan(move);
+  }
+  redraw_in_ = 0.0;
+}
+
 void App::draw_panels(PanelContext& context) {
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   state_.window_size = {static_cast<int>(screen.x), static_cast<int>(screen.y)};
@@ -277,6 +301,7 @@ void App::draw_panels(PanelContext& context) {
   update_viewports(context, layout.viewport);
   draw_toolbar(context, layout.toolbar);
   draw_viewports(context, layout.viewport);
+  uncover_pick(layout);
   draw_notice(context, uncovered(layout));
   if (!layout.folded) {
     draw_column(context, Side::Left, layout.left, false);

@@ -130,6 +130,7 @@ class App {
   void update_viewports(PanelContext& context, const Rect& rect);
   [[nodiscard]] bool waits_its_turn(const Action& action) const;
   void draw_panels(PanelContext& context);
+  void uncover_pick(const Layout& layout);
   [[nodiscard]] bool moving(double now) const;
 
   Options options_;
@@ -165,6 +166,7 @@ class App {
   double busy_since_ = -1.0, last_draw_ = -1.0, frame_interval_ = 0.0;
   double redraw_in_ = 0.0;
   int focus_moves_ = 0;
+  Picked seen_pick_;               // in the last frame
   std::size_t runs_before_ = 0;    // in the last frame
   bool comparison_shown_ = false;  // of the command at work
   double view_kept_at_ = 0.0;

@@ -34,7 +34,7 @@ void App::set_wake(const std::function<void()>& wake) {
 void App::cancel() {
   engine_.cancel();
   state_.timeline.play.kind = Playback::Kind::Off;
-  if (state_.sequence) end_sequence("cancelled: the sequence of pictures", Message::Kind::Warning);
+  if (state_.sequence) end_sequence("the sequence of pictures was cancelled", Message::Kind::Warning);
 }
 
 void App::post_by_itself(const std::string& line) { state_.commands.posted(line, engine_.post(line)); }
@@ -53,7 +53,7 @@ void App::take_restored_view() {
     viewports_.forget_fit();
     state_.commands.keep_look(look());
   } catch (const UsageError& error) {
-    Message message{Message::Kind::Error, fmt::format("the session is open, but not with its view: {}", error.what()), error.exit_code()};
+    Message message{Message::Kind::Error, fmt::format("the session is open, but its saved view could not be used: {}", error.what()), error.exit_code()};
     if (listener_) listener_(message);
     add_message(state_, std::move(message));
   }
@@ -103,7 +103,7 @@ void App::advance_sequence() {
   }
   const Frame* frame = session_->frame.get();
   if (frame == nullptr || frame->moment != Moment{wanted})
-    return end_sequence(fmt::format("the sequence of pictures ended early: iteration {} is not to be had", wanted), Message::Kind::Warning);
+    return end_sequence(fmt::format("the sequence of pictures ended early: iteration {} cannot be shown", wanted), Message::Kind::Warning);
   const SequenceOptions& options = sequence.options;
   if (options.window && sequence.phase == Sequence::Phase::Wait) {
     sequence.phase = Sequence::Phase::Clean;

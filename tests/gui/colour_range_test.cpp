@@ -1,4 +1,4 @@
-// What qualities the colours span: from the start, through a run, by the menu on the bar, and after a restart.
+// What qualities range of the colours: from the start, through a run, by the menu on the bar, and after a restart.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

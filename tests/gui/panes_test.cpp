@@ -282,7 +282,7 @@ TEST_F(PanesTest, ARunMinusItselfIsNothingAndTheReferenceFollows) {
   EXPECT_EQ(colours()->better, better);
   EXPECT_NEAR(colours()->range.second, most, 1e-6);
   EXPECT_EQ(colours()->range.first, -colours()->range.second);
-  EXPECT_EQ(colours()->title, "Mean ratio: run 1 it 3 minus input");
+  EXPECT_EQ(colours()->title, "Mean ratio: run 1, iteration 3 minus input");
   good("add-run dmo:scaled-jacobian");
   good("color-by difference run 2");
   good("remove-run 2");

@@ -44,6 +44,29 @@ TEST_F(SaidInTheWindow, AnglesInDegreesOfTheWorstElement) {
   EXPECT_FALSE(ui::angles_of(*window_->app().frame(), 0).has_value());
 }
 
+TEST_F(SaidInTheWindow, TheWorstElementsAreWalkedFromTheirFacts) {
+  good("generate random 300 3");
+  const std::shared_ptr<const Frame> shown = window_->app().frame();
+  const auto& worst = shown->worst;
+  const auto element = [&](std::size_t rank) { return ui::Picked{ui::Picked::Kind::Element, worst[rank].element}; };
+  good(fmt::format("pick element {}", worst.front().element));
+  const auto place = window_->app().items().find("better-element");
+  for (std::size_t rank = 1; rank <= 10; ++rank) {
+    EXPECT_EQ(window_->app().items().find("better-element"), place) << "buttons stay under the pointer";
+    good("click better-element");
+    EXPECT_EQ(state().picked, element(rank));
+  }
+  good("click worse-element");
+  EXPECT_EQ(state().picked, element(9));
+  const auto listed = [&](Index e) { return std::ranges::find(worst, e, &RankedElement::element) != worst.end(); };
+  Index other = 0;
+  while (listed(other)) ++other;
+  ASSERT_LT(other, shown->element_count());
+  good(fmt::format("pick element {}", other));
+  EXPECT_TRUE(shows("element-quality"));
+  EXPECT_FALSE(shows("better-element")) << "it is none of the worst";
+}
+
 TEST_F(SaidInTheWindow, HowARunEndedInALine) {
   good("generate annulus 300");
   good("until-converged best");

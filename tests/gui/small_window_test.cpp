@@ -1,10 +1,13 @@
 // 800 x 600: everything can still be reached.
+#include <algorithm>
 #include <memory>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "core/mesh/generate.h"
 #include "tests/gui/headless_test.h"
+#include "ui/analysis/scene_points.h"
 
 namespace dmoscope::app {
 namespace {
@@ -36,6 +39,25 @@ TEST_F(SmallWindow, FoldedPanelsOpenAndCloseAndTakeNothingFromOthers) {
   EXPECT_FALSE(state().panels.left_over);
   good("click fold:right");
   EXPECT_FALSE(state().panels.right_over);
+}
+
+TEST_F(SmallWindow, FactsDoNotCoverWhatTheyAreAbout) {
+  for (const char* mesh : {"generate coast 400", "generate solids 216"}) {
+    open(640, 520);
+    good(mesh);
+    const auto covered = [&](Index vertex) {
+      const ui::PaneFacts& pane = window_->app().panes().front();
+      const Vec2<double> at = *pane.view->place(ui::ScenePoints::of(*pane.frame()->input).at(pane.frame()->positions[vertex]));
+      return pane.rect.x + pane.rect.w / 2 + static_cast<float>(at.x) > box("tab:mesh")[0];
+    };
+    // What lies farthest to the right, and what a command brings to the middle.
+    const auto& positions = session()->frame->positions;
+    const auto last = static_cast<Index>(std::ranges::max_element(positions, {}, &Vec3::x) - positions.begin());
+    good(fmt::format("pick vertex {}", last));
+    EXPECT_FALSE(covered(last)) << mesh;
+    good(fmt::format("goto vertex {}", last / 2));
+    EXPECT_FALSE(covered(last / 2)) << mesh;
+  }
 }
 
 TEST_F(SmallWindow, AllSamplesAreInSight) {

@@ -1,4 +1,5 @@
 // A curved surface in the window: seen in space, stepped, picked, with its feature edges.
+#include <fstream>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -51,6 +52,34 @@ TEST_F(SurfaceWindow, IsSeenInSpaceSteppedAndPicked) {
   good("click 640 330");
   EXPECT_NE(state().picked.kind, ui::Picked::Kind::None);
   EXPECT_GT(session()->frame->statistics.minimum, session()->input_summary->statistics.minimum);
+}
+
+TEST_F(SurfaceWindow, TheUpAxisIsGuessedAndCanBeSwitched) {
+  EXPECT_EQ(state().orbit.up_axis, render::UpAxis::Z) << "the cube stands on a face in z";
+  // An octahedron stands on no face; a roof on its square, which is below in y or in z.
+  const auto open_with = [&](const char* file, const char* text) {
+    std::ofstream(folder_ / file) << text;
+    good("open \"" + (folder_ / file).string() + "\"");
+    return state().orbit.up_axis;
+  };
+  const char* octahedron = "OFF\n6 8 0\n1 0 0\n-1 0 0\n0 1 0\n0 -1 0\n0 0 1\n0 0 -1\n"
+                           "3 0 2 4\n3 2 1 4\n3 1 3 4\n3 3 0 4\n3 2 0 5\n3 1 2 5\n3 3 1 5\n3 0 3 5\n";
+  const char* as_obj = "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\n"
+                       "f 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\nf 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n";
+  const char* roof = "v -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nv 0 1 0\nf 1 2 3 4\nf 2 1 5\nf 3 2 5\nf 4 3 5\nf 1 4 5\n";
+  const char* roof_off = "OFF\n5 5 0\n-1 0 -1\n1 0 -1\n1 0 1\n-1 0 1\n0 1 0\n4 0 1 2 3\n3 1 0 4\n3 2 1 4\n3 3 2 4\n3 0 3 4\n";
+  EXPECT_EQ(open_with("octahedron.off", octahedron), render::UpAxis::Z);
+  EXPECT_EQ(open_with("octahedron.obj", as_obj), render::UpAxis::Y);
+  EXPECT_EQ(open_with("roof.obj", roof), render::UpAxis::Y);
+  EXPECT_EQ(open_with("roof.off", roof_off), render::UpAxis::Y);
+  EXPECT_GT(state().orbit.up.y, 0.5);
+  good("up-axis z");
+  EXPECT_GT(state().orbit.up.z, 0.5);
+  good("view-from +x");
+  EXPECT_EQ(state().orbit.up.z, 1.0);
+  good("click inside:up");
+  good("click inside:up:y");
+  EXPECT_EQ(state().orbit.up.y, 1.0);
 }
 
 /// What concerns sliding can be told to every run of a surface, and its name says it.

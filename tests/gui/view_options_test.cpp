@@ -143,8 +143,8 @@ TEST(ViewOptions, CommandsSayWhatTheyExpect) {
       {"speed 0", "\"0\": expected a number greater than 0"},
       {"panel top", "\"top\": expected one of setup, facts, left, right, bottom"},
       {"panel-size left", "too few arguments; usage: panel-size left|right|bottom|runs EM|default"},
-      {"link-cameras off", "of a volume mesh all viewports share one camera"},
-      {"brush on", "the brush is of planar meshes: select vertices of a volume mesh by their ids"},
+      {"link-cameras off", "all viewports of a volume mesh share one camera"},
+      {"brush on", "the brush works on planar meshes only; select vertices of a volume mesh by their ids"},
   };
   for (const auto& [line, said] : wrong) {
     ViewState state;

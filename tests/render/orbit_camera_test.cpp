@@ -211,6 +211,42 @@ TEST(OrbitCamera, WhatIsBehindTheEyeHasNoPlace) {
 }
 
 /// The front of the mesh follows the mouse.
+TEST(OrbitCamera, AnotherAxisCanBeUp) {
+  OrbitCamera camera;
+  camera.up_axis = UpAxis::Y;
+  for (const ViewPreset preset : {ViewPreset::PlusX, ViewPreset::MinusX, ViewPreset::PlusZ, ViewPreset::MinusZ}) {
+    camera.look_from(preset);
+    expect_near(camera.up, {0, 1, 0});
+    expect_straight(camera);
+  }
+  camera.look_from(ViewPreset::PlusZ);
+  expect_near(camera.right, {1, 0, 0});  // as it is drawn on paper
+  camera.look_from(ViewPreset::PlusY);
+  expect_near(camera.back(), {0, 1, 0});
+  camera.look_from(ViewPreset::Isometric);
+  expect_near(camera.back(), {std::sqrt(1.0 / 3), std::sqrt(1.0 / 3), std::sqrt(1.0 / 3)});
+  for (int i = 0; i < 100; ++i) camera.turn({13, i % 2 == 0 ? 31.0 : -30.0}, kSize);
+  EXPECT_NEAR(camera.right.y, 0.0, 1e-9) << "level";
+  EXPECT_GT(camera.up.y, 0.0);
+  camera.turn({0, 1e5}, kSize);
+  expect_near(camera.back(), {0, 1, 0}, 1e-9);
+}
+
+TEST(OrbitCamera, TheOtherAxisUpShowsAsMuchOfWhatIsTurnedAlong) {
+  OrbitCamera camera;
+  camera.look_from(ViewPreset::Isometric);
+  camera.turn({40, 25}, kSize);
+  const Vec3 point{0.3, -0.2, 0.7}, turned{point.x, point.z, -point.y};
+  const double right = dot(camera.right, point), up = dot(camera.up, point);
+  const OrbitCamera before = camera;
+  camera.raise(UpAxis::Y);
+  EXPECT_NEAR(dot(camera.right, turned), right, 1e-12);
+  EXPECT_NEAR(dot(camera.up, turned), up, 1e-12);
+  camera.raise(UpAxis::Z);
+  expect_near(camera.right, before.right, 1e-12);
+  expect_near(camera.up, before.up, 1e-12);
+}
+
 TEST(OrbitCamera, TurningFollowsTheMouseAndStaysUpright) {
   OrbitCamera camera;
   camera.look_from(ViewPreset::MinusY);

@@ -259,7 +259,7 @@ void by_size_over_target(Work& work) {
   work.out.title = "edge length / target size";
   if (!work.request.size) {
     work.shading.values.assign(work.mesh.elements.size(), std::numeric_limits<float>::quiet_NaN());
-    work.out.note = "the run has no size function: combine its metric with density";
+    work.out.note = "the run has no size function: combine its metric with a density first";
     work.out.has_values = false;
     return;
   }
@@ -279,10 +279,10 @@ void by_size_over_target(Work& work) {
   work.out.centred = true;
 }
 
-/// "run 2 it 10", "input"
+/// "run 2, iteration 10", "input"
 std::string name_of(const Frame& frame) {
   if (frame.run == Frame::kNoRun) return "input";
-  std::string name = fmt::format("run {} it {}", frame.run + 1, frame.moment.iteration);
+  std::string name = fmt::format("run {}, iteration {}", frame.run + 1, frame.moment.iteration);
   if (frame.moment.visits > 0) name += fmt::format(" + {}", frame.moment.visits);
   return name;
 }
@@ -357,13 +357,13 @@ ElementColours colour_elements(const ColourRequest& request) {
 }
 
 std::optional<std::string> why_not_drawn(ColourBy by, const InputMesh& input) {
-  if (!input.in_space()) return by == ColourBy::Tilt ? std::optional<std::string>("tilt is of surfaces in space") : std::nullopt;
+  if (!input.in_space()) return by == ColourBy::Tilt ? std::optional<std::string>("tilt is defined for surfaces in space only") : std::nullopt;
   const auto of_elements = [](const Group& group) { return group.of_elements(); };
   const bool around_vertices =
       by == ColourBy::Valence || by == ColourBy::Class || (by == ColourBy::Group && std::ranges::none_of(input.mesh.groups, of_elements));
   if (around_vertices)
     return fmt::format("{} colours the surroundings of vertices: of volume meshes whole elements are coloured", info(by).name);
-  if (by == ColourBy::SizeOverTarget) return "size functions are of planar meshes";
+  if (by == ColourBy::SizeOverTarget) return "size functions work on planar meshes only";
   return std::nullopt;
 }
 

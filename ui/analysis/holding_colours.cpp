@@ -22,7 +22,7 @@ void colour_by_multiplier(const ColourRequest& request, ElementColours& colours,
   colours.title = colours.common_title = "multiplier";
   shading.values.assign(request.frame->element_count(), std::numeric_limits<float>::quiet_NaN());
   if (!request.hold) {
-    colours.note = "what holds the minimum is not known here (held-by finds out)";
+    colours.note = "what holds the minimum is not known yet (the command held-by finds out)";
     colours.has_values = false;
     return;
   }

@@ -38,7 +38,7 @@ Inspection::Key key_of(const SessionView& session, Index vertex) {
 Sweep sweep_of(const RunView& run, const Moment& shown, const InputMesh& input) {
   if (shown == run.moment) return run.sweep;
   if (shown.iteration >= run.records.size())
-    throw UsageError("The run has no record of this iteration any more, nor the floor that its visits keep to.");
+    throw UsageError("The run no longer has a record of this iteration, nor of the minimum that its visits must keep.");
   return sweep_after(run.records.whole(), shown.iteration, {run.phases.mean_since, run.parameters.mean}, input.has_strays);
 }
 
@@ -221,7 +221,7 @@ void forget(InspectionState& state) {
 std::string no_inspection(const SessionView& session) {
   const RunView* run = active_run(session);
   if (run == nullptr || session.frame == nullptr) return "no mesh is open";
-  if (session.frame->device) return "The run is at work on its device. When it rests, its visits can be looked into.";
+  if (session.frame->device) return "The run is working on its device. Its visits can be inspected once it pauses.";
   return {};
 }
 
@@ -233,12 +233,12 @@ Inspection inspect(const SessionView& session, Index vertex) {
   const Frame& frame = *session.frame;
   const RunView& run = *active_run(session);
   if (vertex >= frame.vertex_count() || frame.input->topology.star(vertex).empty()) {
-    inspection.trouble = "This vertex is of no element: nothing moves it.";
+    inspection.trouble = "This vertex belongs to no element: nothing moves it.";
     return inspection;
   }
   const bool slides = run.fixed[vertex] == 0 && run.domain != nullptr && run.domain->slides(vertex);
   if (slides && !run.domain->on_surface(vertex)) {
-    inspection.trouble = "This vertex slides along a curve: it is searched on a line, not on a grid.";
+    inspection.trouble = "This vertex slides along a curve: its candidates lie on a line, not on a grid.";
     return inspection;
   }
   if (frame.input->is_surface() && !slides) {

@@ -26,7 +26,7 @@ std::string level_label(const InspectionState& state, const Inspection& inspecti
 
 std::string other_method_sentence(const Inspection& inspection) {
   if (inspection.other_method.empty()) return {};
-  return fmt::format("This run's method is {}, which tries no grid of candidates: what follows is what dmo would do here.",
+  return fmt::format("This run's method is {}, which uses no grid of candidates: shown is what dmo would do here.",
                      inspection.other_method);
 }
 
@@ -51,15 +51,13 @@ std::string stuck_sentence(const Inspection& inspection) {
   const VisitSummary& trace = *inspection.visit();
   if (trace.end == VisitEnd::Moved) return {};
   if (trace.end == VisitEnd::Fixed)
-    return "It is fixed: no search moves it, and what its elements can become depends on their other corners.";
+    return "It is fixed: no search moves it. How good its elements can get depends on their other corners.";
   if (trace.end == VisitEnd::Waits)
-    return "It waits: none of its elements is inverted, and this iteration only takes back vertices whose place alone is wrong, to where "
-           "all "
-           "their elements are sound.";
+    return "It waits: none of its elements is inverted, and this iteration only moves vertices back whose own place is wrong, to where all their elements are sound.";
   if (trace.end == VisitEnd::Deviates)
-    return "It may not go to the best candidate, nor part of the way: faces would leave the input by more than the bound (max-deviation).";
+    return "It may not move to the best candidate, nor part of the way: faces would deviate from the input by more than the bound (max-deviation).";
   if (trace.end == VisitEnd::Leans)
-    return "It may not go to the best candidate, nor part of the way: faces would lean over the input by more than 60 degrees.";
+    return "It may not move to the best candidate, nor part of the way: faces would tilt against the input by more than 60 degrees.";
   std::string text = trace.end == VisitEnd::NotConfirmed ? "The search found a candidate, but the exact check shows no gain."
                      : trace.combined ? fmt::format("No candidate is better than where it stands. They are compared by this number: {}.",
                                                     trace.value_phrase)
@@ -69,7 +67,7 @@ std::string stuck_sentence(const Inspection& inspection) {
   if (inspection.optimum) {
     constexpr double kNothing = 1e-6;  // a gap that no one would see
     text += inspection.optimum->quality - trace.before.quality < kNothing
-                ? " There is no better place for this vertex: only its neighbours can change that."
+                ? " No place is better for this vertex: only its neighbours can change that."
                 : " The best position lies between the candidates.";
   }
   return text;

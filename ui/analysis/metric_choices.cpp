@@ -44,9 +44,9 @@ std::vector<Metric> further_metrics(const SessionView& session) {
 
 std::vector<TargetChoice> target_choices(const InputMesh& input) {
   std::vector<TargetChoice> choices{
-      {"ideal", "ideal elements", "equal edges, right corners: what the metric itself takes for best"},
-      {"input", "as they were", "every element as it was in the input"},
-      {"input:3", "as they and their neighbours were", "the mean of three rounds over the neighbours, against noise"}};
+      {"ideal", "ideal elements", "equal edges, right corners: the shape that the metric itself rates best"},
+      {"input", "as they were", "every element keeps the shape that it had in the input"},
+      {"input:3", "their input shapes, averaged over neighbours", "three rounds of averaging over the neighbours, which removes noise"}};
   const bool volume = input.is_volume();
   const auto kinds = input.mesh.elements.kinds();
   const bool may_have_layers = std::ranges::any_of(kinds, [](ElementKind kind) {
@@ -54,19 +54,19 @@ std::vector<TargetChoice> target_choices(const InputMesh& input) {
   });
   if (may_have_layers)
     choices.push_back({"layers:input", "boundary layers kept",
-                       "stacks of stretched elements on the boundary as they were, to 5 % of their aspect; all others ideal"});
+                       "stacks of stretched elements on the boundary keep their shapes, to 5 % of their aspect; all others ideal"});
   const auto is_metric = [&](const Field& field) { return is_metric_field(field, volume ? 3 : 2); };
   if (std::ranges::count_if(input.mesh.fields, is_metric) == 1)
-    choices.push_back({"field", "the metric field", "of unit size in the file's metric tensors"});
+    choices.push_back({"field", "the metric field", "unit size in the metric tensors of the file"});
   else
     for (const Field& field : input.mesh.fields)
       if (is_metric(field))
         choices.push_back({to_text(Target{{}, {.kind = TargetShape::Kind::Field, .field = field.name}}), "metric field " + field.name,
-                           "of unit size in the file's metric tensors"});
+                           "unit size in the metric tensors of the file"});
   for (const Group& group : input.mesh.groups)
     if (group.of_elements() && !group.name.empty() && group.name.find('"') == std::string::npos && choices.size() < 20)
       choices.push_back({to_text(Target{{{group.name, {.kind = TargetShape::Kind::Input, .tolerance = kKeptTolerance}}}, {}}),
-                         group.name + " kept", "the elements of this group as they were, all others ideal"});
+                         group.name + " kept", "the elements of this group keep their input shapes, all others ideal"});
   return choices;
 }
 

@@ -49,7 +49,7 @@ void by_fit(const ColourRequest& request, ElementColours& colours, render::Shadi
   if (!request.domain) {
     shading.values.assign(frame.element_count(), std::numeric_limits<float>::quiet_NaN());
     colours.title = colours.common_title = std::string(info(request.by).name);
-    colours.note = "nothing slides in this run, so its boundary is that of the input (boundary slide lets it)";
+    colours.note = "nothing slides in this run, so its boundary is that of the input (the command boundary slide changes that)";
     colours.has_values = false;
     return;
   }

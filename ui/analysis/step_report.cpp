@@ -108,8 +108,7 @@ double fade(SteppingState& stepping, double now) {
 bool has_converged(const RunView& run) { return run.last_outcome.starts_with("converged"); }
 
 std::string end_sentence(const RunView& run) {
-  std::string why = run.last_outcome.substr(0, run.last_outcome.find_first_of(":;"));
-  if (!why.empty() && why.front() >= 'a' && why.front() <= 'z') why.front() = static_cast<char>(why.front() - 'a' + 'A');
+  const std::string why = capitalised(run.last_outcome.substr(0, run.last_outcome.find_first_of(":;")));
   const IterationRecord *first = nullptr, *now = nullptr;
   double seconds = 0.0;
   std::uint64_t done = 0;

@@ -64,14 +64,14 @@ void set_range(ViewState& state, Arguments words) {
 void add_colour_commands(CommandTable& table, ViewState& state, const CommandHost& host) {
   table.add(
       {"range", "range input|fixed|auto|expanding|percentile [LOW HIGH]|given  or  range LOW HIGH",
-       "qualities that the colours span: the input's, 0 to 1, the mesh's own, all seen since it was opened, between two percentiles of "
+       "qualities that range of the colours: the input's, 0 to 1, the mesh's own, all seen since it was opened, between two percentiles of "
        "the input (2 98), or given"},
       {1, 3}, [&state](Arguments words) { set_range(state, words); });
   table.add({"color-by",
              "color-by "
              "quality|kind|group|valence|class|displacement|size|edge-length|size-over-target|inverted|deviation|tilt|freedom|multiplier|"
              "difference [input|run N|mark a|b]",
-             "what the elements' colours tell; difference: quality less that of the input, of a run or of a mark"},
+             "what the colours of the elements mean; difference: quality less that of the input, of a run or of a mark"},
             {1, 4}, [&state, &host](Arguments words) {
               const ColourBy by = parse_by(words[0]);
               const auto view = host.session();

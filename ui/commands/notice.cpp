@@ -65,10 +65,7 @@ void tell_ending(Notice& notice, const RunEnding& ending) {
                            "a new run by this method, beside this one; Run starts it"});
 }
 
-std::string as_sentence(std::string text) {
-  if (!text.empty() && text.front() >= 'a' && text.front() <= 'z') text.front() = static_cast<char>(text.front() - 'a' + 'A');
-  return text + ".";
-}
+std::string as_sentence(std::string text) { return capitalised(std::move(text)) + "."; }
 
 /// Of a method that promises nothing.
 void tell_worse(Notice& notice, const RunView& run) {

@@ -72,7 +72,7 @@ void draw_presets(PanelContext& context, CompareDialog& dialog, const RunView& r
     dialog.metrics = {std::string(info(run.parameters.metric).name)};
     dialog.until_converged = true;
   }
-  note_item(context, "compare:figure-4", "DMO, Laplace, angle-based and derivative-free smoothing, until they converge");
+  note_item(context, "compare:figure-4", "DMO, Laplace, angle-based and derivative-free smoothing, each until it converges");
   ImGui::SameLine();
   if (ImGui::SmallButton("All methods"))
     for (const MethodInfo& method : method_table()) dialog.methods.insert(std::string(method.name));
@@ -95,7 +95,7 @@ void draw_compare_dialog(PanelContext& context) {
     return end_dialog();
   }
   if (context.widgets.dialog_opened) begin(dialog, *run);
-  dim_text(context, "Every method that is chosen is run for every metric that is chosen, each from the input and beside the others.");
+  dim_text(context, "Every chosen method is run with every chosen metric. Each run starts from the input; existing runs stay.");
   draw_presets(context, dialog, *run);
   const std::size_t rows = std::max(method_table().size(), context.derived.metrics.size());
   const float half = ImGui::GetContentRegionAvail().x / 2, wanted = static_cast<float>(rows + 1) * ImGui::GetFrameHeightWithSpacing();
@@ -116,9 +116,9 @@ void draw_compare_dialog(PanelContext& context) {
   }
   const std::vector<std::string> runs = chosen_runs(dialog, *run);
   constexpr std::size_t kMost = 64;
-  dim_text(context, runs.empty()          ? std::string("Choose another method or metric than those of the run that is there.")
+  dim_text(context, runs.empty()          ? std::string("Choose a method or metric that the current run does not have.")
                     : runs.size() > kMost ? fmt::format("{} runs: at most {} can be compared.", runs.size(), kMost)
-                                          : fmt::format("{} beside the one that is there", counted(runs.size(), "run", "runs")));
+                                          : fmt::format("{} beside the current one", counted(runs.size(), "run", "runs")));
   ImGui::BeginDisabled(runs.empty() || runs.size() > kMost || context.activity.busy);
   if (ImGui::Button("Run and compare")) {
     send_all(context, dialog, runs);

@@ -53,7 +53,7 @@ constexpr std::array kDialogInfos{DialogInfo{Dialog::Open, "Open a mesh", draw_o
                                   DialogInfo{Dialog::Palette, "All commands", draw_palette_dialog},
                                   DialogInfo{Dialog::Keys, "Keys", draw_keys_dialog},
                                   DialogInfo{Dialog::About, "About dmoscope", draw_about_dialog},
-                                  DialogInfo{Dialog::Error, "That did not work", draw_error_dialog},
+                                  DialogInfo{Dialog::Error, "Error", draw_error_dialog},
                                   DialogInfo{Dialog::Log, "Log", draw_log_dialog},
                                   DialogInfo{Dialog::Sequence, "Pictures of a run", draw_sequence_dialog},
                                   DialogInfo{Dialog::Plot, "Save the plot", draw_plot_dialog},
@@ -139,12 +139,12 @@ void draw_keys_dialog(PanelContext& context) {
     ImGui::EndTable();
   }
   if (table("Mouse on the mesh")) {
-    row("click", "pick the vertex there, else the element");
+    row("click", "select the vertex there, or else the element");
     row("Alt+click", "pick the element");
     row("drag", "move the picture");
     row("wheel", "zoom to the cursor");
     row("double click", "fit");
-    row("right click", "commands for what is there");
+    row("right click", "commands for what is under the pointer");
     ImGui::EndTable();
   }
   ImGui::EndChild();

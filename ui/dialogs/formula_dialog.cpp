@@ -1,4 +1,4 @@
-// A metric of a person's own: a formula that is checked while it is typed, with its picture; and what elements are wished to be.
+// A metric of a person's own: a formula that is checked while it is typed, with its picture; and the target shape of the elements.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -32,7 +32,7 @@ void begin(FormulaDialog& dialog, const RunView* run) {
 void draw_examples(PanelContext& context) {
   FormulaDialog& dialog = context.widgets.formula;
   ImGui::SetNextItemWidth(14 * context.em());
-  if (ImGui::BeginCombo("##examples", "take one as a start")) {
+  if (ImGui::BeginCombo("##examples", "start from an example")) {
     const auto choice = [&](std::string_view title, std::string_view text) {
       if (ImGui::Selectable(std::string(title).c_str())) dialog.text = text;
     };
@@ -79,7 +79,7 @@ void draw_verdict(PanelContext& context, const FormulaCheck& check) {
       ImGui::TextUnformatted(warning.c_str());
       ImGui::PopStyleColor();
     }
-    if (check.warnings.empty()) dim_text(context, "higher is better, 1 at most, 0 or less where an element is inverted");
+    if (check.warnings.empty()) dim_text(context, "higher is better: 1 at best, 0 or less for inverted elements");
   }
   ImGui::PopTextWrapPos();
 }
@@ -122,7 +122,7 @@ void draw_target(PanelContext& context) {
   ImGui::SameLine();
   ImGui::SetNextItemWidth(std::max(8 * context.em(), ImGui::GetContentRegionAvail().x - 10 * context.em()));
   ImGui::InputText("##target", &dialog.target);
-  note_item(context, "formula:target", std::string("what elements are wished to be: ") + std::string(kTargetHelp));
+  note_item(context, "formula:target", std::string("target shape: ") + std::string(kTargetHelp));
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-1);
   if (ImGui::BeginCombo("##targets", "choose", ImGuiComboFlags_NoPreview)) {
@@ -156,7 +156,7 @@ void draw_formula_dialog(PanelContext& context) {
   ImGui::SameLine(0, context.em());
   ImGui::BeginGroup();
   draw_picture(context, dialog.check);
-  dim_text(context, dialog.check.picture ? fmt::format("over the last corner of a {}", info(dialog.check.picture->kind).name) : " ", false);
+  dim_text(context, dialog.check.picture ? fmt::format("above the last corner of a {}", info(dialog.check.picture->kind).name) : " ", false);
   ImGui::EndGroup();
   draw_examples(context);
   ImGui::SameLine(0, context.em());
@@ -165,7 +165,7 @@ void draw_formula_dialog(PanelContext& context) {
   const bool usable = dialog.check.error.empty() && context.session.input != nullptr;
   const std::string name = dialog.check.name + (dialog.target.empty() || dialog.target == "ideal" ? "" : "@" + dialog.target);
   ImGui::BeginDisabled(!usable || context.activity.busy);
-  if (ImGui::Button("Optimise by it")) {
+  if (ImGui::Button("Optimise with it")) {
     context.send("metric " + quote_word(name));
     context.state.dialog = Dialog::None;
   }

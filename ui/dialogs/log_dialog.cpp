@@ -91,7 +91,7 @@ void draw_log_dialog(PanelContext& context) {
   ImGui::EndChild();
   LogDialog& widgets = context.widgets.log;
   const bool save = ImGui::Button("Save as script");
-  note_item(context, "log:save", "a script that does the same again: dmoscope script FILE");
+  note_item(context, "log:save", "a script that repeats these steps: dmoscope script FILE");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-1);
   const bool entered = ImGui::InputText("##script", &widgets.script_name, ImGuiInputTextFlags_EnterReturnsTrue);
@@ -102,7 +102,7 @@ void draw_log_dialog(PanelContext& context) {
     for (const LogLine* line : lines) text += line->text + "\n";
     context.state.requests.clipboard = std::move(text);
   }
-  note_item(context, "log:copy", "the lines above, on the clipboard");
+  note_item(context, "log:copy", "copies the lines above to the clipboard");
   ImGui::SameLine();
   close_button(context, "Close");
   end_dialog();

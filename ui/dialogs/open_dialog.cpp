@@ -114,7 +114,7 @@ void draw_entries(PanelContext& context) {
     }
   }
   if (size == 0 && widgets.open.error.empty()) {
-    dim_text(context, widgets.open.all_files ? "an empty folder" : "no meshes here; \"all files\" shows the rest");
+    dim_text(context, widgets.open.all_files ? "an empty folder" : "no meshes here; \"all files\" shows the other files");
   }
   if (chosen >= 0) go_to(context, fs::path(widgets.open.folder) / widgets.open.entries[static_cast<std::size_t>(chosen)].name);
 }

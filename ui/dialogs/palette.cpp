@@ -47,7 +47,7 @@ void draw_palette_dialog(PanelContext& context) {
   if (widgets.dialog_opened || ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-1);
   const std::string before = widgets.palette.text;
-  const bool entered = ImGui::InputTextWithHint("##command", "type to search, or a command such as: step class 3", &widgets.palette.text,
+  const bool entered = ImGui::InputTextWithHint("##command", "search, or type a command such as: step class 3", &widgets.palette.text,
                                                 ImGuiInputTextFlags_EnterReturnsTrue);
   context.items.record_last("palette:text");
   if (before != widgets.palette.text) widgets.palette.selected = 0;
@@ -77,7 +77,7 @@ void draw_palette_dialog(PanelContext& context) {
     put({at.x + layout.detail.x, at.y + layout.detail.y}, context.palette.dim, entry.detail);
     ImGui::PopID();
   }
-  if (entries.empty()) dim_text(context, "nothing by that name; Enter tries it as a command");
+  if (entries.empty()) dim_text(context, "no action has this name; Enter runs it as a command");
   ImGui::EndChild();
   end_dialog();
 

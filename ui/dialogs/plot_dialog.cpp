@@ -50,7 +50,7 @@ void draw_plot_dialog(PanelContext& context) {
       dialog.width = std::clamp(size[0], 200, 4096);
       dialog.height = std::clamp(size[1], 120, 4096);
     }
-    next_item_tooltip("width and height, of which text is 12 high");
+    next_item_tooltip("width and height in pixels; text is 12 high");
   }
   if (extension == ".png") {
     label("pixels");
@@ -59,9 +59,8 @@ void draw_plot_dialog(PanelContext& context) {
                      ImGuiSliderFlags_AlwaysClamp);
   }
   dim_text(context, extension == ".html"
-                        ? "A page that stands alone: table, courses, sorted qualities, what each run made of the mesh, and pictures, as "
-                          "dmoscope compare --report writes it."
-                        : "As it is seen: the tab, its ranges, its axes, and what the legend leaves on. Pictures are on white.");
+                        ? "One HTML page with the table, the courses, sorted qualities, the effect of each run on the mesh, and pictures, as dmoscope compare --report writes it."
+                        : "The plot as it is shown: tab, ranges, axes and visible curves. Pictures have a white background.");
   if (draw_save_buttons(context, form, "Save", entered)) {
     std::string line =
         fmt::format("{} {}", extension == ".html" ? "save-report" : "plot-save", quote_word(dialog.save.target.path().string()));

@@ -64,7 +64,7 @@ void ask_over_input(PanelContext& context) {
   ExportDialog& dialog = context.widgets.exporting;
   const std::string copy = original_name(context.frame()->input->path, 1).filename().string();
   wrapped_text(
-      "This is the file that the mesh was read from. It will hold the smoothed mesh then; what it holds now is kept beside it as " + copy +
+      "This is the file that the mesh was read from. It will hold the smoothed mesh; its present contents are kept beside it as " + copy +
           " (or under the next number).",
       context.palette.warning);
   ImGui::Spacing();
@@ -124,7 +124,7 @@ void draw_save_session_dialog(PanelContext& context) {
   const std::string ending(kSessionExtension);
   if (context.widgets.dialog_opened) begin_save(context, rows, name_beside(context, {}, ending));
   dim_text(context,
-           "The runs with their histories, where they stand, and the view. The mesh's own file stays where it is and is read again.");
+           "The runs with their histories, their current iterations, and the view. The mesh itself is not in it: its file is read again.");
   ImGui::Spacing();
   const SaveForm form{rows, {"a session", {ending}}, Dialog::SaveSession, "session"};
   const bool entered = draw_save_rows(context, form);

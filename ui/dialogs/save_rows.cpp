@@ -189,7 +189,7 @@ bool draw_save_buttons(PanelContext& context, const SaveForm& form, const char* 
   }
   const bool asks = !target.asked.empty();
   if (asks) {
-    wrapped_text(context.shown(fs::path(target.asked).filename().string()) + " is there already. Replace it?", context.palette.warning);
+    wrapped_text(context.shown(fs::path(target.asked).filename().string()) + " exists already. Replace it?", context.palette.warning);
   }
   ImGui::Spacing();
   // While it asks, Enter and the usual button do nothing: what is replaced is replaced by a button of its own, which Enter does not press.

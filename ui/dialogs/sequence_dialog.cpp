@@ -36,10 +36,10 @@ void draw_choices(PanelContext& context, SequenceDialog& widgets) {
     widgets.from = std::clamp(range[0], 0, last);
     widgets.to = std::clamp(range[1], 0, last);
   }
-  next_item_tooltip(fmt::format("from and to; the history has 0 to {}", last));
+  next_item_tooltip(fmt::format("first and last iteration, from 0 to {}", last));
   row_label(context, "every", 9);
   if (ImGui::InputInt("##every", &widgets.every)) widgets.every = std::max(1, widgets.every);
-  next_item_tooltip("a picture of every iteration, every second, ...; the last one is always there");
+  next_item_tooltip("a picture of every iteration, every second one, ...; always one of the last");
   row_label(context, "what", 9);
   if (ImGui::RadioButton("the mesh", !widgets.window)) widgets.window = false;
   ImGui::SameLine();
@@ -68,7 +68,7 @@ void draw_sequence_dialog(PanelContext& context) {
     widgets.width = static_cast<int>(context.state.viewport.x) / 2 * 2;  // videos want even numbers
     widgets.height = static_cast<int>(context.state.viewport.y) / 2 * 2;
   }
-  dim_text(context, "Goes to one iteration after another and saves a picture of each: frame-0000.png, frame-0001.png, ...");
+  dim_text(context, "Shows one iteration after another and saves a picture of each: frame-0000.png, frame-0001.png, ...");
   ImGui::Spacing();
   row_label(context, "folder", 9);
   const bool entered = ImGui::InputText("##folder", &widgets.folder, ImGuiInputTextFlags_EnterReturnsTrue);

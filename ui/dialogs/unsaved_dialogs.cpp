@@ -70,7 +70,7 @@ void draw_unsaved_dialog(PanelContext& context) {
   ImGui::TextUnformatted(question.title.c_str());
   ImGui::Spacing();
   if (!question.lines.empty()) {
-    dim_text(context, question.lines.size() == 1 ? "In no file yet:" : "In no file yet are these runs:");
+    dim_text(context, question.lines.size() == 1 ? "Not saved yet:" : "These runs are not saved yet:");
     for (const std::string& line : question.lines) ImGui::TextUnformatted(line.c_str());
   }
   if (!question.running.empty()) {
@@ -101,8 +101,8 @@ void draw_recover_dialog(PanelContext& context) {
   std::size_t& chosen = context.widgets.recover.chosen;
   chosen = std::min(chosen, found.size() - 1);
   ImGui::PushTextWrapPos(0);
-  ImGui::TextUnformatted(found.size() == 1 ? "A window ended before its work was saved. What it had come to:"
-                                           : "Windows ended before their work was saved. What they had come to:");
+  ImGui::TextUnformatted(found.size() == 1 ? "A window ended before its work was saved:"
+                                           : "Several windows ended before their work was saved:");
   ImGui::PopTextWrapPos();
   ImGui::Spacing();
   for (std::size_t k = 0; k < found.size(); ++k) {
@@ -122,7 +122,7 @@ void draw_recover_dialog(PanelContext& context) {
   answers.add("recover:take", "Recover", "recovery take " + place);
   answers.add("recover:discard", "Discard", "recovery discard " + place);
   answers.add("recover:later", "Later", "recovery later");
-  next_item_tooltip("the next start asks again");
+  next_item_tooltip("asks again at the next start");
   answers.send();
   end_dialog();
 }

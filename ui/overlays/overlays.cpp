@@ -129,14 +129,14 @@ std::string Overlays::note(const ViewState& state, const SessionView& session) c
   if (frame == nullptr) return {};
   const SteppingState& s = state.stepping;
   const bool steps = s.next_class || s.arrows != Reference::None || s.ghost != Reference::None;
-  if ((steps || !state.selection.empty()) && frame->device) return "stepping is shown when the run rests";
+  if ((steps || !state.selection.empty()) && frame->device) return "arrows and ghosts are shown once the run pauses";
   const OverlayInput in{state, session, previous_};
   std::string text;
   const auto add = [&text](const std::string& part) { text += (text.empty() || part.empty() ? "" : " · ") + part; };
   // Last drawn, first said.
   for (auto overlay = steady_.rbegin(); overlay != steady_.rend(); ++overlay)
     if (!too_much_ || !(*overlay)->needs_unhidden()) add((*overlay)->note(in));
-  if (s.click_smooths) add("a click smooths");
+  if (s.click_smooths) add("a click moves a vertex");
   if (steps && state.in_space && too_much_) add("too many faces for arrows, ghosts and classes");
   return text;
 }

@@ -163,7 +163,7 @@ void hold_handle(PanelContext& context, int end, float width) {
 void draw_range_menu(PanelContext& context) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {context.px(10), context.px(8)});
   if (ImGui::BeginPopup("range menu")) {
-    dim_text(context, "the colours span", false);
+    dim_text(context, "range of the colours", false);
     for (const RangeModeInfo& one : kRangeModes) {
       if (one.mode == RangeMode::Given) continue;
       const bool percentile = one.mode == RangeMode::Percentile;
@@ -207,7 +207,7 @@ void handle_bar(PanelContext& context, const BarLayout& layout) {
   ImGui::SetCursorScreenPos({layout.left, layout.bar_top});
   ImGui::InvisibleButton("range:bar", {layout.width, layout.bar});
   context.items.record_last("range:bar");
-  if (layout.histogram > 0) next_item_tooltip("above it: how many elements have which quality");
+  if (layout.histogram > 0) next_item_tooltip("the bars above show how many elements have each quality");
   reset = reset || (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left));
   if (reset) context.send("range fixed");
   handle_mode(context, layout);

@@ -1,4 +1,4 @@
-// Left: what the elements' colours tell, which elements count, and what is written on them.
+// Left: what the colours of the elements mean, which elements count, and what is written on them.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -12,7 +12,7 @@ namespace dmoscope::ui {
 namespace {
 
 void draw_colour_by(PanelContext& context) {
-  labelled(context, "colours", "what the elements' colours tell");
+  labelled(context, "colours", "what the colours of the elements mean");
   const ColourBy now = context.state.colouring.by;
   Combo combo(context, "color-by", std::string(info(now).title), ImGuiComboFlags_HeightLarge);
   if (!combo.open()) return;
@@ -40,7 +40,7 @@ void draw_reference(PanelContext& context) {
                             : now.kind == Kind::MarkB                   ? "mark B"
                             : now.kind == Kind::Run && at != runs.end() ? title_of_run(static_cast<std::size_t>(at - runs.begin()))
                                                                         : "the input";
-  labelled(context, "less that of", "what the quality is compared with, element by element", 12 * context.em());
+  labelled(context, "less that of", "the mesh that is compared with, element by element", 12 * context.em());
   Combo combo(context, "reference", context.shown(shown));
   if (!combo.open()) return;
   const auto entry = [&](const std::string& words, const std::string& title, bool chosen, bool possible, const char* why) {
@@ -81,7 +81,7 @@ bool goes_by_map(ColourBy by) {
 }
 
 void draw_range(PanelContext& context) {
-  labelled(context, "range", "qualities that the colours span; the ends of the colour bar can be dragged");
+  labelled(context, "range", "the range of qualities that the colours cover; the ends of the colour bar can be dragged");
   const bool given = context.state.range_mode == RangeMode::Given;
   const auto now = context.derived.range;
   if (Combo combo(context, "range", std::string(info(context.state.range_mode).title)); combo.open())
@@ -90,7 +90,7 @@ void draw_range(PanelContext& context) {
         context.send(one.mode == RangeMode::Given ? fmt::format("range {} {}", full_number(now.first), full_number(now.second))
                                                   : fmt::format("range {}", one.name));
   if (context.state.range_mode == RangeMode::Percentile) {
-    labelled(context, "per cent", "elements of the input that the colours leave out below, and those up to which they reach");
+    labelled(context, "per cent", "percentiles of the input's qualities at the two ends of the colours");
     pair_field(context, "range-percent", context.state.range_low_percent, context.state.range_high_percent, "range percentile");
   }
   if (!given) return;
@@ -100,7 +100,7 @@ void draw_range(PanelContext& context) {
 
 void draw_filter(PanelContext& context) {
   const ColouringState& state = context.state.colouring;
-  labelled(context, "quality", "only elements from the first to the second quality count; inverted ones when the first is 0 or less",
+  labelled(context, "quality", "only elements with a quality in this range count; inverted ones when the lower end is 0 or less",
            11 * context.em());
   const auto range = state.filter.value_or(std::pair{0.0, 1.0});
   const float clear = ImGui::CalcTextSize("off").x + 2 * ImGui::GetStyle().FramePadding.x;
@@ -115,7 +115,7 @@ void draw_filter(PanelContext& context) {
 
   option_row(context, "worst-view");
   {
-    const GreyRows rows(!state.filter && !state.isolated && state.worst == 0, "all elements count: there are no others");
+    const GreyRows rows(!state.filter && !state.isolated && state.worst == 0, "all elements count, so there are no others");
     option_row(context, "filter-mode");
   }
 
@@ -143,7 +143,7 @@ void draw_colours(PanelContext& context) {
   const ColourBy by = context.state.colouring.by;
   if (by == ColourBy::Difference) draw_reference(context);
   const char* own =
-      by == ColourBy::Difference ? "differences are orange and blue: worse and better" : "these categories have colours of their own";
+      by == ColourBy::Difference ? "differences: orange is worse, blue is better" : "these categories have colours of their own";
   {
     const GreyRows rows(!goes_by_map(by), own);
     option_row(context, "colormap");
@@ -154,7 +154,7 @@ void draw_colours(PanelContext& context) {
     option_row(context, "color-steps");
   }
   {
-    const GreyRows rows(by != ColourBy::Quality, "the range is that of qualities, which are not what the colours tell now");
+    const GreyRows rows(by != ColourBy::Quality, "the range is for qualities, which the colours do not show now");
     draw_range(context);
   }
   if (context.state.in_space) option_rows(context, "depth");

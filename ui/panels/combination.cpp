@@ -43,13 +43,13 @@ CompositeTerms usual(const PanelContext& context, const RunParameters& p) {
 }
 
 void draw_second(PanelContext& context, const RunParameters& p) {
-  labelled(context, "second aim", "what counts once the first metric is above its threshold", metric_combo_width(context));
+  labelled(context, "second aim", "the aim once the first metric is above its threshold", metric_combo_width(context));
   const auto* metric = std::get_if<Metric>(&p.combination->second);
   Combo combo(context, "second-aim", metric != nullptr ? metric_title(*metric) : "Density");
   if (!combo.open()) return;
   if (!moves_jointly(p) &&
       combo.entry("density", "Density", metric == nullptr,
-                  "sizes of elements after a size function: each vertex goes for the mean of its neighbours, weighted by 1 / size"))
+                  "element sizes by a size function: each vertex moves towards the mean of its neighbours, weighted by 1 / size"))
     say(context, p.metric, with(*p.combination, {}));
   for (const Metric one : context.derived.metrics)
     if (one != p.metric && combo.entry(info(one).name, metric_title(one), metric != nullptr && *metric == one))
@@ -57,7 +57,7 @@ void draw_second(PanelContext& context, const RunParameters& p) {
 }
 
 void draw_point(PanelContext& context, const SizeFunction& size) {
-  labelled(context, "point", "of the size function, in the mesh's coordinates; Place puts it where you click next");
+  labelled(context, "point", "the point of the size function, in the mesh's coordinates; Place puts it where you click next");
   const char* label = "Place";
   const bool placing = context.state.placing_size_point;
   if (placing) ImGui::PushStyleColor(ImGuiCol_Button, colour_vector(context.palette.accent));
@@ -65,7 +65,7 @@ void draw_point(PanelContext& context, const SizeFunction& size) {
   if (placing) ImGui::PopStyleColor();
   context.items.record_last("place-size-point");
   if (placing) {
-    dim_text(context, "click where it shall be");
+    dim_text(context, "click to place it");
   } else {
     // In a line of its own: coordinates are long, and half of one says nothing.
     ImGui::TextUnformatted(fit_text(fmt::format("{:.7g}, {:.7g}", size.point.x, size.point.y), ImGui::GetContentRegionAvail().x).c_str());
@@ -80,12 +80,12 @@ void draw_size_course(PanelContext& context, const RunView& run) {
   labelled(context, "size corr.", tip);
   ImGui::TextUnformatted(run.summary ? size_course_text(run.summary->sizes.before.sizes, run.summary->sizes.after.sizes).c_str() : "…");
   context.items.record_last("size-course");
-  next_item_tooltip(run.summary ? fmt::format("{}\n{}", tip, size_course_details(run.summary->sizes)) : "worked out when nothing runs");
+  next_item_tooltip(run.summary ? fmt::format("{}\n{}", tip, size_course_details(run.summary->sizes)) : "computed while no run is going on");
 }
 
 void draw_size(PanelContext& context, const RunView& run, const SizeFunction& size) {
   const RunParameters& p = run.parameters;
-  labelled(context, "size", "how large elements shall be, up to a common factor");
+  labelled(context, "size", "the wanted element size, up to a common factor");
   const bool open = ImGui::BeginCombo(
       "##size", size.kind == SizeKind::Field ? size.field.c_str() : to_text(size).substr(0, to_text(size).find(':')).c_str());
   context.items.record_last("size-function");
@@ -101,7 +101,7 @@ void draw_size(PanelContext& context, const RunView& run, const SizeFunction& si
     choice("h1", {SizeKind::Distance, point, {}}, "grows with the distance to a point (paper, eq. 12)");
     choice("h2", {SizeKind::InverseDistance, point, {}}, "falls with the distance to a point (paper, eq. 13)");
     for (const std::string& field : scalar_fields(input.mesh))
-      choice(field.c_str(), {SizeKind::Field, {}, field}, "a nodal field of the file, where the vertex stands");
+      choice(field.c_str(), {SizeKind::Field, {}, field}, "a nodal field of the file, at the vertex");
     ImGui::EndCombo();
   }
   if (size.has_point()) draw_point(context, size);
@@ -153,7 +153,7 @@ void draw_composite(PanelContext& context, const RunView& run) {
   note_item(context, "combine",
             "two aims: the metric up to a threshold, and beyond it a second one, such as sizes of elements (paper, Section 4.2)");
   if (!p.combination) return;
-  labelled(context, "threshold", "of the metric, above 0 and below 1: beyond it the second aim counts");
+  labelled(context, "threshold", "quality above 0 and below 1 from which on the second aim counts");
   double threshold = p.combination->threshold;
   ImGui::InputDouble("##threshold", &threshold, 0, 0, "%.4g");
   context.items.record_last("threshold");

@@ -16,7 +16,7 @@ namespace dmoscope::ui {
 namespace {
 
 constexpr std::array<std::pair<const char*, const char*>, Comparison::kMeasures> kMeasureTitles{
-    {{"Worst", "the worst element"}, {"1 %", "a hundredth of the elements is not better than this"}, {"Mean", "of all elements"}}};
+    {{"Worst", "the worst element"}, {"1 %", "1 % of the elements are no better than this"}, {"Mean", "of all elements"}}};
 
 /// One of a row of joined buttons; true when it is clicked.
 bool switch_button(PanelContext& context, const std::string& item, const std::string& label, bool on, const std::string& tooltip) {
@@ -38,7 +38,7 @@ void judge_by(PanelContext& context, Metric metric) {
 /// By which metric the curves are judged: buttons for a few, a list of more.
 void draw_judges(PanelContext& context, const Comparison& comparison) {
   constexpr std::size_t kMostButtons = 3;
-  constexpr const char* kTooltip = "judges all runs by it, and colours the meshes";
+  constexpr const char* kTooltip = "judges all runs by this metric, and colours the meshes by it";
   const bool own = context.state.plot_options.judged_own, few = comparison.metrics.size() <= kMostButtons;
   ImGui::AlignTextToFramePadding();
   dim_text(context, "Judged by", false);
@@ -100,12 +100,18 @@ void draw_head(PanelContext& context, const Comparison& comparison) {
     }
 }
 
+/// Without the method where all runs have the same one.
+std::string title_of_row(const PanelContext& context, std::size_t run) {
+  const RunName name = run_name(context.session, run);
+  return context.shown(name.one_method && !name.rest.empty() ? name.number + " " + name.rest : name.whole());
+}
+
 void draw_title(PanelContext& context, const Comparison::Row& row) {
   if (row.run == Comparison::kInput) {
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + context.px(10));
     return dim_text(context, "Input", false);
   }
-  draw_run_cell(context, row.run, fmt::format("compared:{}", row.run + 1), context.shown(run_title(context.session, row.run)));
+  draw_run_cell(context, row.run, fmt::format("compared:{}", row.run + 1), title_of_row(context, row.run));
 }
 
 void draw_row(PanelContext& context, const Comparison::Row& row) {
@@ -132,12 +138,14 @@ void draw_matrix(PanelContext& context, const Comparison& comparison) {
   if (!ImGui::BeginTable("comparison", columns, kFlags, {0, std::max(4 * context.em(), ImGui::GetContentRegionAvail().y - buttons)}))
     return;
   ImGui::PushFont(context.fonts.bold);
-  const float number = ImGui::CalcTextSize("0.00000").x;
+  float number = ImGui::CalcTextSize("0.0000").x;
+  for (const Comparison::Row& row : comparison.rows)
+    for (const Comparison::Cell& cell : row.cells) number = std::max(number, ImGui::CalcTextSize(short_number(cell.value).c_str()).x);
   ImGui::PopFont();
   const float around = 2 * ImGui::GetStyle().CellPadding.x, bar = ImGui::GetStyle().ScrollbarSize;
   float widest = 6 * context.em();
   for (std::size_t k = 0; k < context.session.runs.size(); ++k)
-    widest = std::max(widest, ImGui::CalcTextSize(run_title(context.session, k).c_str()).x + 1.2F * context.em());
+    widest = std::max(widest, ImGui::CalcTextSize(title_of_row(context, k).c_str()).x + 1.2F * context.em());
   const float rest = room - bar - static_cast<float>(columns - 1) * (number + around) - around;
   ImGui::TableSetupColumn("run", ImGuiTableColumnFlags_WidthFixed, std::clamp(rest, 6 * context.em(), widest));
   for (int k = 1; k < columns; ++k) ImGui::TableSetupColumn(std::to_string(k).c_str(), ImGuiTableColumnFlags_WidthFixed, number);
@@ -171,14 +179,14 @@ void draw_buttons(PanelContext& context, const Comparison& comparison) {
 void draw_comparison(PanelContext& context) {
   const Comparison comparison = compare_runs(context.session);
   if (comparison.rows.empty()) {
-    dim_text(context, "Here runs are compared, by every metric that one of them optimises. There is but one so far.");
+    dim_text(context, "Runs are compared here by every metric that one of them optimises. There is only one run so far.");
     action_button(context, "compare-runs", "Compare…");
     return;
   }
   const float room = ImGui::GetContentRegionAvail().x;
   const bool both = room > 48 * context.em();
   if (both) {
-    ImGui::BeginChild("judged curves", {std::floor(0.4F * room), 0}, false,
+    ImGui::BeginChild("judged curves", {std::floor(0.37F * room), 0}, false,
                       ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
     draw_judges(context, comparison);
     draw_plot_area(context);

@@ -94,12 +94,12 @@ void draw_line(PanelContext& context, const GroupLine& line, bool fixed, const R
   ImGui::SameLine();
   ImGui::SetCursorPosX(right - (look.words ? words_width(context) : icons_width(context)) + context.px(6));
   const GroupSwitch fix{"fix", fixed ? Icon::Lock : Icon::LockOff, "group-fix:" + group.name,
-                        fixed ? "fixed: its vertices stay; a click gives them back" : "fix: keeps its vertices where they are", fixed};
+                        fixed ? "fixed: its vertices stay; click to release them" : "fix: its vertices keep their places", fixed};
   if (draw_switch(context, fix, look.words)) context.send((fixed ? "unfix " : "fix ") + quote_word(line.word));
   ImGui::SameLine(0, context.px(look.words ? 4 : 1));
   const bool alone = context.state.colouring.isolated == Isolation{ColourBy::Group, group.name};
   const GroupSwitch isolate{"isolate", Icon::Eye, "group-isolate:" + group.name,
-                            alone ? "isolated; a click counts all elements again" : "isolate: only its elements, or those around it, count",
+                            alone ? "isolated; click to count all elements again" : "isolate: only its elements, or those around it, count",
                             alone};
   if (draw_switch(context, isolate, look.words)) context.send(alone ? "isolate off" : "isolate group " + quote_word(group.name));
 }

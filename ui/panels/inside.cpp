@@ -58,21 +58,21 @@ bool toggle_button(PanelContext& context, const char* item, const char* label, b
 void draw_clip(PanelContext& context, const render::Bounds3& box) {
   ClipPlane& clip = context.state.inside.clip;
   const auto across = axis_plane(clip, box);
-  labelled(context, "clip plane", "takes away what lies on one side of a plane; its handle in the view can be dragged   J");
+  labelled(context, "clip plane", "hides what lies on one side of a plane; drag its handle in the view   J");
   option_box(context, "##clip", "clip", "inside:clip");
   for (int axis = 0; axis < 3; ++axis) {
     ImGui::SameLine(0, context.px(5));
     const std::string name = axis_name(axis, false);
     const bool pressed = clip.on && across && across->axis == axis;
     if (toggle_button(context, fmt::format("inside:{}", name).c_str(), name.c_str(), pressed,
-                      "across this axis; the side towards the eye is taken away"))
+                      "at right angles to this axis; the side towards the viewer is hidden"))
       context.send(fmt::format("clip {}:{:.4g}", axis_name(axis, looks_along(context.state.orbit, axis)),
                                clip.on && across ? std::clamp(across->fraction, 0.0, 1.0) : 0.5));
   }
   ImGui::BeginDisabled(!clip.on);
-  labelled(context, "side", "which one is taken away");
+  labelled(context, "side", "the side that is hidden");
   const bool flipped = clip.on && across && across->flip;
-  if (toggle_button(context, "inside:flip", "flip", flipped, "takes the other side away   Shift+J")) context.send("clip flip");
+  if (toggle_button(context, "inside:flip", "flip", flipped, "hides the other side   Shift+J")) context.send("clip flip");
   // Rows that are grey without a plane keep their place: nothing below moves.
   labelled(context, "place", "from the lower to the upper end of the mesh; Ctrl+click to type");
   const auto ends = span_of(clip, box);
@@ -86,17 +86,17 @@ void draw_clip(PanelContext& context, const render::Bounds3& box) {
       [&] { return clip_command(clip, box); });
   labelled(context, "cells", "at the plane");
   const bool cut = clip.mode == ClipPlane::Mode::Cut;
-  if (toggle_button(context, "inside:whole", "whole", !cut, "those that the plane passes through stay whole   Alt+J"))
+  if (toggle_button(context, "inside:whole", "whole", !cut, "cells that the plane passes through stay whole   Alt+J"))
     context.send("clip-mode crinkle");
   ImGui::SameLine(0, context.px(5));
-  if (toggle_button(context, "inside:cut", "cut", cut, "those that the plane passes through are cut   Alt+J"))
+  if (toggle_button(context, "inside:cut", "cut", cut, "cells that the plane passes through are cut   Alt+J"))
     context.send("clip-mode cut");
   ImGui::EndDisabled();
 }
 
 void draw_peel(PanelContext& context) {
   ClippingView& view = context.state.inside;
-  labelled(context, "layers off", "so many layers of cells are taken off the boundary   Y, Shift+Y; Ctrl+click to type");
+  labelled(context, "layers off", "number of layers of cells that are peeled off the boundary   Y, Shift+Y; Ctrl+click to type");
   int layers = static_cast<int>(std::min<Index>(view.peel, 1'000'000));
   const float button = ImGui::GetFrameHeight(), gap = context.px(4);
   ImGui::SetNextItemWidth(std::max(4 * context.em(), ImGui::GetContentRegionAvail().x - 2 * (button + gap)));
@@ -120,8 +120,8 @@ void draw_qualities(PanelContext& context) {
   ClippingView& view = context.state.inside;
   const MetricInfo& metric = info(context.session.shown);
   const double low = std::max(0.0, metric.lowest), high = metric.highest;
-  const std::string tip = fmt::format("of the shown metric, {}; at its end: off", metric_phrase(context.session.shown));
-  labelled(context, "hide better", ("takes cells of a higher quality away; inverted ones stay; " + tip).c_str());
+  const std::string tip = fmt::format("by the shown metric, {}; off at its end", metric_phrase(context.session.shown));
+  labelled(context, "hide better", ("hides cells of a higher quality; inverted ones stay; " + tip).c_str());
   double most = view.peel_quality ? static_cast<double>(*view.peel_quality) : high;
   bool moved = slider("hide-better", most, low, high, view.peel_quality ? "> %.3f" : "off");
   context.items.record_last("inside:hide-better");
@@ -130,7 +130,7 @@ void draw_qualities(PanelContext& context) {
       context, moved, [&](ClippingView& shown) { shown.peel_quality = peel_to(most); },
       [&] { return view.peel_quality ? fmt::format("peel-quality {:.4g}", *view.peel_quality) : std::string("peel-quality off"); });
 
-  labelled(context, "hide worse", ("takes cells of a lower quality away, and inverted ones; " + tip).c_str());
+  labelled(context, "hide worse", ("hides cells of a lower quality, and inverted ones; " + tip).c_str());
   double least = view.isolate ? static_cast<double>(view.isolate->first) : low;
   const float upper = view.isolate ? view.isolate->second : static_cast<float>(high);
   const bool hides_worse = view.isolate && static_cast<double>(view.isolate->first) > low;
@@ -147,7 +147,7 @@ void draw_qualities(PanelContext& context) {
       });
   // A script or a session can keep a range that the sliders do not tell.
   if (!view.isolate || static_cast<double>(upper) >= high) return;
-  labelled(context, "kept", "cells of other qualities are taken away");
+  labelled(context, "kept", "cells of other qualities are hidden");
   if (ImGui::Button(fmt::format("{:.3g} to {:.3g}  ×##kept", view.isolate->first, upper).c_str())) context.send("keep-quality off");
   note_item(context, "inside:kept", "shows the other qualities again");
 }
@@ -156,7 +156,7 @@ void draw_worst_cells(PanelContext& context) {
   const ClippingView& view = context.state.inside;
   std::size_t& wanted = context.widgets.worst_cells;
   if (view.worst > 0) wanted = view.worst;
-  labelled(context, "only worst", "only so many of the worst cells are seen, in a faint boundary of the rest   Q");
+  labelled(context, "only worst", "shows only this many of the worst cells, within a faint outline of the rest   Q");
   bool on = view.worst > 0;
   if (ImGui::Checkbox("##only-worst", &on)) context.send(on ? fmt::format("worst-cells {}", wanted) : "worst-cells off");
   context.items.record_last("inside:worst");
@@ -175,7 +175,7 @@ void draw_worst_cells(PanelContext& context) {
 void draw_looks(PanelContext& context) {
   ClippingView& view = context.state.inside;
   option_row(context, "ghost-rest", "inside:ghost");
-  labelled(context, "shrink", "every cell is drawn that large about its middle, so that one sees between them   E");
+  labelled(context, "shrink", "draws every cell smaller about its middle, so that one can see between them   E");
   double shrink = view.shrink;
   const bool moved = slider("shrink", shrink, 0.1, 1.0, "%.2f");
   context.items.record_last("inside:shrink");
@@ -185,7 +185,7 @@ void draw_looks(PanelContext& context) {
 }
 
 void draw_from(PanelContext& context) {
-  labelled(context, "look from", "all of the mesh from there");
+  labelled(context, "look from", "shows the whole mesh from this side");
   const ImVec2 padding = ImGui::GetStyle().FramePadding;
   const float column = ImGui::GetCursorPosX();
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {context.px(3), padding.y});  // seven in a row
@@ -198,7 +198,7 @@ void draw_from(PanelContext& context) {
       ImGui::SetCursorPosX(column);
     }
     if (ImGui::Button(fmt::format("{}##from", name).c_str(), {width, 0})) context.send("view-from " + name);
-    note_item(context, "from:" + name, "all of the mesh from there");
+    note_item(context, "from:" + name, "shows the whole mesh from this side");
   }
   ImGui::PopStyleVar();
   option_box(context, "perspective", "perspective", "inside:perspective");
@@ -218,11 +218,11 @@ void draw_clipping(PanelContext& context) {
   const InspectionState& inspection = context.state.inspection;
   const bool searching = inspection.open && inspection.alone && context.inspection.solid && !inspection.applied;
   dim_text(context,
-           searching                  ? "faint around the search"
-           : *pane->cells_seen == all ? "all cells seen"
+           searching                  ? "faint during an inspection"
+           : *pane->cells_seen == all ? "all cells shown"
                                       : fmt::format("{} of {} cells", count(*pane->cells_seen), count(all)),
            false);
-  note_item(context, "inside:count", "marks of what was taken away are faint: of the worst element and of what is picked");
+  note_item(context, "inside:count", "marks of hidden cells are faint");
   draw_clip(context, pane->box);
   draw_peel(context);
   draw_qualities(context);
@@ -237,7 +237,7 @@ void draw_clipping(PanelContext& context) {
     context.send("show-all");
     if (isolated) context.send("filter off");
   }
-  note_item(context, "inside:all", "no plane, no peeling, nothing shrunk, no range of the histogram   Z");
+  note_item(context, "inside:all", "removes the plane, peeling, shrinking and the range of the histogram   Z");
   ImGui::EndDisabled();
   ImGui::Dummy({0, context.px(4)});
 }

@@ -36,21 +36,21 @@ void draw_story(PanelContext& context, const Inspection& inspection) {
     const bool inverted = !(star.jacobian > 0.0);
     number_row(context, fmt::format("{} {}", inverted ? "least Jacobian" : trace.worst_phrase(), when).c_str(), quality_of(star),
                inverted           ? "while an element of the star is inverted: the least corner Jacobian over its element's reference size"
-               : trace.by_corners ? "the least quality of its star's corners that the vertex changes, which is what it is moved by"
+               : trace.by_corners ? "the least quality among the corners of its star that the vertex changes; the search maximises it"
                                   : "the least quality of its star");
   };
   row(trace.before, "before");
   if (trace.end == VisitEnd::Moved) row(trace.after, "after");
   if (inspection.optimum) {
     number_row(context, "best possible", inspection.optimum->quality,
-               "the exact maximum of the star's mean ratio, wherever this one vertex might stand: the diamond");
+               "the exact maximum of the star's mean ratio over all places of this vertex; marked by a diamond");
     number_row(context, "gap", std::max(0.0, inspection.optimum->quality - quality_of(trace.after)), gap_sentence(inspection).c_str());
   }
   dim_text(context, fmt::format("{} · {}", metric_phrase(trace.metric), search_phrase(trace)));
   if ((inspection.solid || inspection.grid) && inspection.level_count() > 0) dim_text(context, grid_phrase(inspection));
   if (inspection.level_count() == 0) return;
   next_item_tooltip(
-      fmt::format("The candidates were compared by their {}. Shown is their quality, as statistics have it.", trace.value_phrase));
+      fmt::format("The candidates were compared by their {}. The numbers shown are their qualities.", trace.value_phrase));
 }
 
 void draw_buttons(PanelContext& context) {
@@ -215,7 +215,7 @@ void draw_slice(PanelContext& context) {
   ImGui::BeginDisabled(!state.slice);
   if (ImGui::Button("best")) context.send("grid-slice best");
   ImGui::EndDisabled();
-  note_item(context, "slice:best", "of each level the slice of the candidate that it chose");
+  note_item(context, "slice:best", "for each level the slice with the chosen candidate");
 }
 
 /// Two bars, one over the other: before and after.
@@ -341,7 +341,7 @@ void draw_field_panel(PanelContext& context, const Inspection& inspection) {
   const bool nowhere = !(picture.highest >= picture.lowest);
   dim_text(context,
            nowhere
-               ? std::string(inspection.solid ? "an element is inverted all over this slice" : "an element is inverted wherever it stands")
+               ? std::string(inspection.solid ? "an element is inverted in the whole slice" : "an element is inverted for every place")
                : fmt::format("{} around the vertex{}", metric_phrase(inspection.visit()->metric), inspection.solid ? ", in the slice" : ""),
            false);
   const double aspect = (field.high.y - field.low.y) / (field.high.x - field.low.x);
@@ -382,7 +382,7 @@ void draw_inspection(PanelContext& context) {
   const InspectionState& state = context.state.inspection;
   const Inspection& inspection = context.inspection;
   if (state.vertex == kNoIndex) {
-    wrapped_text(state.note.empty() ? "Click a vertex to look into its search; L goes to the one that the run visits next." : state.note);
+    wrapped_text(state.note.empty() ? "Click a vertex to inspect its search; L inspects the one that the run visits next." : state.note);
   } else if (inspection.visit() == nullptr) {
     wrapped_text(inspection.trouble);
   } else {

@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -55,11 +57,11 @@ void draw_mesh(PanelContext& context, const Frame& frame) {
   value_row(context, "vertices", count(mesh.vertex_count()));
   if (frame.input->is_volume()) {
     value_row(context, "faces", count(frame.input->faces.face_count()));
-    value_row(context, "on the boundary", count(frame.input->faces.boundary().size()), {}, {}, "faces of one element alone");
+    value_row(context, "on the boundary", count(frame.input->faces.boundary().size()), {}, {}, "faces that belong to one element only");
   }
-  if (const RunView* run = context.run()) value_row(context, "free", count(run->free_vertices), {}, {}, "vertices that may move");
+  if (const RunView* run = context.run()) value_row(context, "of these free to move", count(run->free_vertices));
   const std::vector<std::string>& facts = context.derived.mesh_facts;
-  if (!facts.empty()) dim_text(context, "found in the input:");
+  if (!facts.empty()) dim_text(context, "Found in the input:");
   for (const std::string& fact : facts) wrapped_text(context.shown(fact), context.palette.warning);
   const RunView* active = context.run();
   const bool fixed = active != nullptr && active->parameters.interfaces != InterfaceRule::Free;
@@ -116,7 +118,7 @@ void draw_switch(PanelContext& context, const RunView& run, const HeldMinimum& h
 /// What keeps the minimum from rising, and what would let it: four lines, whatever they say, so that nothing below moves.
 void draw_hold(PanelContext& context, const RunView& run) {
   constexpr const char* kAbout = "what keeps the worst element as it is";
-  constexpr const char* kLabel = "what holds it";
+  constexpr const char* kLabel = "What holds it";
   const HeldMinimum* held = run.held.found.get();
   const ImVec2 row = ImGui::GetCursorScreenPos();
   context.items.record("held-by", {row.x, row.y, row.x + ImGui::GetContentRegionAvail().x, row.y + ImGui::GetTextLineHeight()});
@@ -129,7 +131,7 @@ void draw_hold(PanelContext& context, const RunView& run) {
     ImGui::BeginDisabled(context.activity.busy);
     if (ImGui::SmallButton(kAsk)) context.send("held-by");
     ImGui::EndDisabled();
-    note_item(context, "held-by:ask", "looks at the worst element and tries what would free it; of a large mesh that takes some seconds");
+    note_item(context, "held-by:ask", "examines the worst element and tries what would improve it; this takes some seconds for a large mesh");
     empty_lines(context, 3);
     return;
   }
@@ -152,40 +154,83 @@ void draw_hold(PanelContext& context, const RunView& run) {
   empty_lines(context, 2);
 }
 
-/// The minimum in large numerals, and where on the scale of colours it is.
-void draw_minimum(PanelContext& context, Metric metric, double minimum, Index worst) {
-  dim_text(context, fmt::format("worst element by {}", metric_phrase(metric)), false);
-  metric_tooltip(context, info(metric));
-  const float top = ImGui::GetCursorPosY();
+/// A quality in large numerals, where on the scale of colours it is, and the smallest angle that goes with it. `item`: of the number.
+void large_number(PanelContext& context, const char* item, Metric metric, double value, bool inverted, const std::optional<double>& angle) {
   ImGui::PushFont(context.fonts.large);
-  ImGui::TextUnformatted(short_number(minimum).c_str());
+  ImGui::TextUnformatted(short_number(value).c_str());
   ImGui::PopFont();
-  next_item_tooltip(full_number(minimum) + "\n(click copies it)");
-  if (ImGui::IsItemClicked()) context.send("copy " + quote_word(full_number(minimum)));
-  context.items.record_last("minimum");
-  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  copied_by_click(context, full_number(value));
+  context.items.record_last(item);
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax(), back = ImGui::GetCursorPos();
   const float middle = (low.y + high.y) / 2, half = context.px(6), left = high.x + context.px(10);
   const bool coloured_by_it = metric == context.session.shown && context.state.colouring.by == ColourBy::Quality;
-  if (std::isfinite(minimum) && coloured_by_it)
+  if (std::isfinite(value) && coloured_by_it)
     ImGui::GetWindowDrawList()->AddRectFilled(
         {left, middle - half}, {left + 2 * half, middle + half},
-        colour(minimum > 0.0 ? shown_scale(context.state, context.derived).colour(minimum) : render::kInvertedColour), context.px(3));
-  if (const auto& angles = context.derived.worst_angles; angles && metric == context.session.shown) {
-    const std::string text = fmt::format("{:.1f}°", angles->smallest);
-    const ImVec2 back = ImGui::GetCursorPos();
-    ImGui::SetCursorScreenPos({coloured_by_it ? left + 2 * half + context.px(10) : left, middle - ImGui::GetTextLineHeight() / 2});
-    dim_text(context, text, false);
-    next_item_tooltip("the smallest angle of the worst element");
-    ImGui::SetCursorPos(back);
+        colour(inverted ? render::kInvertedColour : shown_scale(context.state, context.derived).colour(value)), context.px(3));
+  if (!angle) return;
+  ImGui::SetCursorScreenPos({coloured_by_it ? left + 2 * half + context.px(10) : left, middle - ImGui::GetTextLineHeight() / 2});
+  dim_text(context, fmt::format("{:.1f}°", *angle), false);
+  next_item_tooltip("the smallest angle of this element");
+  ImGui::SetCursorPos(back);
+}
+
+/// Small buttons at the right end of the large number that begins at `top`, each with its command; an empty one is disabled.
+struct SideButton {
+  const char *label, *item, *tooltip;
+  std::string command;
+};
+void draw_beside_number(PanelContext& context, float top, const std::string& words, std::initializer_list<SideButton> buttons) {
+  const float gap = context.px(4), below = ImGui::GetCursorPosY(), around = 2 * ImGui::GetStyle().FramePadding.x;
+  const float line = ImGui::GetTextLineHeight(), middle = top + (below - ImGui::GetStyle().ItemSpacing.y - top - line) / 2;
+  float x = ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(words.c_str()).x;
+  for (const SideButton& button : buttons) x -= ImGui::CalcTextSize(button.label).x + around + gap;
+  ImGui::SetCursorPos({x, middle});
+  dim_text(context, words, false);
+  x += ImGui::CalcTextSize(words.c_str()).x + gap;
+  for (const SideButton& button : buttons) {
+    ImGui::SetCursorPos({x, middle});
+    ImGui::BeginDisabled(button.command.empty());
+    if (ImGui::SmallButton(button.label)) context.send(button.command);
+    ImGui::EndDisabled();
+    note_item(context, button.item, button.tooltip);
+    x += ImGui::CalcTextSize(button.label).x + around + gap;
   }
-  if (worst == kNoIndex) return;
-  constexpr const char* kShow = "Show it";
-  const float below = ImGui::GetCursorPosY();
-  ImGui::SetCursorPos({ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(kShow).x - 2 * ImGui::GetStyle().FramePadding.x,
-                       top + (high.y - low.y - ImGui::GetTextLineHeight()) / 2});
-  if (ImGui::SmallButton(kShow)) context.send(fmt::format("goto element {}", worst));
-  note_item(context, "show-worst", "selects the worst element and goes there");
   ImGui::SetCursorPosY(below);
+}
+
+void draw_minimum(PanelContext& context, Metric metric, double minimum, Index worst) {
+  dim_text(context, fmt::format("Worst element by {}", metric_phrase(metric)), false);
+  metric_tooltip(context, info(metric));
+  const float top = ImGui::GetCursorPosY();
+  const auto& angles = context.derived.worst_angles;
+  large_number(context, "minimum", metric, minimum, !(minimum > 0.0),
+               angles && metric == context.session.shown ? std::optional(angles->smallest) : std::nullopt);
+  if (worst == kNoIndex) return;
+  draw_beside_number(context, top, "",
+                     {{"Show it", "show-worst", "selects the worst element and goes there", fmt::format("goto element {}", worst)}});
+}
+
+/// The quality of a picked element; of one in the list of the worst its rank, and the way to its neighbours there.
+void draw_own_quality(PanelContext& context, const Frame& frame, Index element) {
+  const PickedFacts& facts = context.derived.facts;
+  const auto row = std::ranges::find(facts.metrics, &info(frame.shown), &PickedFacts::Row::metric);
+  if (row == facts.metrics.end()) return;
+  dim_text(context, capitalised(metric_phrase(frame.shown)), false);
+  metric_tooltip(context, info(frame.shown));
+  const float top = ImGui::GetCursorPosY();
+  large_number(context, "element-quality", frame.shown, row->now, facts.inverted,
+               facts.angles ? std::optional(facts.angles->smallest) : std::nullopt);
+  const auto at = std::ranges::find(frame.worst, element, &RankedElement::element);
+  if (at == frame.worst.end()) return;
+  const auto go_to = [&](std::ptrdiff_t step) {
+    const std::ptrdiff_t rank = at - frame.worst.begin() + step;
+    const bool any = rank >= 0 && rank < std::ssize(frame.worst);
+    return any ? fmt::format("goto element {}", frame.worst[static_cast<std::size_t>(rank)].element) : std::string();
+  };
+  draw_beside_number(
+      context, top, at == frame.worst.begin() ? "the worst" : fmt::format("worst {}", at - frame.worst.begin() + 1),
+      {{"‹", "worse-element", "goes to the next worse element", go_to(-1)}, {"›", "better-element", "goes to the next better one", go_to(1)}});
 }
 
 /// The quality below which one element in a hundred lies, by the shown metric; NaN while it is not known.
@@ -199,12 +244,13 @@ double worst_percent(const PanelContext& context, Metric metric) {
 void draw_statistics(PanelContext& context, Metric metric, const Statistics& statistics, const RunView* run) {
   draw_minimum(context, metric, statistics.minimum, statistics.worst_element);
   if (metric == context.session.shown)
-    number_row(context, "worst 1 %", worst_percent(context, metric), "one element in a hundred is worse");
+    number_row(context, "worst 1 % below", worst_percent(context, metric), "one element in a hundred is worse");
   number_row(context, "mean", statistics.mean, "over all elements");
   const Frame& frame = *context.frame();
   if (run != nullptr || metric == frame.shown) {
     const Index inverted = frame.shown_statistics.inverted;  // whatever the metric
-    value_row(context, "inverted", count(inverted), {}, inverted != 0 ? std::optional(context.palette.error) : std::nullopt,
+    value_row(context, "inverted elements", inverted == 0 ? "none" : count(inverted), {},
+              inverted == 0 ? context.palette.good : context.palette.error,
               "elements whose Jacobian is 0 or less, at a corner or inside");
   }
   if (run == nullptr) return;
@@ -249,7 +295,7 @@ void draw_ring(PanelContext& context, const Frame& frame, Index vertex) {
   constexpr std::size_t kMost = 24;  // more are no list to read
   const std::vector<Index> ring = ordered_ring(frame.input->mesh, frame.input->topology, vertex);
   if (ring.empty() || ring.size() > kMost) return;
-  draw_vertices(context, "ring", ring);
+  draw_vertices(context, "Neighbours", ring);
 }
 
 void draw_vertex(PanelContext& context, const Frame& frame, Index vertex) {
@@ -281,14 +327,14 @@ void draw_vertex(PanelContext& context, const Frame& frame, Index vertex) {
                                             : "fixed",
             interface ? interfaces.why(vertex) : std::string(held));
   if (run != nullptr) draw_vertex_kind(context, frame, *run, vertex);
-  value_row(context, "valence", count(topology.star(vertex).size()), {}, {}, "elements of its star");
+  value_row(context, "valence", count(topology.star(vertex).size()), {}, {}, "elements around it");
   draw_loop_place(context, frame, vertex);
   draw_ring(context, frame, vertex);
-  number_row(context, "quality now", facts.now, "minimum over its star, of the shown metric");
+  number_row(context, "quality now", facts.now, "the worst element around it, by the shown metric");
   number_row(context, "at the input", facts.before);
   if (context.state.inspection.open && context.state.inspection.vertex == vertex) return;  // whose elements are listed above
-  action_button(context, "inspect", "Look into its search");
-  dim_text(context, fmt::format("star, {}", metric_phrase(frame.shown)));
+  action_button(context, "inspect", "Inspect its search");
+  dim_text(context, fmt::format("Its elements by {}", metric_phrase(frame.shown)));
   for (const auto& [element, q, inverted, inside] : facts.star) {
     ImGui::PushID(static_cast<int>(element));
     const ImVec2 cursor = ImGui::GetCursorScreenPos();
@@ -311,28 +357,6 @@ void draw_vertex(PanelContext& context, const Frame& frame, Index vertex) {
   }
 }
 
-/// The same where there is no room for both numbers beside the names: the input's in a line below, where it is another one.
-void draw_metric_rows(PanelContext& context, const std::vector<PickedFacts::Row>& rows) {
-  const auto at_right = [&](double value, bool dim) {
-    const std::string text = dim ? "input " + short_number(value) : short_number(value), full = full_number(value);
-    ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(text.c_str()).x);
-    if (dim)
-      dim_text(context, text, false);
-    else
-      ImGui::TextUnformatted(text.c_str());
-    next_item_tooltip(full + "\n(click copies it)");
-    if (ImGui::IsItemClicked()) context.send("copy " + quote_word(full));
-  };
-  for (const PickedFacts::Row& row : rows) {
-    ImGui::TextUnformatted(std::string(row.metric->title).c_str());
-    metric_tooltip(context, *row.metric);
-    context.items.record_last(fmt::format("metric:{}", row.metric->name));
-    ImGui::SameLine();
-    at_right(row.now, false);
-    if (std::isfinite(row.before) && row.before != row.now) at_right(row.before, true);
-  }
-}
-
 /// Every metric of one element now and at the input; – where it is not defined for its kind.
 void draw_metric_table(PanelContext& context) {
   using Row = PickedFacts::Row;
@@ -342,10 +366,6 @@ void draw_metric_table(PanelContext& context) {
     widths[0] = std::max(widths[0], ImGui::CalcTextSize(short_number(row.now).c_str()).x);
     widths[1] = std::max(widths[1], ImGui::CalcTextSize(short_number(row.before).c_str()).x);
   }
-  float names = 0;
-  for (const Row& row : rows) names = std::max(names, ImGui::CalcTextSize(std::string(row.metric->title).c_str()).x);
-  if (names + widths[0] + widths[1] + 6 * ImGui::GetStyle().CellPadding.x > ImGui::GetContentRegionAvail().x)
-    return draw_metric_rows(context, rows);
   if (!ImGui::BeginTable("metrics", 3, ImGuiTableFlags_RowBg)) return;
   ImGui::TableSetupColumn("metric", ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableSetupColumn("now", ImGuiTableColumnFlags_WidthFixed, widths[0]);
@@ -358,9 +378,7 @@ void draw_metric_table(PanelContext& context) {
     } else {
       ImGui::TextUnformatted(text.c_str());
     }
-    if (full.empty()) return;
-    next_item_tooltip(full + "\n(click copies it)");
-    if (ImGui::IsItemClicked()) context.send("copy " + quote_word(full));
+    if (!full.empty()) copied_by_click(context, full);
   };
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
@@ -380,24 +398,26 @@ void draw_metric_table(PanelContext& context) {
 }
 
 void draw_element(PanelContext& context, const Frame& frame, Index element) {
-  heading(context, fmt::format("Element {}", element).c_str());
   const ElementTable& elements = frame.input->mesh.elements;
-  value_row(context, "kind", std::string(info(elements.kind(element)).name));
+  heading(context, fmt::format("Element {}", element).c_str());
+  ImGui::SameLine();
+  dim_text(context, std::string(info(elements.kind(element)).name), false);
+  draw_own_quality(context, frame, element);
   if (const PickedFacts& facts = context.derived.facts; facts.inverted)
-    value_row(context, "inverted", facts.inverted_inside ? "inside alone" : "yes", {}, context.palette.error,
-              facts.inverted_inside ? "not at its corners: where the diamond is" : nullptr);
+    value_row(context, "inverted", facts.inverted_inside ? "only inside" : "yes", {}, context.palette.error,
+              facts.inverted_inside ? "not at its corners: at the diamond" : nullptr);
   if (const auto& angles = context.derived.facts.angles)
     value_row(context, "angles", fmt::format("{:.1f}° to {:.1f}°", angles->smallest, angles->largest), {}, {},
               "smallest and largest at its corners");
   if (frame.input->is_volume() && !frame.positions.empty())
     number_row(context, "volume", signed_volume(elements, frame.positions, element), "negative where it is inside out");
   if (const PickedFacts& facts = context.derived.facts; facts.aspect && facts.target_aspect) {
-    number_row(context, "aspect", *facts.aspect, "longest over shortest axis of what makes it of an ideal element");
-    number_row(context, "of its target", *facts.target_aspect, "the same of what it is wished to be");
+    number_row(context, "aspect", *facts.aspect, "longest over shortest axis of its map from the ideal element");
+    number_row(context, "target aspect", *facts.target_aspect, "the same for its target shape");
   }
-  draw_vertices(context, "corners", elements.corners(element));
+  draw_vertices(context, "Corners", elements.corners(element));
   if (ImGui::SmallButton("Inspect its worst corner")) context.send(fmt::format("inspect element {}", element));
-  note_item(context, "why", "looks into the search of its worst free corner");
+  note_item(context, "why", "inspects the search of its worst free corner");
   draw_metric_table(context);
   if (const RunView* run = context.run()) draw_element_edges(context, frame, *run, element);
 }
@@ -406,7 +426,7 @@ void draw_element(PanelContext& context, const Frame& frame, Index element) {
 
 void draw_mesh_facts(PanelContext& context) {
   const Frame* frame = context.frame();
-  if (frame == nullptr) return dim_text(context, "Numbers of the mesh that is open.");
+  if (frame == nullptr) return dim_text(context, "The numbers of an open mesh are shown here.");
   const RunView* run = context.run();
   const Metric optimised = run != nullptr ? run->parameters.metric : frame->shown;
   if (optimised != frame->shown) {
@@ -426,7 +446,7 @@ void draw_selection(PanelContext& context) {
   if (frame != nullptr && facts.picked.kind == Picked::Kind::Vertex) return draw_vertex(context, *frame, facts.picked.id);
   if (frame != nullptr && facts.picked.kind == Picked::Kind::Element) return draw_element(context, *frame, facts.picked.id);
   dim_text(context, facts.trouble.empty() ? "Click a vertex or an element (Alt: the element)."
-                                          : "What is picked cannot be read now: " + facts.trouble);
+                                          : "The selection cannot be read now: " + facts.trouble);
 }
 
 }  // namespace dmoscope::ui

@@ -39,12 +39,12 @@ EdgeTurn turn_of(EdgeKind kind, const Kinds& kinds, EdgeEnds edge) {
   const bool by_hand = kinds.has_feature(edge) || kinds.has_no_feature(edge);
   switch (kind) {
     case EdgeKind::Smooth:
-      if (by_hand) return {"auto-feature", "smooth, because it was made so by hand. Click: as the angle says"};
-      return {"feature", "smooth: vertices may cross it. Click: a feature edge, which nothing crosses and along which vertices slide"};
+      if (by_hand) return {"auto-feature", "smooth, set by hand. Click: decided by the angle again"};
+      return {"feature", "smooth: vertices may cross it. Click: make it a feature edge, which vertices slide along but never cross"};
     case EdgeKind::Hand:
-      return {"auto-feature", "a feature edge, because it was made one by hand. Click: as the angle says"};
+      return {"auto-feature", "a feature edge, set by hand. Click: decided by the angle again"};
     case EdgeKind::Angle:
-      return {"no-feature", "a feature edge, because the surface folds there. Click: smooth"};
+      return {"no-feature", "a feature edge, because the surface folds there. Click: make it smooth"};
     default:
       return {{}, fmt::format("a feature edge: {}", phrase(kind))};
   }
@@ -76,7 +76,7 @@ void draw_edge(PanelContext& context, const InputMesh& input, const RunView& run
     if (left > ImGui::GetCursorPosX() + ImGui::CalcTextSize(label.c_str()).x + gap) {
       ImGui::SameLine(left);
       dim_text(context, angle, false);
-      next_item_tooltip("by how much the surface of the input folds there");
+      next_item_tooltip("the angle by which the input's surface folds there");
     }
   }
   ImGui::SameLine(first);
@@ -86,7 +86,7 @@ void draw_edge(PanelContext& context, const InputMesh& input, const RunView& run
   const bool chained = !turn.command.empty() && turn.command != "feature";
   draw_button(context,
               {kChain, "chain:" + name, fmt::format("{} chain:{}", turn.command, name),
-               chained ? "the same for all feature edges that continue it, both ways up to the next corner" : "no chain goes on here",
+               chained ? "the same for all feature edges that continue it, both ways up to the next corner" : "no chain continues here",
                false, chained});
   ImGui::PopID();
   const ImVec2 mouse = ImGui::GetIO().MousePos;
@@ -100,8 +100,8 @@ void draw_edges(PanelContext& context, const InputMesh& input, const RunView& ru
   for (const EdgeRow& row : rows)
     if (edge_kind(input, rule, *run.domain, row.from, row.to) != EdgeKind::Off) on_domain.push_back(row);
   if (on_domain.empty()) return;
-  dim_text(context, "edges", false);
-  next_item_tooltip("feature edges, which nothing crosses, and others; the mouse shows which is which in the mesh");
+  dim_text(context, "Edges", false);
+  next_item_tooltip("feature edges, which no vertex crosses, and other edges; point at one to see it in the mesh");
   for (const EdgeRow& row : on_domain) draw_edge(context, input, run, rule, row);
 }
 
@@ -136,7 +136,7 @@ void draw_vertex_kind(PanelContext& context, const Frame& frame, const RunView& 
   const bool corner = kinds.has_corner(vertex), none = kinds.has_no_corner(vertex);
   const std::string stays = why_stays(domain, vertex), words = fmt::format(" vertices:{}", vertex);
   const float gap = context.px(4);
-  draw_button(context, {"corner", "kind:corner", corner ? "" : "corner" + words, "it stays, though it could slide", corner,
+  draw_button(context, {"corner", "kind:corner", corner ? "" : "corner" + words, "it stays although it could slide", corner,
                         stays.empty() || corner});
   ImGui::SameLine(0, gap);
   draw_button(context,
@@ -144,7 +144,7 @@ void draw_vertex_kind(PanelContext& context, const Frame& frame, const RunView& 
                stays.empty() ? "it slides along its curve, however much that turns there" : "it stays: " + stays, none, stays.empty()});
   ImGui::SameLine(0, gap);
   draw_button(context, {"auto", "kind:auto", corner || none ? "auto-corner" + words : "",
-                        "a corner where the file says so, or its curve turns by more than the corner angle", !corner && !none});
+                        "a corner if the file says so or its curve turns by more than the corner angle", !corner && !none});
   std::vector<EdgeRow> rows;
   for (const Index other : edges_at(*frame.input, vertex)) rows.push_back({vertex, other, true});
   draw_edges(context, *frame.input, run, rows);

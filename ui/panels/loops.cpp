@@ -30,7 +30,7 @@ void draw_loop(PanelContext& context, const Outline& outline, Index number) {
   note_item(context, fmt::format("loop-select:{}", number + 1), "selects its vertices");
   ImGui::SameLine(0, gap);
   if (ImGui::SmallButton("fix")) context.send("fix " + word);
-  note_item(context, fmt::format("loop-fix:{}", number + 1), "keeps its vertices where they are, also where the boundary slides");
+  note_item(context, fmt::format("loop-fix:{}", number + 1), "its vertices keep their places, even where the boundary slides");
   ImGui::SameLine(0, gap);
   if (ImGui::SmallButton("slide")) context.send("slide " + word);
   note_item(context, fmt::format("loop-slide:{}", number + 1), "lets its vertices slide along it; the rest of the boundary stays");
@@ -48,7 +48,7 @@ void draw_loops(PanelContext& context) {
     context.send(open ? "unfold-loops off" : "unfold-loops on");
   if (!open || known == 0) return;
   const Outline* outline = context.widgets.outline.of(frame->input);
-  if (outline == nullptr) return dim_text(context, "they are being found …");
+  if (outline == nullptr) return dim_text(context, "searching …");
   ImGui::BeginDisabled(context.activity.busy);
   const auto all = static_cast<Index>(outline->loops.size());
   for (Index number = 0; number < std::min(all, kMostShown); ++number) {
@@ -63,7 +63,7 @@ void draw_loops(PanelContext& context) {
 void draw_loop_place(PanelContext& context, const Frame& frame, Index vertex) {
   if (frame.input->is_volume() || frame.input->topology.boundary()[vertex] == 0) return;
   const Outline* outline = context.widgets.outline.of(frame.input);
-  if (outline == nullptr) return dim_text(context, "its boundary loop is being found …");
+  if (outline == nullptr) return dim_text(context, "searching for its boundary loop …");
   const auto place = outline->find(vertex);
   if (!place) return;
   const std::vector<Index>& around = outline->loops[place->loop].vertices;

@@ -48,7 +48,7 @@ const Submenu* submenu_of(const Action& action) {
 void draw_submenu(PanelContext& context, const Submenu& submenu) {
   const bool open = ImGui::BeginMenu(submenu.title, context.state.in_space);
   context.items.record_last(fmt::format("menu:{}", submenu.title));
-  if (!context.state.in_space) next_item_tooltip("of meshes of volume elements");
+  if (!context.state.in_space) next_item_tooltip("for meshes of volume elements");
   if (!open) return;
   for (const Action& action : actions())
     if (submenu_of(action) == &submenu) draw_entry(context, action);

@@ -157,7 +157,7 @@ void draw_unfolded(PanelContext& context, Notice notice, const Rect& rect) {
   ImGui::EndDisabled();
   go_to(labels.size() - 2);
   if (ImGui::Button(less.c_str())) context.send("unfold-notice off");
-  note_item(context, "notice-less", "back to one line");
+  note_item(context, "notice-less", "folds it to one line");
   go_to(labels.size() - 1);
   action_button(context, "notice-off", hide.c_str());
   end_panel();

@@ -78,7 +78,7 @@ void draw_why_not(const PanelContext& context, const PaneFacts& pane) {
                                         colour(context.palette.dim), text.c_str());
   };
   line(pane.why_not, -1.1F);
-  line("right click: choose what is shown here", 0.1F);
+  line("right click: choose what this viewport shows", 0.1F);
 }
 
 /// The run as it stands, which a click makes the active one; 0: none, or it is.
@@ -100,7 +100,7 @@ void handle_pane_title(PanelContext& context, const PaneFacts& pane) {
   context.items.record_last(fmt::format("pane-title:{}", pane.number + 1));
   const std::size_t run = run_to_select(context, pane);
   if (run > 0) {
-    next_item_tooltip(fmt::format("{}\nclick: makes this the active run (Tab: the next)", run_title(context.session, run - 1)));
+    next_item_tooltip(fmt::format("{}\nclick: make this the active run (Tab: the next one)", run_title(context.session, run - 1)));
   } else if (pane.run() != nullptr && pane.frame() != nullptr) {
     next_item_tooltip(pane.name == "input" ? "the mesh as it was read" : run_title(*pane.session, pane.session->active));
   }
@@ -146,7 +146,7 @@ void draw_pane_entries(PanelContext& context, const PaneFacts& pane) {
     context.items.record_last(fmt::format("show-here:{}", panes.words(content)));
   };
   using Kind = PaneContent::Kind;
-  entry("By itself: what is not shown elsewhere", {}, true);
+  entry("Automatic: a run that is not shown elsewhere", {}, true);
   entry("The active run", {Kind::Active, 0, std::nullopt}, true);
   for (std::size_t k = 0; k < context.session.runs.size(); ++k) {
     const RunView& run = context.session.runs[k];

@@ -16,7 +16,7 @@ constexpr int kLargestSeed = 1 << 30;  // that can be entered
 void draw_method(PanelContext& context, const RunParameters& parameters) {
   float widest = 0;
   for (const MethodInfo& method : method_table()) widest = std::max(widest, ImGui::CalcTextSize(std::string(method.name).c_str()).x);
-  labelled(context, "method", "how vertices are moved", combo_width(widest));
+  labelled(context, "method", "the method that moves the vertices", combo_width(widest));
   Combo combo(context, "method", parameters.method);
   if (!combo.open()) return;
   for (const MethodInfo& method : method_table())
@@ -68,7 +68,7 @@ void draw_options(PanelContext& context, const RunParameters& parameters, bool s
 }
 
 void draw_backend(PanelContext& context, const RunView& run) {
-  labelled(context, "backend", "what smooths: the processor, a CUDA device, or the best there is (auto)");
+  labelled(context, "backend", "the processor, a CUDA device, or the faster of the two (auto)");
   const Backend chosen = run.parameters.backend;
   const std::string shown = chosen == Backend::Auto ? fmt::format("auto: {}", name(run.backend)) : std::string(name(chosen));
   Combo combo(context, "backend", shown);
@@ -81,7 +81,7 @@ void draw_backend(PanelContext& context, const RunView& run) {
 /// Of a mesh that has any.
 void draw_interfaces(PanelContext& context, const RunParameters& parameters) {
   if (!context.session.input || !context.session.input->interfaces.any()) return;
-  labelled(context, "interfaces", "whether what lies between materials, and on lines, faces and points that the file names, stays");
+  labelled(context, "interfaces", "whether vertices between materials, and on named lines, faces and points of the file, keep their places");
   Combo combo(context, "interfaces", std::string(name(parameters.interfaces)));
   const bool fixed = parameters.interfaces != InterfaceRule::Free;
   next_item_tooltip(fixed ? context.derived.interfaces : context.derived.free_interfaces);
@@ -91,14 +91,14 @@ void draw_interfaces(PanelContext& context, const RunParameters& parameters) {
 }
 
 void draw_order(PanelContext& context, const RunParameters& parameters) {
-  labelled(context, "order", "in which order an iteration visits the vertices, before colouring");
+  labelled(context, "order", "the order in which an iteration visits the vertices, before colouring");
   const bool shuffled = parameters.order.seed.has_value();
   if (Combo combo(context, "order", shuffled ? "shuffled" : "natural"); combo.open()) {
     if (combo.entry("natural", "natural", !shuffled)) context.send("order natural");
     if (combo.entry("shuffled", "shuffled", shuffled)) context.send("order shuffle:1");
   }
   if (!shuffled) return;
-  labelled(context, "seed", "of the shuffled order");
+  labelled(context, "seed", "seed of the shuffled order");
   integer(context, "seed", static_cast<int>(*parameters.order.seed), 0, kLargestSeed, "order shuffle:");
 }
 
@@ -106,22 +106,22 @@ void draw_order(PanelContext& context, const RunParameters& parameters) {
 /// that.
 void draw_note(PanelContext& context, const RunView& run) {
   const bool begun = run.moment != Moment{} || run.edits > 0 || run.records.size() > 1;
-  constexpr const char* kNew = "A change starts a new run.";
-  constexpr const char* kSame = "A change alters this run.";
+  constexpr const char* kNew = "Changes start a new run.";
+  constexpr const char* kSame = "Changes apply to this run.";
   constexpr const char* kWorse = "May make elements worse.";
   const float room = ImGui::GetContentRegionAvail().x, top = ImGui::GetCursorPosY();
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   float height = 0;
   for (const char* text : {kNew, kSame, kWorse}) height = std::max(height, ImGui::CalcTextSize(text, nullptr, false, room).y);
   const bool promises = method_info(run.parameters.method).optimises;
-  std::string about = begun ? "A change starts a new run at the input, beside this one, which keeps what it has done."
+  std::string about = begun ? "This run has begun. A change starts a new run from the input; this one is kept."
                             : "This run has not begun. Once it has, a change starts a new run beside it.";
   if (promises) {
     dim_text(context, begun ? kNew : kSame);
   } else {
     wrapped_text(kWorse, context.palette.warning);
     context.items.record_last("method-note");
-    about = "This method promises nothing; Best, below, goes back to the best iteration. " + about;
+    about = "This method may make elements worse; Best iteration in the menu Run goes back to the best one. " + about;
   }
   context.items.record("change-note", {corner.x, corner.y, corner.x + room, corner.y + height});
   next_item_tooltip(about);
@@ -134,7 +134,7 @@ void draw_target(PanelContext& context, const RunView& run) {
   const auto& choices = context.widgets.target_choices.of(run.input);
   float widest = 0;
   for (const TargetChoice& one : choices) widest = std::max(widest, ImGui::CalcTextSize(context.shown(one.title).c_str()).x);
-  labelled(context, "target", "what elements are wished to be; the metric is 1 for one that is so", combo_width(widest));
+  labelled(context, "target", "the target shape of the elements; an element of that shape has quality 1", combo_width(widest));
   const auto current = std::ranges::find(choices, now, &TargetChoice::text);
   Combo combo(context, "target", context.shown(current != choices.end() ? current->title : now));
   if (!combo.open()) return;
@@ -160,7 +160,7 @@ void draw_settings(PanelContext& context, const RunView& run) {
   draw_interfaces(context, parameters);
   draw_order(context, parameters);
   draw_backend(context, run);
-  labelled(context, "threads", "of this computer that smooth; the result does not depend on it");
+  labelled(context, "threads", "number of processor threads; the result does not depend on it");
   integer(context, "threads", static_cast<int>(context.session.threads), 1, 1024, "threads");
 }
 
@@ -181,9 +181,9 @@ void draw_parameters(PanelContext& context) {
   ImGui::BeginDisabled(context.activity.busy);
   draw_method(context, parameters);
   if (method_info(parameters.method).optimises)
-    labelled(context, "optimises", "the metric whose minimum over each star the method raises", metric_combo_width(context));
+    labelled(context, "metric", "the metric that the method optimises: it raises the minimum around each vertex", metric_combo_width(context));
   else
-    labelled(context, "judged by", "the metric of the run's statistics; the method goes by none", metric_combo_width(context));
+    labelled(context, "judged by", "the metric of the run's statistics; the method itself uses none", metric_combo_width(context));
   metric_combo(context, "metric", parameters.metric, "metric");
   draw_note(context, *run);
   ImGui::EndDisabled();

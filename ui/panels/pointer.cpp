@@ -67,7 +67,7 @@ void handle_axes(PanelContext& context, const PaneFacts& pane) {
     const std::string item = fmt::format("axis:{}", letter);
     if (ImGui::InvisibleButton(item.c_str(), {2 * reach, 2 * reach}))
       context.send(fmt::format("view-from {}{}", from_behind ? '-' : '+', letter));
-    note_item(context, item, fmt::format("looks along {}{}", letter, from_behind ? ", from behind" : "; once more: from behind"));
+    note_item(context, item, fmt::format("look along {}{}", letter, from_behind ? ", from behind" : "; once more: from behind"));
   }
 }
 

@@ -57,7 +57,7 @@ void draw_run_menu(PanelContext& context, std::size_t k) {
   if (ImGui::MenuItem(is_hidden(context, k) ? "Show in plots and viewports" : "Hide in plots and viewports"))
     context.send("hide-run " + number);
   context.items.record_last("run-menu:hide");
-  if (ImGui::MenuItem("Hide all but the active run")) context.send("hide-run others");
+  if (ImGui::MenuItem("Hide all except the active run")) context.send("hide-run others");
   if (ImGui::MenuItem("Show all runs", nullptr, false, !context.state.panes.hidden_runs.empty())) context.send("hide-run none");
   ImGui::Separator();
   if (ImGui::MenuItem("Remove", nullptr, false, context.session.runs.size() > 1 && !context.activity.busy))
@@ -155,17 +155,17 @@ void draw_add(PanelContext& context) {
   if (ImGui::SmallButton(add)) ImGui::OpenPopup("add run");
   context.items.record_last("add-run");
   ImGui::EndDisabled();
-  next_item_tooltip("another run on the same input, to compare with");
+  next_item_tooltip("adds a run on the same input, for comparison");
   if (!ImGui::BeginPopup("add run")) return;
   const std::string own(info(run->parameters.metric).name);
-  dim_text(context, "a new run by this method, with the metric", false);
+  dim_text(context, "new run with the same method and this metric", false);
   for (const Metric metric : context.derived.metrics) {
     if (ImGui::MenuItem(metric_title(metric).c_str()))
       context.send(fmt::format("add-run {}:{}", run->parameters.method, info(metric).name));
     context.items.record_last(fmt::format("add-run:{}", info(metric).name));
   }
   ImGui::Separator();
-  dim_text(context, "a new run with this metric, by the method", false);
+  dim_text(context, "new run with the same metric and this method", false);
   for (const MethodInfo& method : method_table()) {
     if (ImGui::MenuItem(std::string(method.name).c_str())) context.send(fmt::format("add-run {}:{}", method.name, own));
     note_item(context, fmt::format("add-run:{}", method.name), std::string(method.doc));
@@ -182,12 +182,12 @@ void draw_add(PanelContext& context) {
 void draw_runs(PanelContext& context) {
   const std::vector<RunView>& runs = context.session.runs;
   heading(context, runs.size() > 1 ? fmt::format("Runs ({})", runs.size()).c_str() : "Runs");
-  next_item_tooltip("beside each run its worst element by the metric that the run optimises");
+  next_item_tooltip("each run with its worst element, by the metric that the run optimises");
   const bool by_others = std::ranges::any_of(runs, [&](const RunView& run) { return run.parameters.metric != context.session.shown; });
   if (by_others) {
     ImGui::SameLine();
     const float room = ImGui::GetContentRegionAvail().x - widest_button({"+ add"}) - context.px(12);
-    dim_text(context, fit_text("each by its metric", room), false);
+    dim_text(context, fit_text("each by its own metric", room), false);
   }
   ImGui::SameLine();
   draw_add(context);
@@ -202,7 +202,7 @@ void draw_runs(PanelContext& context) {
   context.items.record(
       "run-list", {ImGui::GetWindowPos().x, ImGui::GetWindowPos().y, ImGui::GetWindowPos().x + width, ImGui::GetWindowPos().y + height});
   state.over = 0;
-  if (runs.empty()) dim_text(context, "none yet: open a mesh");
+  if (runs.empty()) dim_text(context, "no runs yet: open a mesh");
   // The bar of the list has its place whether or not it is there: no button moves when it comes.
   const float row_width = width - ImGui::GetStyle().ScrollbarSize;
   const std::uint64_t active = context.run() == nullptr ? 0 : context.run()->id;

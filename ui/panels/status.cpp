@@ -18,7 +18,7 @@ std::string speed_sentence(const PanelContext& context) {
   std::string speed = speed_text(*run);
   for (auto record = run->records.rbegin(); record != run->records.rend(); ++record) {
     if (record->iteration == 0 || record->seconds <= 0.0) continue;
-    return speed + (speed.empty() ? "" : " · ") + duration(record->seconds) + "/it";
+    return speed + (speed.empty() ? "" : " · ") + duration(record->seconds) + " per iteration";
   }
   return {};
 }
@@ -137,7 +137,8 @@ void draw_newest(PanelContext& context, float room) {
   const std::deque<Message>& log = context.state.log;
   for (std::size_t k = log.size() - std::min<std::size_t>(8, log.size()); k < log.size(); ++k)
     if (log[k].text != message->text) recent += "\n" + log[k].text;
-  next_item_tooltip(context.shown(recent) + "\n(click shows the log)");
+  const std::string speed = speed_sentence(context);
+  next_item_tooltip(context.shown(recent) + (speed.empty() ? "" : "\n" + speed) + "\n(click shows the log)");
   if (ImGui::IsItemClicked()) context.send("dialog log");
   context.items.record_last("status-message");
 }

@@ -54,14 +54,7 @@ void begin_card(const PanelContext& context, const Card& card, const Rect& rect)
 
 void card_button(PanelContext& context, const char* item, const char* label, const std::string& command, const char* tooltip,
                  bool primary = false) {
-  if (primary) {
-    ImGui::PushStyleColor(ImGuiCol_Button, colour_vector(context.palette.accent));
-    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, colour_vector(context.palette.accent, 0.85F));
-    ImGui::PushStyleColor(ImGuiCol_ButtonActive, colour_vector(context.palette.accent, 0.7F));
-    ImGui::PushStyleColor(ImGuiCol_Text, colour_vector(context.palette.on_accent));
-  }
-  const bool pressed = ImGui::Button(label);
-  if (primary) ImGui::PopStyleColor(4);
+  const bool pressed = button(context, label, primary);
   note_item(context, item, tooltip);
   if (pressed) context.send(command);
 }
@@ -112,13 +105,13 @@ void draw_tour(PanelContext& context, const Layout& layout) {
   const bool last = tour.step + 1 == steps;
   ImGui::BeginDisabled(context.activity.busy && !last);
   card_button(context, "tour:next", last ? "Done" : "Next", last ? "tour off" : std::string(step.command),
-              last ? "ends the tour" : "does it for you", true);
+              last ? "ends the tour" : "does this step for you", true);
   ImGui::EndDisabled();
   if (!last) {
     ImGui::SameLine();
     const char* skip = "Skip the tour";
     ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(skip).x - 2 * ImGui::GetStyle().FramePadding.x);
-    card_button(context, "tour:off", skip, "tour off", "it stays in the menu Help");
+    card_button(context, "tour:off", skip, "tour off", "it remains in the menu Help");
   }
   end_panel();
   if (control && context.state.dialog == Dialog::None) draw_control_frame(context, *control);

@@ -41,7 +41,7 @@ void draw_title(PanelContext& context, const PaneFacts& pane) {
   std::string title = run_title(context.session, context.session.active);
   const Mark* mark = context.state.timeline.shown_mark();
   if (mark != nullptr) title = fmt::format("{} · {}", context.state.timeline.shown == Shown::A ? "A" : "B", mark->title);
-  std::string moment = fmt::format("it {}", count(frame.moment.iteration));
+  std::string moment = fmt::format("iteration {}", count(frame.moment.iteration));
   if (frame.moment.visits > 0) moment += fmt::format(" + {} of {} visits", count(frame.moment.visits), count(run->visits_per_iteration));
   if (frame.moment.edits > 0) moment += fmt::format(" + {}", counted(frame.moment.edits, "edit", "edits"));
   std::string shown;
@@ -168,7 +168,7 @@ void copy_entry(PanelContext& context, const std::string& what, const std::strin
 
 void draw_vertex_entries(PanelContext& context, Index vertex) {
   if (ImGui::MenuItem(fmt::format("Select vertex {}", vertex).c_str())) context.send(fmt::format("pick vertex {}", vertex));
-  if (ImGui::MenuItem(fmt::format("Look into the search of vertex {}", vertex).c_str()))
+  if (ImGui::MenuItem(fmt::format("Inspect the search of vertex {}", vertex).c_str()))
     context.send(fmt::format("inspect vertex {}", vertex));
   const PickedFacts& facts = context.widgets.vertex_under_menu;
   copy_entry(context, "vertex id", fmt::format("{}", vertex), fmt::format("{}", vertex));

@@ -142,19 +142,23 @@ void draw_plate(const PanelContext& context, ImVec2 low, ImVec2 high) {
   ImGui::GetWindowDrawList()->AddRectFilled(low, high, colour(context.palette.panel, 0.90F), context.px(5));
 }
 
+void copied_by_click(const PanelContext& context, const std::string& text) {
+  next_item_tooltip(context.shown(text) + "\n(click copies it)");
+  if (ImGui::IsItemClicked()) context.send("copy " + quote_word(text));
+}
+
 void value_row(const PanelContext& context, const char* label, const std::string& text, const std::string& full,
                std::optional<render::Rgb> ink, const char* tooltip) {
-  dim_text(context, label, false);
+  const std::string name = label[1] == '\0' ? label : capitalised(label);  // coordinates stay small
+  dim_text(context, name, false);
   if (tooltip != nullptr) next_item_tooltip(tooltip);
-  const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(label).x - context.px(8);
+  const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(name.c_str()).x - context.px(8);
   const std::string shown = fit_text(context.shown(text), room);
   ImGui::SameLine();
   const float right = ImGui::GetWindowContentRegionMax().x;
   ImGui::SetCursorPosX(right - ImGui::CalcTextSize(shown.c_str()).x);
   ImGui::TextColored(colour_vector(ink.value_or(context.palette.text)), "%s", shown.c_str());
-  const std::string& whole = full.empty() ? text : full;
-  next_item_tooltip(context.shown(whole) + "\n(click copies it)");
-  if (ImGui::IsItemClicked()) context.send("copy " + quote_word(whole));
+  copied_by_click(context, full.empty() ? text : full);
 }
 
 void number_row(const PanelContext& context, const char* label, double value, const char* tooltip) {
@@ -170,7 +174,7 @@ void metric_tooltip(const PanelContext& context, const MetricInfo& metric) {
   ImGui::Spacing();
   ImGui::TextUnformatted(std::string(metric.formula).c_str());
   ImGui::Spacing();
-  dim_text(context, fmt::format("range {:g} to {:g} · usually fine from {:g}", metric.lowest, metric.highest, metric.acceptable));
+  dim_text(context, fmt::format("range {:g} to {:g} · usually acceptable from {:g}", metric.lowest, metric.highest, metric.acceptable));
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
 }
@@ -188,10 +192,7 @@ bool fold_row(PanelContext& context, const char* item, const char* title, const 
   return clicked;
 }
 
-bool action_button(PanelContext& context, std::string_view id, const char* label, bool primary, float width) {
-  const Action* action = find_action(id);
-  const bool possible = enabled(*action, context.situation());
-  if (!possible) ImGui::BeginDisabled();
+bool button(const PanelContext& context, const char* label, bool primary, float width) {
   if (primary) {
     ImGui::PushStyleColor(ImGuiCol_Button, colour_vector(context.palette.accent));
     ImGui::PushStyleColor(ImGuiCol_ButtonHovered, colour_vector(context.palette.accent, 0.85F));
@@ -200,6 +201,14 @@ bool action_button(PanelContext& context, std::string_view id, const char* label
   }
   const bool pressed = ImGui::Button(label, {width, 0});
   if (primary) ImGui::PopStyleColor(4);
+  return pressed;
+}
+
+bool action_button(PanelContext& context, std::string_view id, const char* label, bool primary, float width) {
+  const Action* action = find_action(id);
+  const bool possible = enabled(*action, context.situation());
+  if (!possible) ImGui::BeginDisabled();
+  const bool pressed = button(context, label, primary, width);
   context.items.record_last(id);
   if (!possible) ImGui::EndDisabled();
   std::string tip(action->title);
@@ -228,12 +237,13 @@ float widest_button(std::initializer_list<const char*> labels) {
   return widest + 2 * ImGui::GetStyle().FramePadding.x;
 }
 
-void labelled(const PanelContext& context, const char* label, const char* tooltip, float wanted) {
+void labelled(const PanelContext& context, const char* name, const char* tooltip, float wanted) {
+  const std::string label = capitalised(name);
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
-  const float beside_label = ImGui::GetCursorPosX() + ImGui::CalcTextSize(label).x + ImGui::GetStyle().ItemSpacing.x;
+  const float beside_label = ImGui::GetCursorPosX() + ImGui::CalcTextSize(label.c_str()).x + ImGui::GetStyle().ItemSpacing.x;
   // One column for all but the longest labels.
-  const float usual = ImGui::GetCursorPosX() + ImGui::CalcTextSize("grid points").x + ImGui::GetStyle().ItemSpacing.x;
+  const float usual = ImGui::GetCursorPosX() + ImGui::CalcTextSize("Grid points").x + ImGui::GetStyle().ItemSpacing.x;
   const float at = std::max({ImGui::GetWindowContentRegionMax().x * 0.32F, usual, beside_label});
   const bool below = wanted > 0 && at + wanted > ImGui::GetWindowContentRegionMax().x;
   if (!below) ImGui::AlignTextToFramePadding();
@@ -319,7 +329,7 @@ void metric_combo(PanelContext& context, const char* item, Metric current, const
   ImGui::Separator();
   for (const Metric metric : further_metrics(context.session)) choice(metric);
   if (ImGui::Selectable("a formula…")) context.state.dialog = Dialog::Formula;
-  note_item(context, fmt::format("{}:formula", item), "write a metric of your own, or choose what elements are wished to be");
+  note_item(context, fmt::format("{}:formula", item), "write a metric of your own, or choose the target shape of the elements");
   ImGui::EndCombo();
 }
 
@@ -338,9 +348,9 @@ std::string fit_text(const std::string& text, float width) {
 std::string fit_clauses(const std::string& text, float width) {
   if (ImGui::CalcTextSize(text.c_str()).x <= width) return text;
   for (std::size_t end = text.rfind(' '); end != std::string::npos && end > 0; end = text.rfind(' ', end - 1)) {
-    const std::string_view stop = ",;:";
-    if (stop.find(text[end - 1]) == std::string_view::npos) continue;
-    if (std::string clauses = text.substr(0, end - 1); ImGui::CalcTextSize(clauses.c_str()).x <= width) return clauses;
+    const bool stop = std::string_view(",;:").find(text[end - 1]) != std::string_view::npos;
+    if (!stop && text[end + 1] != '(') continue;
+    if (std::string clauses = text.substr(0, stop ? end - 1 : end); ImGui::CalcTextSize(clauses.c_str()).x <= width) return clauses;
   }
   return fit_text(text, width);
 }

@@ -15,6 +15,8 @@ void begin_panel(const char* name, const Rect& rect, bool overlay = false, bool 
 void end_panel();
 void heading(const PanelContext& context, const char* text);
 void dim_text(const PanelContext& context, const std::string& text, bool wrap = true);
+/// The last item: its full text under the mouse, and on the clipboard by a click.
+void copied_by_click(const PanelContext& context, const std::string& text);
 /// "label            value", value right-aligned with its full precision as tooltip.
 void value_row(const PanelContext& context, const char* label, const std::string& text, const std::string& full = {},
                std::optional<render::Rgb> ink = {}, const char* tooltip = nullptr);
@@ -22,6 +24,8 @@ void number_row(const PanelContext& context, const char* label, double value, co
 void metric_tooltip(const PanelContext& context, const MetricInfo& metric);
 /// A row that unfolds what stands below it; `aside` at its right end. True when it is clicked.
 bool fold_row(PanelContext& context, const char* item, const char* title, const std::string& aside, bool open, const char* tooltip);
+/// `primary`: in the accent's colour, as the one that most people want.
+bool button(const PanelContext& context, const char* label, bool primary, float width = 0);
 /// A button for an action, with tooltip and key; records the item under the action's id.
 /// `width`: in pixels, for labels that change; 0: as the label needs.
 bool action_button(PanelContext& context, std::string_view id, const char* label, bool primary = false, float width = 0);

@@ -24,7 +24,7 @@ void draw_why(PanelContext& context, const Frame& frame, Index element, int row,
   if (!fixed && !context.items.boxes().contains("why?"))
     note_item(context, "why?",
               fixed ? "All its corners are fixed: no smoothing can change it. It is part of the ceiling."
-                    : "looks into the search of its worst free corner: what limits it, and how much is left");
+                    : "inspects the search of its worst free corner: what limits it, and how much is left");
   ImGui::GetWindowDrawList()->AddText({right - size.x, at.y},
                                       colour(ImGui::IsItemHovered() ? context.palette.text
                                              : fixed                ? context.palette.dim
@@ -34,7 +34,7 @@ void draw_why(PanelContext& context, const Frame& frame, Index element, int row,
 }
 
 std::string inside_words(Vec3 at) {
-  return fmt::format("\ninverted inside alone, where the diamond is: at ({:.8g}, {:.8g}, {:.8g})", at.x, at.y, at.z);
+  return fmt::format("\ninverted only inside, where the diamond is: at ({:.8g}, {:.8g}, {:.8g})", at.x, at.y, at.z);
 }
 
 /// Of the qualities in the list; nearly always that of usual ones, so that nothing moves from step to step.

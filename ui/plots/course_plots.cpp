@@ -157,7 +157,7 @@ class CoursePlot : PlotBuilder {
       if (movable_differs) {
         add_course(k, series_of_run(k, "movable minimum", 5.0),
                    [](const IterationRecord& record) { return record.statistics.movable_minimum; });
-        add_to_legend(plot_.series.back(), "of the worst element that has a free corner");
+        add_to_legend(plot_.series.back(), "quality of the worst element that has a free corner");
       }
       if (joint) {
         Series bound = series_of_run(k, "bound", 2.0);
@@ -166,7 +166,7 @@ class CoursePlot : PlotBuilder {
           const bool known = record.joint && record.joint->end == JointState::End::None && !record.joint->beyond;
           return known ? record.joint->bound : std::numeric_limits<double>::quiet_NaN();
         });
-        add_to_legend(plot_.series.back(), "what the cluster that moved can reach at most, by duality");
+        add_to_legend(plot_.series.back(), "upper bound of what the moved cluster can reach, by duality");
       }
       Series mean = series_of_run(k, "mean", 0.0, 0.7);
       mean.width = 1.2;
@@ -189,7 +189,7 @@ class CoursePlot : PlotBuilder {
     const bool own = state_.plot_options.judged_own;
     plot_.y_title = own ? "worst element, each run by its own metric" : "worst element by " + metric_phrase(session_.shown);
     plot_.title = "comparison by " + plot_.x_name;
-    plot_.empty_text = "compare runs to see how each fares by the metric of the others";
+    plot_.empty_text = "compare runs to see each by the metrics of the others";
     for (std::size_t k = 0; k < session_.runs.size(); ++k) {
       if (!is_shown(k)) continue;
       const RunView& run = session_.runs[k];
@@ -217,8 +217,8 @@ class CoursePlot : PlotBuilder {
       double Percentiles::*value;
       double dash;
     };
-    for (const Kind& kind : {Kind{"worst 1 %", "a hundredth of the elements is worse", &Percentiles::p1, 1.5},
-                             Kind{"worst 5 %", "a twentieth of the elements is worse", &Percentiles::p5, 3.0},
+    for (const Kind& kind : {Kind{"worst 1 %", "1 % of the elements are worse", &Percentiles::p1, 1.5},
+                             Kind{"worst 5 %", "5 % of the elements are worse", &Percentiles::p5, 3.0},
                              Kind{"median", "half of the elements are worse", &Percentiles::p50, 9.0}}) {
       Series series = series_of_run(k, kind.name, kind.dash, 0.85);
       series.width = 1.2;

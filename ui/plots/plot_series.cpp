@@ -14,7 +14,7 @@ Plot build_plot(const ViewState& state, const SessionView& session, const Sorted
   const PlotSources sources{state, session, sorted, palette};
   const bool table = state.plot == PlotTab::Runs;
   Plot plot = over_iterations(state.plot) ? course_plot(sources) : distribution_plot(sources);
-  if (table) plot.empty_text = "the table of runs is no plot";
+  if (table) plot.empty_text = "the table of runs is not a plot";
   if (session.input && !session.several_meshes()) plot.title = session.input->mesh.name + " · " + plot.title;
   if (plot.axis == ValueAxis::LogDistance) plot.y_title = "1 − " + plot.y_title;
   return plot;

@@ -192,7 +192,7 @@ class Widget {
     items_.record_last("legend:" + entry.name);
     if (pressed) take_press(entry);
     if (ImGui::IsItemHovered())
-      ImGui::SetTooltip("%s%sclick: show or hide, twice: this one only", entry.tip.c_str(), entry.tip.empty() ? "" : "\n");
+      ImGui::SetTooltip("%s%sclick: show or hide; double click: show this one only", entry.tip.c_str(), entry.tip.empty() ? "" : "\n");
     const float alpha = is_on(plot_, view_, entry) ? 1.0F : 0.35F;
     paint_sample(entry.look, {at.x, at.y + line / 2}, s_, alpha);
     ImGui::GetWindowDrawList()->AddText({at.x + 26 * s_, at.y}, colour(palette_.text, alpha), entry.name.c_str());
@@ -256,7 +256,7 @@ class Widget {
     if (cache_.layout) {
       draw_plot_area(cache_.drawing, plot_, view_, *cache_.layout, ink_of(palette_), font, scale_);
     } else {
-      const std::string text = plot_.series.empty() ? plot_.empty_text : "no value here that this axis could show";
+      const std::string text = plot_.series.empty() ? plot_.empty_text : "this axis can show none of the values";
       const DrawingColour dim{palette_.dim.r, palette_.dim.g, palette_.dim.b};
       cache_.drawing.labels.push_back({{origin.x + size.x / 2, origin.y + size.y / 2}, text, font, dim, Drawing::Anchor::Middle});
     }

@@ -21,11 +21,11 @@ struct RangeModeInfo {
   std::string_view name, title, doc;
 };
 inline constexpr std::array<RangeModeInfo, 6> kRangeModes{{
-    {RangeMode::Input, "input", "the input's", "from the worst to the best sound element of the input, rounded; stays through a run"},
-    {RangeMode::Fixed, "fixed", "0 to 1", "from degenerate to ideal"},
-    {RangeMode::Auto, "auto", "the mesh's own", "from the worst to the best element as the mesh stands"},
-    {RangeMode::Expanding, "expanding", "growing", "all that was seen since the mesh was opened; never shrinks"},
-    {RangeMode::Percentile, "percentile", "percentiles", "leaves the input's extremes out, rounded; stays through a run"},
+    {RangeMode::Input, "input", "the input's", "from the worst to the best valid element of the input, rounded; stays the same during a run"},
+    {RangeMode::Fixed, "fixed", "0 to 1", "from 0, degenerate, to 1, ideal"},
+    {RangeMode::Auto, "auto", "the mesh's own", "from the worst to the best element of the current mesh"},
+    {RangeMode::Expanding, "expanding", "growing", "all qualities since the mesh was opened; never shrinks"},
+    {RangeMode::Percentile, "percentile", "percentiles", "without the extremes of the input, rounded; stays the same during a run"},
     {RangeMode::Given, "given", "given", "two numbers; the ends of the colour bar can be dragged"},
 }};
 [[nodiscard]] constexpr const RangeModeInfo& info(RangeMode mode) { return kRangeModes[static_cast<std::size_t>(mode)]; }
@@ -56,19 +56,19 @@ inline constexpr std::array<ColourByInfo, 15> kColourBys{{
     {ColourBy::Quality, "quality", "Quality", "of the shown metric"},
     {ColourBy::Kind, "kind", "Kind of element", "triangle or quadrilateral"},
     {ColourBy::Group, "group", "Group", "boundaries, markers and element groups that the file carried"},
-    {ColourBy::Valence, "valence", "Valence", "around each vertex: how many elements it has"},
-    {ColourBy::Class, "class", "Colour class", "around each free vertex: which vertices move at once"},
-    {ColourBy::Displacement, "displacement", "Displacement", "how far the corner that moved most is from where it was in the input"},
+    {ColourBy::Valence, "valence", "Valence", "the number of elements around each vertex"},
+    {ColourBy::Class, "class", "Colour class", "the class of each free vertex: vertices of one class move at the same time"},
+    {ColourBy::Displacement, "displacement", "Displacement", "distance from the input of the corner that moved farthest"},
     {ColourBy::Size, "size", "Size", "area relative to the mean, logarithmic"},
-    {ColourBy::Inverted, "inverted", "Inverted", "nothing but the inverted elements"},
+    {ColourBy::Inverted, "inverted", "Inverted", "only inverted elements"},
     {ColourBy::EdgeLength, "edge-length", "Edge length", "mean length of the edges around an element's corners, logarithmic"},
     {ColourBy::SizeOverTarget, "size-over-target", "Size over target",
-     "edge length over the size that the run's size function wants, logarithmic; 1: as large as the rest of the mesh allows"},
-    {ColourBy::Difference, "difference", "Difference", "quality less that of the input, or of another run or a mark"},
-    {ColourBy::Deviation, "deviation", "Deviation", "how far the boundary of an element is from that of the input, where vertices slide"},
+     "edge length over the size that the run's size function asks for, logarithmic; 1: as large as the rest of the mesh allows"},
+    {ColourBy::Difference, "difference", "Difference", "quality minus that of the input, of another run or of a mark"},
+    {ColourBy::Deviation, "deviation", "Deviation", "distance of an element's boundary from that of the input, where vertices slide"},
     {ColourBy::Tilt, "tilt", "Tilt", "the greatest angle between a face and the input's surface beneath it, where vertices slide"},
-    {ColourBy::Freedom, "freedom", "Freedom to move", "what the least free of an element's vertices may do: stay, slide or go anywhere"},
-    {ColourBy::Multiplier, "multiplier", "Multiplier", "how much an element holds the minimum, within the cluster around the worst one"},
+    {ColourBy::Freedom, "freedom", "Freedom to move", "what the least free vertex of an element may do: stay, slide or move freely"},
+    {ColourBy::Multiplier, "multiplier", "Multiplier", "how strongly an element holds the minimum, within the cluster around the worst one"},
 }};
 [[nodiscard]] constexpr const ColourByInfo& info(ColourBy by) { return kColourBys[static_cast<std::size_t>(by)]; }
 

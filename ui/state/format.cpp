@@ -64,4 +64,9 @@ std::string with_arrows(std::string text) {
   return text;
 }
 
+std::string capitalised(std::string text) {
+  if (!text.empty() && text.front() >= 'a' && text.front() <= 'z') text.front() = static_cast<char>(text.front() - 'a' + 'A');
+  return text;
+}
+
 }  // namespace dmoscope::ui

@@ -31,6 +31,8 @@ namespace dmoscope::ui {
 [[nodiscard]] std::string metric_title(Metric metric);
 /// "0.83 ms", "1.24 s".
 [[nodiscard]] std::string duration(double seconds);
+/// With a capital letter at its begin.
+[[nodiscard]] std::string capitalised(std::string text);
 /// Arrows in place of "->", which is for terminals.
 [[nodiscard]] std::string with_arrows(std::string text);
 

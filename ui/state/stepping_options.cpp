@@ -17,7 +17,7 @@ std::vector<OptionChoice> references(std::string_view previous, std::string_view
 
 /// Whether it paints.
 void switch_brush(ViewState& state, double value) {
-  if (value != 0.0 && state.in_space) throw UsageError("the brush is of planar meshes: select vertices of a volume mesh by their ids");
+  if (value != 0.0 && state.in_space) throw UsageError("the brush works on planar meshes only; select vertices of a volume mesh by their ids");
   state.brush.on = value != 0.0;
 }
 
@@ -31,7 +31,7 @@ std::vector<ViewOption> stepping_options() {
       row("arrows", "from where vertices were: at the input, before the last command, or at a mark",
           words(at<&V::stepping, &S::arrows>(), references("Arrows of the last step", "A", "Arrows from the input", "Alt+A")),
           {"/stepping/arrows", "", false, kLastingReferences}, {"", "", "", "", Mesh}, {"next-class", "", false, true}),
-      row("arrow-scale", "how many times too long the arrows are drawn",
+      row("arrow-scale", "the factor by which arrows are longer than the moves",
           numbers(at<&V::stepping, &S::arrow_scale>(),
                   {.least = 1e-3, .most = 1e6, .clamped = true, .unit = "FACTOR", .rest = 0.0, .rest_word = "auto", .factor = 2.0}),
           {"/stepping/arrow_scale"}),
@@ -50,8 +50,8 @@ std::vector<ViewOption> stepping_options() {
           {"Brush: drag to select vertices", "ghost-previous", "S", "", Planar, kApart}),
       row("brush-radius", "how wide the brush is, 2 to 200 at scale 1",
           numbers(at<&V::brush, &Brush::radius>(), {.least = 2.0, .most = 200.0, .clamped = true, .unit = "PIXELS", .factor = 1.25})),
-      row("click-smooths", "a click on a free vertex visits it", at<&V::stepping, &S::click_smooths>(), {"/stepping/click_smooths"},
-          {"Smooth the vertex that is clicked", "select-none", "T", "", Mesh, kApart}),
+      row("click-smooths", "a click on a free vertex moves it to its best candidate", at<&V::stepping, &S::click_smooths>(), {"/stepping/click_smooths"},
+          {"Click moves a vertex", "select-none", "T", "", Mesh, kApart}),
       row("speed", "iterations (or steps) a second that playing shows, 0.5 to 60",
           numbers(at<&V::timeline, &Timeline::play, &Playback::speed>(),
                   {.least = Playback::kSlowest, .most = Playback::kFastest, .clamped = true, .factor = 1.5}),
@@ -76,9 +76,9 @@ std::vector<ViewOption> inspection_options() {
           {"Quality around the vertex", "apply-move", "Shift+Q", "", Nothing, kApart}),
       row("field-in-view", "the quality around the inspected vertex, over the mesh", at<&V::inspection, &I::field_in_view>(),
           {"/inspection/field_in_view"}, {"Quality around the vertex over the mesh", "field", "Shift+F"}),
-      row("inspect-zoom", "goes as close as the shown level needs", at<&V::inspection, &I::zoom>(), {"/inspection/zoom"},
+      row("inspect-zoom", "zooms in as close as the shown level needs", at<&V::inspection, &I::zoom>(), {"/inspection/zoom"},
           {"Close-up of small levels", "field-in-view"}),
-      row("inspect-alone", "of a volume the rest is but a ghost while a vertex is looked into", at<&V::inspection, &I::alone>(),
+      row("inspect-alone", "shows the rest of a volume faintly while a vertex is inspected", at<&V::inspection, &I::alone>(),
           {"/inspection/alone"}),
       row("level-range", "colours of the levels' heat maps: as in the view, or over each level's own range",
           words(at<&V::inspection, &I::own_range>(), choice("view", "in the view's colours"), choice("level", "over each level's range")),

@@ -44,7 +44,7 @@ struct SteppingState {
   Reference arrows = Reference::None;  // from where each vertex was to where it is
   double arrow_scale = 0.0;            // by which arrows are too long; 0: chosen so that the longest in view can be seen
   Reference ghost = Reference::None;   // edges as they were
-  bool click_smooths = false;          // a click on a free vertex visits it
+  bool click_smooths = false;          // a click on a free vertex moves it to its best candidate
 };
 
 inline constexpr int kFlashLevels = 8;

@@ -29,7 +29,7 @@ void Timeline::flip() {
 
 Mark mark_of(const SessionView& session) {
   if (!session.frame || session.active >= session.runs.size()) throw UsageError("no mesh is open");
-  if (session.frame->device) throw UsageError("pause first: while it runs, this state is on the device alone");
+  if (session.frame->device) throw UsageError("pause first: while the run goes on, this state is only on the device");
   return {session.frame, run_title(session, session.active)};
 }
 

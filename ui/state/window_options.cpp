@@ -47,16 +47,16 @@ std::vector<ViewOption> plot_options() {
               .changed_by(choose_axis)
               .offered_if(offers_axis),
           {}, {"Next value axis", "plot-runs", "Alt+L", "log-scale", Nothing, kApart}),
-      row("plot-x", "what runs along the plots of a run's course",
+      row("plot-x", "the horizontal axis of plots over a run: iterations or seconds",
           words(at<&V::plot_options, &P::by_seconds>(), choice("iteration", "by iteration", "iterations along the plot"),
-                choice("seconds", "by seconds", "the seconds that smoothing took along the plot: methods compared by their cost"))
+                choice("seconds", "by seconds", "seconds of smoothing along the plot: compares methods by their cost"))
               .and_then(show_all_iterations),
           {"/plots/by_seconds"}, {"Seconds instead of iterations", "log-scale", "Alt+T", "plot-seconds"}),
-      row("x-axis", "how iterations or seconds lie along the plots: by the logarithm, evenly up to the last visible change, or evenly",
+      row("x-axis", "the axis of iterations or seconds: logarithmic, linear up to the last visible change, or linear",
           words(at<&V::plot_options, &P::x_axis>(),
                 choice("log", "x: log", "0, 1, 2, 5, 10, …: the first iterations, in which most happens, have the room",
                        "Iterations by their logarithm"),
-                choice("changes", "x: last change", "evenly, up to the last iteration in which a run still changed visibly",
+                choice("changes", "x: last change", "evenly, up to the last iteration with a visible change",
                        "Iterations up to the last change"),
                 choice("linear", "x: linear", "all iterations, evenly", "Iterations evenly"))
               .and_then(show_all_iterations),
@@ -64,7 +64,7 @@ std::vector<ViewOption> plot_options() {
       row("histogram-range", "whether the histogram begins where its elements are, or from 0 to 1",
           words(at<&V::plot_options, &P::histogram_range>(),
                 choice("data", "its data", "from the first bar to the last; what lies outside is said above"),
-                choice("whole", "0 to 1", "all qualities there can be"))
+                choice("whole", "0 to 1", "all possible qualities"))
               .and_then(show_all_of_histogram),
           {"/plots/histogram_range", "/histogram_range"}, {"Histogram from 0 to 1", "x-axis-linear", "", "histogram-whole"}),
       row("plot-bins", "bars of the histogram",
@@ -139,10 +139,10 @@ std::vector<ViewOption> desktop_options() {
       row("theme", "colours of the interface",
           words(at<&V::theme>(), choice("dark", "dark"), choice("light", "light"), choice("contrast", "high contrast")),
           {"", "/theme", kScript}, {}, {"full-screen", "Theme", kApart}),
-      row("watch", "reads the mesh's file again whenever it is written anew", at<&V::watch_file>(), {}, {"Watch the file", "reload"}),
+      row("watch", "reads the mesh's file again whenever it changes", at<&V::watch_file>(), {}, {"Watch the file", "reload"}),
       row("native-dialogs", "the desktop's own file dialogs where there are any (zenity, kdialog)", at<&V::native_dialogs>(),
           {"", "/native_dialogs"}, {"The desktop's file dialogs", "sample-biased", "", "", Nothing, kApart}),
-      row("ask-unsaved", "asks before keys and menus give up what is in no file", at<&V::asks_unsaved>()),
+      row("ask-unsaved", "asks before unsaved work is given up", at<&V::asks_unsaved>()),
       row("", "", at<&V::tour, &Tour::offered>(), {"", "/tour_offered"}),
   };
 }

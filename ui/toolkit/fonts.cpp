@@ -75,7 +75,7 @@ struct Face {
 class AtlasBuilder {
  public:
   AtlasBuilder(float size, std::span<const char16_t> letters)
-      : faces_{{"DejaVuSans.ttf", size}, {"DejaVuSans-Bold.ttf", size}, {"DejaVuSans.ttf", std::round(1.5F * size)}},
+      : faces_{{"DejaVuSans.ttf", size}, {"DejaVuSans-Bold.ttf", size}, {"DejaVuSans-Bold.ttf", std::round(1.6F * size)}},
         letters_(ranges_of(letters)) {
     atlas_.Clear();
     atlas_.FontBuilderIO = ImGuiFreeType::GetBuilderForFreeType();

@@ -9,7 +9,7 @@ namespace dmoscope::ui {
 namespace {
 
 std::string moment_of(const Frame& frame) {
-  std::string text = fmt::format("it {}", count(frame.moment.iteration));
+  std::string text = fmt::format("iteration {}", count(frame.moment.iteration));
   if (frame.moment.visits > 0) text += fmt::format(" + {} visits", count(frame.moment.visits));
   if (frame.moment.edits > 0) text += fmt::format(" + {}", counted(frame.moment.edits, "edit", "edits"));
   return text;

@@ -109,7 +109,7 @@ void Viewports::show_content(const ViewState& state, std::size_t pane) {
     return;
   }
   if (content.kind == ContentKind::Free) {
-    show(pane, nullptr, active, {}, "free: a new run comes here");
+    show(pane, nullptr, active, {}, "free: the next run is shown here");
     return;
   }
   const Watch what = *watch_of(content);

@@ -49,7 +49,7 @@ struct TitlePiece {
   Role role = Role::Plain;
   int rank = 0;
 };
-/// "dmo", "mean ratio", "it 12", "min 0.31", "3 inverted" ... `shown`: the metric that colours tell.
+/// "dmo", "mean ratio", "iteration 12", "min 0.31", "3 inverted" ... `shown`: the metric that colours tell.
 [[nodiscard]] std::vector<TitlePiece> title_of(const PaneFacts& pane, Metric shown);
 
 /// Whether two planar meshes lie at about the same place, so that one camera suits both.

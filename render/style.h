@@ -27,7 +27,7 @@ struct Style {
   Rgba vertex_casing_colour{0x10, 0x12, 0x16, 230};
   Rgba highlight_colour{0xff, 0xff, 0xff, 255};  // outlines, dots and the ring; drawn on a casing of the opposite lightness
   Rgba casing_colour{0x10, 0x12, 0x16, 230};
-  Rgba tint{0xff, 0xff, 0xff, 0};                // over the colours of tinted elements, see Selection
+  Rgba tint{0xff, 0xff, 0xff, 0};        // over the colours of tinted elements, see Selection
   Rgb neutral_colour{0x5c, 0x62, 0x6c};  // of no category
   Rgb faded_colour{0x2e, 0x32, 0x39};    // of elements that do not count
   Rgb hollow_colour{0x5c, 0x62, 0x6c};   // of the outlines of those, where only that is drawn

@@ -53,7 +53,8 @@ void App::take_restored_view() {
     viewports_.forget_fit();
     state_.commands.keep_look(look());
   } catch (const UsageError& error) {
-    Message message{Message::Kind::Error, fmt::format("the session is open, but its saved view could not be used: {}", error.what()), error.exit_code()};
+    Message message{Message::Kind::Error, fmt::format("the session is open, but its saved view could not be used: {}", error.what()),
+                    error.exit_code()};
     if (listener_) listener_(message);
     add_message(state_, std::move(message));
   }

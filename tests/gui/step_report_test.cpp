@@ -72,11 +72,10 @@ TEST_F(StepWindow, AClassAndAnIterationSayHowManyMoved) {
   const auto after = session()->frame;
   std::size_t moved = 0;
   for (std::size_t v = 0; v < after->positions.size(); ++v) moved += length(after->positions[v] - before->positions[v]) > 0.0 ? 1 : 0;
-  EXPECT_EQ(news().sentence,
-            fmt::format("iteration 1: {}; {}; {} of {} moved",
-                        course("minimum", before->shown_statistics.minimum, after->shown_statistics.minimum),
-                        course("mean", before->shown_statistics.mean, after->shown_statistics.mean), count(moved),
-                        counted(session()->runs[0].free_vertices, "vertex", "vertices")));
+  EXPECT_EQ(news().sentence, fmt::format("iteration 1: {}; {}; {} of {} moved",
+                                         course("minimum", before->shown_statistics.minimum, after->shown_statistics.minimum),
+                                         course("mean", before->shown_statistics.mean, after->shown_statistics.mean), count(moved),
+                                         counted(session()->runs[0].free_vertices, "vertex", "vertices")));
   good("back iteration");
   EXPECT_EQ(news().sentence, "");
 }

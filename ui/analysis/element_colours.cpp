@@ -357,7 +357,8 @@ ElementColours colour_elements(const ColourRequest& request) {
 }
 
 std::optional<std::string> why_not_drawn(ColourBy by, const InputMesh& input) {
-  if (!input.in_space()) return by == ColourBy::Tilt ? std::optional<std::string>("tilt is defined for surfaces in space only") : std::nullopt;
+  if (!input.in_space())
+    return by == ColourBy::Tilt ? std::optional<std::string>("tilt is defined for surfaces in space only") : std::nullopt;
   const auto of_elements = [](const Group& group) { return group.of_elements(); };
   const bool around_vertices =
       by == ColourBy::Valence || by == ColourBy::Class || (by == ColourBy::Group && std::ranges::none_of(input.mesh.groups, of_elements));

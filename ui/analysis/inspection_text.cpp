@@ -50,12 +50,13 @@ std::string stuck_sentence(const Inspection& inspection) {
   if (inspection.visit() == nullptr) return {};
   const VisitSummary& trace = *inspection.visit();
   if (trace.end == VisitEnd::Moved) return {};
-  if (trace.end == VisitEnd::Fixed)
-    return "It is fixed: no search moves it. How good its elements can get depends on their other corners.";
+  if (trace.end == VisitEnd::Fixed) return "It is fixed: no search moves it. How good its elements can get depends on their other corners.";
   if (trace.end == VisitEnd::Waits)
-    return "It waits: none of its elements is inverted, and this iteration only moves vertices back whose own place is wrong, to where all their elements are sound.";
+    return "It waits: none of its elements is inverted, and this iteration only moves vertices back whose own place is wrong, to where all "
+           "their elements are sound.";
   if (trace.end == VisitEnd::Deviates)
-    return "It may not move to the best candidate, nor part of the way: faces would deviate from the input by more than the bound (max-deviation).";
+    return "It may not move to the best candidate, nor part of the way: faces would deviate from the input by more than the bound "
+           "(max-deviation).";
   if (trace.end == VisitEnd::Leans)
     return "It may not move to the best candidate, nor part of the way: faces would tilt against the input by more than 60 degrees.";
   std::string text = trace.end == VisitEnd::NotConfirmed ? "The search found a candidate, but the exact check shows no gain."

@@ -156,7 +156,8 @@ void draw_formula_dialog(PanelContext& context) {
   ImGui::SameLine(0, context.em());
   ImGui::BeginGroup();
   draw_picture(context, dialog.check);
-  dim_text(context, dialog.check.picture ? fmt::format("above the last corner of a {}", info(dialog.check.picture->kind).name) : " ", false);
+  dim_text(context, dialog.check.picture ? fmt::format("above the last corner of a {}", info(dialog.check.picture->kind).name) : " ",
+           false);
   ImGui::EndGroup();
   draw_examples(context);
   ImGui::SameLine(0, context.em());

@@ -59,7 +59,8 @@ void draw_plot_dialog(PanelContext& context) {
                      ImGuiSliderFlags_AlwaysClamp);
   }
   dim_text(context, extension == ".html"
-                        ? "One HTML page with the table, the courses, sorted qualities, the effect of each run on the mesh, and pictures, as dmoscope compare --report writes it."
+                        ? "One HTML page with the table, the courses, sorted qualities, the effect of each run on the mesh, and pictures, "
+                          "as dmoscope compare --report writes it."
                         : "The plot as it is shown: tab, ranges, axes and visible curves. Pictures have a white background.");
   if (draw_save_buttons(context, form, "Save", entered)) {
     std::string line =

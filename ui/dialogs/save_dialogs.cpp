@@ -63,10 +63,9 @@ bool writes_over_input(const PanelContext& context) {
 void ask_over_input(PanelContext& context) {
   ExportDialog& dialog = context.widgets.exporting;
   const std::string copy = original_name(context.frame()->input->path, 1).filename().string();
-  wrapped_text(
-      "This is the file that the mesh was read from. It will hold the smoothed mesh; its present contents are kept beside it as " + copy +
-          " (or under the next number).",
-      context.palette.warning);
+  wrapped_text("This is the file that the mesh was read from. It will hold the smoothed mesh; its present contents are kept beside it as " +
+                   copy + " (or under the next number).",
+               context.palette.warning);
   ImGui::Spacing();
   const bool go = ImGui::Button("Write over it, keep a copy");
   context.items.record_last("export:over");

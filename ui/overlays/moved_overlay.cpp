@@ -60,7 +60,8 @@ class ArrowOverlay final : public Overlay {
     if (!wanted(in)) return fmt::format("no arrows: {}", why_not(of));
     if (in.state.in_space && added_.drawn == 0) {
       const bool cut = in.state.inside.clip.on && in.state.inside.clip.mode == ClipPlane::Mode::Cut;
-      return fmt::format("arrows: no visible vertex has moved since {}{}", since(of), cut ? "; whole cells show more of them than cut ones" : "");
+      return fmt::format("arrows: no visible vertex has moved since {}{}", since(of),
+                         cut ? "; whole cells show more of them than cut ones" : "");
     }
     return fmt::format("{}arrows × {:.3g} since {}", added_.left_out > 0 ? "longest " : "", factor_, since(of));
   }

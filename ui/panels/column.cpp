@@ -18,12 +18,11 @@ struct TabInfo {
   const char* title;
   const char* tooltip;
 };
-constexpr std::array<TabInfo, 5> kTabs{
-    {{FactsTab::Mesh, "tab:mesh", "Mesh", "numbers of the mesh, its quality and its groups"},
-     {FactsTab::Selection, "tab:selection", "Selection", "the vertex or element that you selected"},
-     {FactsTab::Worst, "tab:worst", "Worst", "the worst elements by the shown metric"},
-     {FactsTab::Colours, "tab:colours", "Colours", "what the colours mean, and which elements count"},
-     {FactsTab::Inside, "tab:inside", "Inside", "clip plane, hidden layers and hidden qualities"}}};
+constexpr std::array<TabInfo, 5> kTabs{{{FactsTab::Mesh, "tab:mesh", "Mesh", "numbers of the mesh, its quality and its groups"},
+                                        {FactsTab::Selection, "tab:selection", "Selection", "the vertex or element that you selected"},
+                                        {FactsTab::Worst, "tab:worst", "Worst", "the worst elements by the shown metric"},
+                                        {FactsTab::Colours, "tab:colours", "Colours", "what the colours mean, and which elements count"},
+                                        {FactsTab::Inside, "tab:inside", "Inside", "clip plane, hidden layers and hidden qualities"}}};
 
 /// One row, as high whatever is shown below it.
 void draw_tabs(PanelContext& context, FactsTab shown) {

@@ -80,7 +80,8 @@ void draw_size_course(PanelContext& context, const RunView& run) {
   labelled(context, "size corr.", tip);
   ImGui::TextUnformatted(run.summary ? size_course_text(run.summary->sizes.before.sizes, run.summary->sizes.after.sizes).c_str() : "…");
   context.items.record_last("size-course");
-  next_item_tooltip(run.summary ? fmt::format("{}\n{}", tip, size_course_details(run.summary->sizes)) : "computed while no run is going on");
+  next_item_tooltip(run.summary ? fmt::format("{}\n{}", tip, size_course_details(run.summary->sizes))
+                                : "computed while no run is going on");
 }
 
 void draw_size(PanelContext& context, const RunView& run, const SizeFunction& size) {

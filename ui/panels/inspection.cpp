@@ -49,8 +49,7 @@ void draw_story(PanelContext& context, const Inspection& inspection) {
   dim_text(context, fmt::format("{} · {}", metric_phrase(trace.metric), search_phrase(trace)));
   if ((inspection.solid || inspection.grid) && inspection.level_count() > 0) dim_text(context, grid_phrase(inspection));
   if (inspection.level_count() == 0) return;
-  next_item_tooltip(
-      fmt::format("The candidates were compared by their {}. The numbers shown are their qualities.", trace.value_phrase));
+  next_item_tooltip(fmt::format("The candidates were compared by their {}. The numbers shown are their qualities.", trace.value_phrase));
 }
 
 void draw_buttons(PanelContext& context) {

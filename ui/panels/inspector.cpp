@@ -131,7 +131,8 @@ void draw_hold(PanelContext& context, const RunView& run) {
     ImGui::BeginDisabled(context.activity.busy);
     if (ImGui::SmallButton(kAsk)) context.send("held-by");
     ImGui::EndDisabled();
-    note_item(context, "held-by:ask", "examines the worst element and tries what would improve it; this takes some seconds for a large mesh");
+    note_item(context, "held-by:ask",
+              "examines the worst element and tries what would improve it; this takes some seconds for a large mesh");
     empty_lines(context, 3);
     return;
   }
@@ -228,9 +229,9 @@ void draw_own_quality(PanelContext& context, const Frame& frame, Index element) 
     const bool any = rank >= 0 && rank < std::ssize(frame.worst);
     return any ? fmt::format("goto element {}", frame.worst[static_cast<std::size_t>(rank)].element) : std::string();
   };
-  draw_beside_number(
-      context, top, at == frame.worst.begin() ? "the worst" : fmt::format("worst {}", at - frame.worst.begin() + 1),
-      {{"‹", "worse-element", "goes to the next worse element", go_to(-1)}, {"›", "better-element", "goes to the next better one", go_to(1)}});
+  draw_beside_number(context, top, at == frame.worst.begin() ? "the worst" : fmt::format("worst {}", at - frame.worst.begin() + 1),
+                     {{"‹", "worse-element", "goes to the next worse element", go_to(-1)},
+                      {"›", "better-element", "goes to the next better one", go_to(1)}});
 }
 
 /// The quality below which one element in a hundred lies, by the shown metric; NaN while it is not known.
@@ -250,8 +251,7 @@ void draw_statistics(PanelContext& context, Metric metric, const Statistics& sta
   if (run != nullptr || metric == frame.shown) {
     const Index inverted = frame.shown_statistics.inverted;  // whatever the metric
     value_row(context, "inverted elements", inverted == 0 ? "none" : count(inverted), {},
-              inverted == 0 ? context.palette.good : context.palette.error,
-              "elements whose Jacobian is 0 or less, at a corner or inside");
+              inverted == 0 ? context.palette.good : context.palette.error, "elements whose Jacobian is 0 or less, at a corner or inside");
   }
   if (run == nullptr) return;
   const HeldMinimum* held = run->held.found.get();

@@ -81,7 +81,8 @@ void draw_backend(PanelContext& context, const RunView& run) {
 /// Of a mesh that has any.
 void draw_interfaces(PanelContext& context, const RunParameters& parameters) {
   if (!context.session.input || !context.session.input->interfaces.any()) return;
-  labelled(context, "interfaces", "whether vertices between materials, and on named lines, faces and points of the file, keep their places");
+  labelled(context, "interfaces",
+           "whether vertices between materials, and on named lines, faces and points of the file, keep their places");
   Combo combo(context, "interfaces", std::string(name(parameters.interfaces)));
   const bool fixed = parameters.interfaces != InterfaceRule::Free;
   next_item_tooltip(fixed ? context.derived.interfaces : context.derived.free_interfaces);
@@ -181,7 +182,8 @@ void draw_parameters(PanelContext& context) {
   ImGui::BeginDisabled(context.activity.busy);
   draw_method(context, parameters);
   if (method_info(parameters.method).optimises)
-    labelled(context, "metric", "the metric that the method optimises: it raises the minimum around each vertex", metric_combo_width(context));
+    labelled(context, "metric", "the metric that the method optimises: it raises the minimum around each vertex",
+             metric_combo_width(context));
   else
     labelled(context, "judged by", "the metric of the run's statistics; the method itself uses none", metric_combo_width(context));
   metric_combo(context, "metric", parameters.metric, "metric");

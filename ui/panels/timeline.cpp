@@ -63,7 +63,11 @@ Groove groove_of(const PanelContext& context, const RunView& run, const Timeline
     return groove;
   }
   const double last = static_cast<double>(std::max<std::uint64_t>(last_of(context), 1));
-  groove.axis = {0.0, last, static_cast<double>(room.left), static_cast<double>(room.right), ValueAxis::Linear,
+  groove.axis = {0.0,
+                 last,
+                 static_cast<double>(room.left),
+                 static_cast<double>(room.right),
+                 ValueAxis::Linear,
                  state.plot_options.x_axis == XAxis::Log ? 1.0 : 0.0};
   return groove;
 }

@@ -21,7 +21,8 @@ struct RangeModeInfo {
   std::string_view name, title, doc;
 };
 inline constexpr std::array<RangeModeInfo, 6> kRangeModes{{
-    {RangeMode::Input, "input", "the input's", "from the worst to the best valid element of the input, rounded; stays the same during a run"},
+    {RangeMode::Input, "input", "the input's",
+     "from the worst to the best valid element of the input, rounded; stays the same during a run"},
     {RangeMode::Fixed, "fixed", "0 to 1", "from 0, degenerate, to 1, ideal"},
     {RangeMode::Auto, "auto", "the mesh's own", "from the worst to the best element of the current mesh"},
     {RangeMode::Expanding, "expanding", "growing", "all qualities since the mesh was opened; never shrinks"},
@@ -68,7 +69,8 @@ inline constexpr std::array<ColourByInfo, 15> kColourBys{{
     {ColourBy::Deviation, "deviation", "Deviation", "distance of an element's boundary from that of the input, where vertices slide"},
     {ColourBy::Tilt, "tilt", "Tilt", "the greatest angle between a face and the input's surface beneath it, where vertices slide"},
     {ColourBy::Freedom, "freedom", "Freedom to move", "what the least free vertex of an element may do: stay, slide or move freely"},
-    {ColourBy::Multiplier, "multiplier", "Multiplier", "how strongly an element holds the minimum, within the cluster around the worst one"},
+    {ColourBy::Multiplier, "multiplier", "Multiplier",
+     "how strongly an element holds the minimum, within the cluster around the worst one"},
 }};
 [[nodiscard]] constexpr const ColourByInfo& info(ColourBy by) { return kColourBys[static_cast<std::size_t>(by)]; }
 

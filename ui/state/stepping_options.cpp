@@ -17,7 +17,8 @@ std::vector<OptionChoice> references(std::string_view previous, std::string_view
 
 /// Whether it paints.
 void switch_brush(ViewState& state, double value) {
-  if (value != 0.0 && state.in_space) throw UsageError("the brush works on planar meshes only; select vertices of a volume mesh by their ids");
+  if (value != 0.0 && state.in_space)
+    throw UsageError("the brush works on planar meshes only; select vertices of a volume mesh by their ids");
   state.brush.on = value != 0.0;
 }
 
@@ -50,8 +51,8 @@ std::vector<ViewOption> stepping_options() {
           {"Brush: drag to select vertices", "ghost-previous", "S", "", Planar, kApart}),
       row("brush-radius", "how wide the brush is, 2 to 200 at scale 1",
           numbers(at<&V::brush, &Brush::radius>(), {.least = 2.0, .most = 200.0, .clamped = true, .unit = "PIXELS", .factor = 1.25})),
-      row("click-smooths", "a click on a free vertex moves it to its best candidate", at<&V::stepping, &S::click_smooths>(), {"/stepping/click_smooths"},
-          {"Click moves a vertex", "select-none", "T", "", Mesh, kApart}),
+      row("click-smooths", "a click on a free vertex moves it to its best candidate", at<&V::stepping, &S::click_smooths>(),
+          {"/stepping/click_smooths"}, {"Click moves a vertex", "select-none", "T", "", Mesh, kApart}),
       row("speed", "iterations (or steps) a second that playing shows, 0.5 to 60",
           numbers(at<&V::timeline, &Timeline::play, &Playback::speed>(),
                   {.least = Playback::kSlowest, .most = Playback::kFastest, .clamped = true, .factor = 1.5}),

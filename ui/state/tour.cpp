@@ -15,7 +15,8 @@ constexpr std::array<TourStep, 7> kTourSteps{{
      {"sample:coast", "menu:sample-coast", "menu:File"},
      [](const TourFacts& /*begin*/, const TourFacts& now) { return now.coast && !now.busy; }},
     {"One step",
-     "Colours show how good each element is; the bar explains them. Press N or click Iteration. Each vertex moves once, to where the worst of its elements is better.",
+     "Colours show how good each element is; the bar explains them. Press N or click Iteration. Each vertex moves once, to where the worst "
+     "of its elements is better.",
      {},
      "step iteration",
      {"step-iteration"},

@@ -277,9 +277,9 @@ void App::uncover_pick(const Layout& layout) {
   const Index vertex = picked.kind == Picked::Kind::Vertex ? picked.id : frame->input->mesh.elements.corners(picked.id)[0];
   const auto place = pane.view->place(ScenePoints::of(*frame->input).at(frame->positions[vertex]));
   if (!place) return;
-  const double at = static_cast<double>(pane.rect.x) + 0.5 * state_.viewport.x + place->x, left = static_cast<double>(free.x),
-               right = left + static_cast<double>(free.w);
-  if (at >= left && at <= right) return;
+  const double at = static_cast<double>(pane.rect.x) + 0.5 * state_.viewport.x + place->x;
+  const double left = static_cast<double>(free.x), right = left + static_cast<double>(free.w), margin = 0.2 * (right - left);
+  if (at >= left + margin && at <= right - margin) return;
   const Vec2<double> move{0.5 * (left + right) - at, 0.0};
   if (pane.in_space()) {
     state_.orbit.pan(move, state_.viewport);

@@ -119,7 +119,7 @@ TEST_F(VolumeStepping, ThePictureChangesWithWhatIsShown) {
 
 TEST_F(VolumeStepping, WordsSayWhatIsShownAndWhyNot) {
   good("arrows input");
-  EXPECT_EQ(note(), "arrows: no vertex in sight has moved since the input");  // the boundary stays
+  EXPECT_EQ(note(), "arrows: no visible vertex has moved since the input");  // the boundary stays
   good("clip x");
   EXPECT_NE(note().find("arrows × "), std::string::npos) << note();
   good("ghost input");

@@ -8,6 +8,7 @@
 #include <imgui.h>
 
 #include "tests/gui/headless_test.h"
+#include "ui/analysis/scene_points.h"
 #include "ui/panels/widgets.h"
 #include "ui/state/format.h"
 
@@ -171,12 +172,14 @@ TEST_F(StepWindow, ElementsThatMovedAreTintedAndNoOthers) {
     const auto corners = frame.input->mesh.elements.corners(element);
     Vec3 middle;
     for (const Index v : corners) middle = middle + 1.0 / static_cast<double>(corners.size()) * frame.positions[v];
-    const Vec2<double> at = state().camera.to_pixel({middle.x, middle.y}, state().viewport);
-    return image.at(static_cast<int>(at.x), static_cast<int>(at.y));
+    const PaneFacts& pane = window_->app().panes().front();
+    const Vec2<double> at = *pane.view->place(ScenePoints::of(*frame.input).at(middle));
+    return image.at(static_cast<int>(pane.rect.x + pane.rect.w / 2 + static_cast<float>(at.x)),
+                    static_cast<int>(pane.rect.y + pane.rect.h / 2 - static_cast<float>(at.y)));
   };
-  const render::Image plain = window_->app().mesh_picture({});
+  const render::Image plain = window_->picture();
   good("flash hold");
-  const render::Image held = window_->app().mesh_picture({});
+  const render::Image held = window_->picture();
   std::vector<std::uint8_t> touched(session()->frame->element_count(), 0);
   for (Index e = 0; e < touched.size(); ++e)
     for (const Index v : session()->frame->input->mesh.elements.corners(e))

@@ -77,11 +77,12 @@ Lines difference(const Lines& first, const Lines& second) {
   return lines;
 }
 
-/// Panels stand elsewhere since, have other sizes at first, and there are tabs and folds.
+/// Panels stand elsewhere since, have other sizes at first, and there are tabs, folds and the up axis.
 bool is_of_panels(const std::string& line) {
-  constexpr std::array<std::string_view, 17> kNew{"panel-size",      "_width",        "_height",    "/layout",   "dock ",  "_side",
-                                                  "script settings", "/settings ",    "script tab", "/tab ",     "holds ", "notice ",
-                                                  "pointer_value",   "plots/compare", "judged_own", "judged-by", "loops "};
+  constexpr std::array<std::string_view, 19> kNew{"panel-size", "_width",          "_height",       "/layout",       "dock ",
+                                                  "_side",      "script settings", "/settings ",    "script tab",    "/tab ",
+                                                  "holds ",     "notice ",         "pointer_value", "plots/compare", "judged_own",
+                                                  "judged-by",  "loops ",          "up_axis",       "up-axis"};
   return std::ranges::any_of(kNew, [&](std::string_view part) { return line.find(part) != std::string::npos; });
 }
 

@@ -58,12 +58,9 @@ void draw_second(PanelContext& context, const RunParameters& p) {
 
 void draw_point(PanelContext& context, const SizeFunction& size) {
   labelled(context, "point", "the point of the size function, in the mesh's coordinates; Place puts it where you click next");
-  const char* label = "Place";
   const bool placing = context.state.placing_size_point;
-  if (placing) ImGui::PushStyleColor(ImGuiCol_Button, colour_vector(context.palette.accent));
-  if (ImGui::SmallButton(label)) context.send("place-size-point");
-  if (placing) ImGui::PopStyleColor();
-  context.items.record_last("place-size-point");
+  if (lit_button(context, "place-size-point", "Place", placing, "the next click in the mesh places it", true))
+    context.send("place-size-point");
   if (placing) {
     dim_text(context, "click to place it");
   } else {

@@ -18,18 +18,6 @@ namespace {
 constexpr std::array<std::pair<const char*, const char*>, Comparison::kMeasures> kMeasureTitles{
     {{"Worst", "the worst element"}, {"1 %", "1 % of the elements are no better than this"}, {"Mean", "of all elements"}}};
 
-/// One of a row of joined buttons; true when it is clicked.
-bool switch_button(PanelContext& context, const std::string& item, const std::string& label, bool on, const std::string& tooltip) {
-  if (on) {
-    ImGui::PushStyleColor(ImGuiCol_Button, colour_vector(context.palette.accent, 0.22F));
-    ImGui::PushStyleColor(ImGuiCol_Text, colour_vector(context.palette.accent));
-  }
-  const bool clicked = ImGui::Button(fmt::format("{}##{}", label, item).c_str());
-  if (on) ImGui::PopStyleColor(2);
-  note_item(context, item, tooltip);
-  return clicked;
-}
-
 void judge_by(PanelContext& context, Metric metric) {
   context.send("judged-by shown");
   context.send("show " + quote_word(info(metric).name));
@@ -46,7 +34,7 @@ void draw_judges(PanelContext& context, const Comparison& comparison) {
     if (!few) break;
     ImGui::SameLine(0, context.px(6));
     const bool on = !own && metric == context.session.shown;
-    if (switch_button(context, fmt::format("judge:{}", info(metric).name), metric_title(metric), on, kTooltip)) judge_by(context, metric);
+    if (lit_button(context, fmt::format("judge:{}", info(metric).name), metric_title(metric), on, kTooltip)) judge_by(context, metric);
   }
   ImGui::SameLine(0, context.px(6));
   if (!few) {
@@ -57,7 +45,7 @@ void draw_judges(PanelContext& context, const Comparison& comparison) {
           judge_by(context, metric);
     ImGui::SameLine(0, context.px(6));
   }
-  if (switch_button(context, "judge:own", "Its own", own, "each run by the metric that it optimises")) context.send("judged-by own");
+  if (lit_button(context, "judge:own", "Its own", own, "each run by the metric that it optimises")) context.send("judged-by own");
 }
 
 void right_text(const std::string& text, const render::Rgb& ink) {

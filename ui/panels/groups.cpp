@@ -58,14 +58,6 @@ std::string fit_name(const GroupFacts& group, const RowLook& look) {
   return fit_text(group.name.substr(0, space), look.room - width(end)) + end;
 }
 
-/// A small button that is lit while what it does is in force.
-bool switch_button(const PanelContext& context, const char* label, bool on) {
-  if (on) ImGui::PushStyleColor(ImGuiCol_Button, colour_vector(context.palette.accent, 0.45F));
-  const bool pressed = ImGui::SmallButton(label);
-  if (on) ImGui::PopStyleColor();
-  return pressed;
-}
-
 struct GroupSwitch {
   const char* word;
   Icon icon;
@@ -75,9 +67,7 @@ struct GroupSwitch {
 
 bool draw_switch(PanelContext& context, const GroupSwitch& one, bool words) {
   if (!words) return icon_button(context, one.item, one.icon, {context.px(18), ImGui::GetTextLineHeight()}, one.tooltip, one.on);
-  const bool pressed = switch_button(context, one.word, one.on);
-  note_item(context, one.item, one.tooltip);
-  return pressed;
+  return lit_button(context, one.item, one.word, one.on, one.tooltip, true);
 }
 
 void draw_line(PanelContext& context, const GroupLine& line, bool fixed, const RowLook& look) {

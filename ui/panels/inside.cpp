@@ -43,18 +43,6 @@ bool slider(const char* item, double& value, double low, double high, const char
                              ImGuiSliderFlags_AlwaysClamp);
 }
 
-/// A button that stays pressed.
-bool toggle_button(PanelContext& context, const char* item, const char* label, bool pressed, const char* tip) {
-  if (pressed) {
-    ImGui::PushStyleColor(ImGuiCol_Button, colour_vector(context.palette.accent));
-    ImGui::PushStyleColor(ImGuiCol_Text, colour_vector(context.palette.on_accent));
-  }
-  const bool hit = ImGui::Button(fmt::format("{}##{}", label, item).c_str());
-  if (pressed) ImGui::PopStyleColor(2);
-  note_item(context, item, tip);
-  return hit;
-}
-
 void draw_clip(PanelContext& context, const render::Bounds3& box) {
   ClipPlane& clip = context.state.inside.clip;
   const auto across = axis_plane(clip, box);
@@ -64,15 +52,15 @@ void draw_clip(PanelContext& context, const render::Bounds3& box) {
     ImGui::SameLine(0, context.px(5));
     const std::string name = axis_name(axis, false);
     const bool pressed = clip.on && across && across->axis == axis;
-    if (toggle_button(context, fmt::format("inside:{}", name).c_str(), name.c_str(), pressed,
-                      "at right angles to this axis; the side towards the viewer is hidden"))
+    if (lit_button(context, fmt::format("inside:{}", name), name, pressed,
+                   "at right angles to this axis; the side towards the viewer is hidden"))
       context.send(fmt::format("clip {}:{:.4g}", axis_name(axis, looks_along(context.state.orbit, axis)),
                                clip.on && across ? std::clamp(across->fraction, 0.0, 1.0) : 0.5));
   }
   ImGui::BeginDisabled(!clip.on);
   labelled(context, "side", "the side that is hidden");
   const bool flipped = clip.on && across && across->flip;
-  if (toggle_button(context, "inside:flip", "flip", flipped, "hides the other side   Shift+J")) context.send("clip flip");
+  if (lit_button(context, "inside:flip", "flip", flipped, "hides the other side   Shift+J")) context.send("clip flip");
   // Rows that are grey without a plane keep their place: nothing below moves.
   labelled(context, "place", "from the lower to the upper end of the mesh; Ctrl+click to type");
   const auto ends = span_of(clip, box);
@@ -86,11 +74,10 @@ void draw_clip(PanelContext& context, const render::Bounds3& box) {
       [&] { return clip_command(clip, box); });
   labelled(context, "cells", "at the plane");
   const bool cut = clip.mode == ClipPlane::Mode::Cut;
-  if (toggle_button(context, "inside:whole", "whole", !cut, "cells that the plane passes through stay whole   Alt+J"))
+  if (lit_button(context, "inside:whole", "whole", !cut, "cells that the plane passes through stay whole   Alt+J"))
     context.send("clip-mode crinkle");
   ImGui::SameLine(0, context.px(5));
-  if (toggle_button(context, "inside:cut", "cut", cut, "cells that the plane passes through are cut   Alt+J"))
-    context.send("clip-mode cut");
+  if (lit_button(context, "inside:cut", "cut", cut, "cells that the plane passes through are cut   Alt+J")) context.send("clip-mode cut");
   ImGui::EndDisabled();
 }
 

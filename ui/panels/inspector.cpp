@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <span>
@@ -176,28 +175,10 @@ void large_number(PanelContext& context, const char* item, Metric metric, double
   ImGui::SetCursorPos(back);
 }
 
-/// Small buttons at the right end of the large number that begins at `top`, each with its command; an empty one is disabled.
-struct SideButton {
-  const char *label, *item, *tooltip;
-  std::string command;
-};
-void draw_beside_number(PanelContext& context, float top, const std::string& words, std::initializer_list<SideButton> buttons) {
-  const float gap = context.px(4), below = ImGui::GetCursorPosY(), around = 2 * ImGui::GetStyle().FramePadding.x;
-  const float line = ImGui::GetTextLineHeight(), middle = top + (below - ImGui::GetStyle().ItemSpacing.y - top - line) / 2;
-  float x = ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(words.c_str()).x;
-  for (const SideButton& button : buttons) x -= ImGui::CalcTextSize(button.label).x + around + gap;
-  ImGui::SetCursorPos({x, middle});
-  dim_text(context, words, false);
-  x += ImGui::CalcTextSize(words.c_str()).x + gap;
-  for (const SideButton& button : buttons) {
-    ImGui::SetCursorPos({x, middle});
-    ImGui::BeginDisabled(button.command.empty());
-    if (ImGui::SmallButton(button.label)) context.send(button.command);
-    ImGui::EndDisabled();
-    note_item(context, button.item, button.tooltip);
-    x += ImGui::CalcTextSize(button.label).x + around + gap;
-  }
-  ImGui::SetCursorPosY(below);
+/// In the middle of the large number that begins at `top` and was drawn last.
+void draw_beside_number(PanelContext& context, float top, const std::string& words, std::span<const SideButton> buttons) {
+  const float bottom = ImGui::GetCursorPosY() - ImGui::GetStyle().ItemSpacing.y;
+  side_buttons(context, (top + bottom - ImGui::GetTextLineHeight()) / 2, words, buttons);
 }
 
 void draw_minimum(PanelContext& context, Metric metric, double minimum, Index worst) {
@@ -208,8 +189,8 @@ void draw_minimum(PanelContext& context, Metric metric, double minimum, Index wo
   large_number(context, "minimum", metric, minimum, !(minimum > 0.0),
                angles && metric == context.session.shown ? std::optional(angles->smallest) : std::nullopt);
   if (worst == kNoIndex) return;
-  draw_beside_number(context, top, "",
-                     {{"Show it", "show-worst", "selects the worst element and goes there", fmt::format("goto element {}", worst)}});
+  const SideButton show{"Show it", "show-worst", "selects the worst element and goes there", fmt::format("goto element {}", worst)};
+  draw_beside_number(context, top, "", {&show, 1});
 }
 
 /// The quality of a picked element; of one in the list of the worst its rank, and the way to its neighbours there.
@@ -230,8 +211,8 @@ void draw_own_quality(PanelContext& context, const Frame& frame, Index element) 
     return any ? fmt::format("goto element {}", frame.worst[static_cast<std::size_t>(rank)].element) : std::string();
   };
   draw_beside_number(context, top, at == frame.worst.begin() ? "the worst" : fmt::format("worst {}", at - frame.worst.begin() + 1),
-                     {{"‹", "worse-element", "goes to the next worse element", go_to(-1)},
-                      {"›", "better-element", "goes to the next better one", go_to(1)}});
+                     std::array<SideButton, 2>{{{"‹", "worse-element", "goes to the next worse element", go_to(-1)},
+                                                {"›", "better-element", "goes to the next better one", go_to(1)}}});
 }
 
 /// The quality below which one element in a hundred lies, by the shown metric; NaN while it is not known.

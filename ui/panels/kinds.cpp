@@ -28,8 +28,6 @@ void draw_button(PanelContext& context, const KindButton& one) {
   note_item(context, one.item, one.tooltip);
 }
 
-float button_width(const char* label) { return ImGui::CalcTextSize(label).x + 2 * ImGui::GetStyle().FramePadding.x; }
-
 /// What a click on the button of an edge does.
 struct EdgeTurn {
   std::string_view command;  // empty: nothing, the file or the mesh decides
@@ -65,7 +63,7 @@ void draw_edge(PanelContext& context, const InputMesh& input, const RunView& run
   const ImVec2 top = ImGui::GetCursorScreenPos();
   const float right = ImGui::GetWindowContentRegionMax().x;
   constexpr const char *kFeature = "feature", *kChain = "chain";
-  const float gap = context.px(4), first = right - button_width(kFeature) - button_width(kChain) - gap;
+  const float gap = context.px(4), first = right - widest_button({kFeature}) - widest_button({kChain}) - gap;
   const std::string whole = row.of_vertex ? fmt::format("to {}", row.to) : name;
   const std::string label = fit_text(whole, first - gap - ImGui::GetCursorPosX());
   ImGui::TextUnformatted(label.c_str());

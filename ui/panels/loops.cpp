@@ -1,5 +1,6 @@
 // Boundary loops, which need no names in the file: each can be selected, fixed, or let slide while the rest of the boundary stays.
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
@@ -11,29 +12,23 @@ namespace {
 
 constexpr Index kMostShown = 40;  // beyond, a list in a panel helps nobody
 
-float small_button_width(const char* label) { return ImGui::CalcTextSize(label).x + 2 * ImGui::GetStyle().FramePadding.x; }
-
 void draw_loop(PanelContext& context, const Outline& outline, Index number) {
   const BoundaryLoop& loop = outline.loops[number];
-  const float gap = context.px(4), right = ImGui::GetWindowContentRegionMax().x;
-  const float buttons = small_button_width("select") + small_button_width("fix") + small_button_width("slide") + 2 * gap;
+  const std::string word = fmt::format("loop:{}", number + 1);
+  const std::array<SideButton, 3> buttons{
+      {{"select", fmt::format("loop-select:{}", number + 1), "selects its vertices", "select vertex " + word},
+       {"fix", fmt::format("loop-fix:{}", number + 1), "its vertices keep their places, even where the boundary slides", "fix " + word},
+       {"slide", fmt::format("loop-slide:{}", number + 1), "lets its vertices slide along it; the rest of the boundary stays",
+        "slide " + word}}};
+  const float y = ImGui::GetCursorPosY();
   const std::string name = outline.name(number);
   const std::string counted_name = fmt::format("{}  {}", name, count(loop.vertices.size()));
-  const float room = right - buttons - context.px(8) - ImGui::GetCursorPosX();
+  const float room = ImGui::GetContentRegionAvail().x - width_of(context, buttons) - context.px(4);
   ImGui::TextUnformatted(ImGui::CalcTextSize(counted_name.c_str()).x <= room ? counted_name.c_str() : fit_text(name, room).c_str());
   next_item_tooltip(fmt::format("{}: {}\nlength {}\nencloses {}{}", name, counted(loop.vertices.size(), "vertex", "vertices"),
                                 short_number(loop.length), short_number(loop.area),
                                 outline.parts.size() > 1 ? fmt::format("\nof part {}", loop.part + 1) : ""));
-  ImGui::SameLine(right - buttons);
-  const std::string word = fmt::format("loop:{}", number + 1);
-  if (ImGui::SmallButton("select")) context.send("select vertex " + word);
-  note_item(context, fmt::format("loop-select:{}", number + 1), "selects its vertices");
-  ImGui::SameLine(0, gap);
-  if (ImGui::SmallButton("fix")) context.send("fix " + word);
-  note_item(context, fmt::format("loop-fix:{}", number + 1), "its vertices keep their places, even where the boundary slides");
-  ImGui::SameLine(0, gap);
-  if (ImGui::SmallButton("slide")) context.send("slide " + word);
-  note_item(context, fmt::format("loop-slide:{}", number + 1), "lets its vertices slide along it; the rest of the boundary stays");
+  side_buttons(context, y, "", buttons);
 }
 
 }  // namespace
@@ -68,14 +63,13 @@ void draw_loop_place(PanelContext& context, const Frame& frame, Index vertex) {
   if (!place) return;
   const std::vector<Index>& around = outline->loops[place->loop].vertices;
   const auto size = static_cast<Index>(around.size());
-  const float gap = context.px(4), buttons = small_button_width("<") + small_button_width(">") + gap;
+  const auto neighbour = [&](Index step) { return fmt::format("pick vertex {}", around[(place->at + step) % size]); };
+  const float y = ImGui::GetCursorPosY();
   dim_text(context, fmt::format("{}, {} of {}", outline->name(place->loop), count(place->at + 1), count(size)), false);
-  ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - buttons);
-  if (ImGui::SmallButton("<")) context.send(fmt::format("pick vertex {}", around[(place->at + size - 1) % size]));
-  note_item(context, "loop-back", "the vertex before it along the boundary");
-  ImGui::SameLine(0, gap);
-  if (ImGui::SmallButton(">")) context.send(fmt::format("pick vertex {}", around[(place->at + 1) % size]));
-  note_item(context, "loop-next", "the next vertex along the boundary, with the mesh to the left");
+  side_buttons(
+      context, y, "",
+      std::array<SideButton, 2>{{{"<", "loop-back", "the vertex before it along the boundary", neighbour(size - 1)},
+                                 {">", "loop-next", "the next vertex along the boundary, with the mesh to the left", neighbour(1)}}});
 }
 
 }  // namespace dmoscope::ui

@@ -11,8 +11,6 @@
 namespace dmoscope::ui {
 namespace {
 
-float button_width(const std::string& label) { return ImGui::CalcTextSize(label.c_str()).x + 2 * ImGui::GetStyle().FramePadding.x; }
-
 /// Where buttons stand that fill rows from the left, and how many rows that makes.
 struct ButtonRows {
   std::vector<ImVec2> places;  // from the upper left corner
@@ -23,7 +21,7 @@ ButtonRows in_rows(const std::vector<std::string>& labels, float room, float gap
   const float step = ImGui::GetFrameHeight() + gap;
   float x = 0, y = 0;
   for (const std::string& label : labels) {
-    const float width = button_width(label);
+    const float width = widest_button({label.c_str()});
     if (x > 0 && x + width > room) {
       x = 0;
       y += step;
@@ -123,7 +121,7 @@ void draw_unfolded(PanelContext& context, Notice notice, const Rect& rect) {
   labels.push_back(less);
   labels.push_back(hide);
   float wanted = -gap;  // no wider than what is in it
-  for (const std::string& label : labels) wanted += button_width(label) + gap;
+  for (const std::string& label : labels) wanted += widest_button({label.c_str()}) + gap;
   for (const std::string& sentence : notice.sentences) wanted = std::max(wanted, ImGui::CalcTextSize(sentence.c_str()).x + 1);
   const FigureTable table(notice.figures, context.px(10));
   room = std::min(room, std::max(wanted, table.width));

@@ -38,6 +38,8 @@ float gap_before(const PanelContext& context, const TitlePiece& piece) { return 
 TitleLayout lay_out(const PanelContext& context, const PaneFacts& pane) {
   TitleLayout layout;
   layout.pieces = title_of(pane, context.session.shown);
+  if (context.state.panes.one())  // the facts have its numbers
+    std::erase_if(layout.pieces, [](const TitlePiece& piece) { return piece.role == TitlePiece::Role::Dim; });
   layout.swatch = pane.of_run && pane.run() != nullptr && !pane.removed;
   const float pad = context.px(8), line = ImGui::GetTextLineHeight();
   const float room = pane.clip.w - 2 * pad;

@@ -24,8 +24,6 @@ float box_width(const std::vector<Choice>& choices) {
   return width + 2 * ImGui::GetStyle().FramePadding.x + ImGui::GetFrameHeight();
 }
 
-float button_width(const char* label) { return ImGui::CalcTextSize(label).x + 2 * ImGui::GetStyle().FramePadding.x; }
-
 /// A combo box of commands, as wide as its widest label; its entries are the items "ITEM:LABEL".
 void choice_box(PanelContext& context, const char* item, const std::vector<Choice>& choices) {
   ImGui::SetNextItemWidth(box_width(choices));
@@ -93,7 +91,7 @@ void draw_plot_tabs(PanelContext& context) {
   const ViewOption& plot = view_option("plot");
   // Narrow ones leave room for the button that has the choices.
   const float gap = context.px(4), number = static_cast<float>(plot.at.choices.size());
-  float words = button_width("…") + gap * number + context.px(8);
+  float words = widest_button({"…"}) + gap * number + context.px(8);
   for (const OptionChoice& tab : plot.at.choices) words += ImGui::CalcTextSize(std::string(tab.title).c_str()).x;
   const ImVec2 usual = ImGui::GetStyle().FramePadding;
   const float pad = std::clamp((ImGui::GetContentRegionAvail().x - words) / (2 * number), context.px(2), usual.x);
@@ -117,7 +115,7 @@ void draw_plot_controls(PanelContext& context, const Rect& rect) {
                          {"plot-axis", option_choices(context.state, "axis")},
                          {"plot-along", along_choices(context.state)}};
   std::erase_if(boxes, [](const Box& box) { return box.choices.size() < 2; });  // no choice
-  const float gap = context.px(8), buttons = button_width("Copy data") + gap + button_width("Save…");
+  const float gap = context.px(8), buttons = widest_button({"Copy data"}) + gap + widest_button({"Save…"});
   ImGui::SameLine();
   const float start = ImGui::GetCursorPosX(), room = rect.w - context.px(12) - start;
   const auto wide = [&](float last) {
@@ -126,8 +124,8 @@ void draw_plot_controls(PanelContext& context, const Rect& rect) {
     return sum;
   };
   const bool roomy = room > wide(buttons);
-  while (!boxes.empty() && room < wide(button_width("…"))) boxes.erase(boxes.begin());  // they are in the menu, too
-  ImGui::SetCursorPosX(std::max(start, rect.w - context.px(12) - wide(roomy ? buttons : button_width("…"))));
+  while (!boxes.empty() && room < wide(widest_button({"…"}))) boxes.erase(boxes.begin());  // they are in the menu, too
+  ImGui::SetCursorPosX(std::max(start, rect.w - context.px(12) - wide(roomy ? buttons : widest_button({"…"}))));
   for (const Box& box : boxes) {
     choice_box(context, box.item, box.choices);
     ImGui::SameLine(0, gap);

@@ -23,52 +23,13 @@ Vec2<double> mouse_in(const Rect& rect) {
 }
 
 /// What is shown of stepping and selecting, below the title.
-void draw_note(const PanelContext& context, const std::string& words, ImVec2 at, float most) {
-  if (words.empty()) return;
-  const float pad = context.px(8);
-  const std::string note = fit_text(words, most - 2 * pad);
-  draw_plate(context, at, {at.x + 2 * pad + ImGui::CalcTextSize(note.c_str()).x, at.y + ImGui::GetTextLineHeight() + pad});
-  ImGui::GetWindowDrawList()->AddText({at.x + pad, at.y + pad / 2}, colour(context.palette.dim), note.c_str());
-}
-
-/// Of the one viewport.
-void draw_title(PanelContext& context, const PaneFacts& pane) {
-  const RunView* run = context.run();
-  if (run == nullptr) return;
-  const Frame& frame = *pane.frame();
-  const Rect& rect = pane.rect;
+void draw_note(const PanelContext& context, const PaneFacts& pane) {
+  if (pane.stepping_note.empty() || !context.state.panes.one()) return;
   const float pad = context.px(8), line = ImGui::GetTextLineHeight();
-  std::string title = run_title(context.session, context.session.active);
-  const Mark* mark = context.state.timeline.shown_mark();
-  if (mark != nullptr) title = fmt::format("{} · {}", context.state.timeline.shown == Shown::A ? "A" : "B", mark->title);
-  std::string moment = fmt::format("iteration {}", count(frame.moment.iteration));
-  if (frame.moment.visits > 0) moment += fmt::format(" + {} of {} visits", count(frame.moment.visits), count(run->visits_per_iteration));
-  if (frame.moment.edits > 0) moment += fmt::format(" + {}", counted(frame.moment.edits, "edit", "edits"));
-  std::string shown;
-  if (frame.shown != run->parameters.metric) shown = fmt::format("shown: {}", metric_phrase(frame.shown));
-  const auto add = [&](const char* note) { shown += (shown.empty() ? "" : " · ") + std::string(note); };
-  if (context.activity.reduced) add("reduced detail");
-  if (pane.lacks_room) add("zoom in for labels");
-
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  ImGui::PushFont(context.fonts.bold);
-  title = fit_text(title, 0.6F * rect.w);
-  const float title_width = ImGui::CalcTextSize(title.c_str()).x;
-  ImGui::PopFont();
-  const float moment_width = ImGui::CalcTextSize(moment.c_str()).x;
-  float width = 3 * pad + context.px(14) + title_width + moment_width;
-  if (!shown.empty()) width += 2 * pad + ImGui::CalcTextSize(shown.c_str()).x;
-  const ImVec2 at{rect.x + pad, rect.y + pad};
-  draw_plate(context, at, {at.x + width, at.y + line + pad});
-  float x = at.x + pad;
-  const float y = at.y + pad / 2;
-  list.AddRectFilled({x, y + 0.2F * line}, {x + context.px(8), y + 0.8F * line}, colour(context.palette.run(frame.run)), context.px(2));
-  x += context.px(14);
-  list.AddText(context.fonts.bold, context.em(), {x, y}, colour(context.palette.text), title.c_str());
-  x += title_width + pad;
-  list.AddText({x, y}, colour(context.palette.text), moment.c_str());
-  if (!shown.empty()) list.AddText({x + moment_width + 2 * pad, y}, colour(context.palette.warning), shown.c_str());
-  draw_note(context, pane.stepping_note, {at.x, at.y + line + 1.25F * pad}, rect.w - 2 * pad);
+  const ImVec2 at{pane.rect.x + pad, pane.rect.y + line + 2.25F * pad};
+  const std::string note = fit_text(pane.stepping_note, pane.rect.w - 4 * pad);
+  draw_plate(context, at, {at.x + 2 * pad + ImGui::CalcTextSize(note.c_str()).x, at.y + line + pad});
+  ImGui::GetWindowDrawList()->AddText({at.x + pad, at.y + pad / 2}, colour(context.palette.dim), note.c_str());
 }
 
 /// Which level is seen, at the upper left corner of its grid or as near to it as can be read.
@@ -374,12 +335,8 @@ void draw_pane(PanelContext& context, const PaneFacts& pane) {
   if (pane.frame() != nullptr && !pane.in_space()) draw_field_in_view(context, pane);
   draw_clip_plane(context, pane);
   if (pane.frame() != nullptr && pane.inspected) draw_level_label(context, pane);
-  const bool plain = context.state.panes.one() && pane.session->frame == context.session.frame;
-  if (plain) {
-    draw_title(context, pane);
-  } else {
-    draw_pane_title(context, pane);
-  }
+  draw_pane_title(context, pane);
+  draw_note(context, pane);
   ImGui::PopClipRect();
 }
 

@@ -204,6 +204,41 @@ bool button(const PanelContext& context, const char* label, bool primary, float 
   return pressed;
 }
 
+bool lit_button(PanelContext& context, const std::string& item, const std::string& label, bool lit, const std::string& tooltip,
+                bool small) {
+  if (lit) {
+    ImGui::PushStyleColor(ImGuiCol_Button, colour_vector(context.palette.accent, 0.22F));
+    ImGui::PushStyleColor(ImGuiCol_Text, colour_vector(context.palette.accent));
+  }
+  const std::string name = fmt::format("{}##{}", label, item);
+  const bool clicked = small ? ImGui::SmallButton(name.c_str()) : ImGui::Button(name.c_str());
+  if (lit) ImGui::PopStyleColor(2);
+  note_item(context, item, tooltip);
+  return clicked;
+}
+
+float width_of(const PanelContext& context, std::span<const SideButton> buttons) {
+  float width = 0;
+  for (const SideButton& button : buttons) width += widest_button({button.label}) + context.px(4);
+  return width;
+}
+
+void side_buttons(PanelContext& context, float y, const std::string& words, std::span<const SideButton> buttons) {
+  const float below = ImGui::GetCursorPosY();
+  float x = ImGui::GetWindowContentRegionMax().x - width_of(context, buttons);
+  ImGui::SetCursorPos({x - ImGui::CalcTextSize(words.c_str()).x, y});
+  dim_text(context, words, false);
+  for (const SideButton& button : buttons) {
+    ImGui::SetCursorPos({x += context.px(4), y});
+    ImGui::BeginDisabled(button.command.empty());
+    if (ImGui::SmallButton(button.label)) context.send(button.command);
+    ImGui::EndDisabled();
+    note_item(context, button.item, button.tooltip);
+    x += widest_button({button.label});
+  }
+  ImGui::SetCursorPosY(below);
+}
+
 bool action_button(PanelContext& context, std::string_view id, const char* label, bool primary, float width) {
   const Action* action = find_action(id);
   const bool possible = enabled(*action, context.situation());

@@ -3,6 +3,7 @@
 
 #include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -26,6 +27,16 @@ void metric_tooltip(const PanelContext& context, const MetricInfo& metric);
 bool fold_row(PanelContext& context, const char* item, const char* title, const std::string& aside, bool open, const char* tooltip);
 /// `primary`: in the accent's colour, as the one that most people want.
 bool button(const PanelContext& context, const char* label, bool primary, float width = 0);
+/// A button that is lit while what it does is in force.
+bool lit_button(PanelContext& context, const std::string& item, const std::string& label, bool lit, const std::string& tooltip,
+                bool small = false);
+/// Small buttons at the right end of a line, after some words. One without a command is disabled.
+struct SideButton {
+  const char* label;
+  std::string item, tooltip, command;
+};
+[[nodiscard]] float width_of(const PanelContext& context, std::span<const SideButton> buttons);
+void side_buttons(PanelContext& context, float y, const std::string& words, std::span<const SideButton> buttons);
 /// A button for an action, with tooltip and key; records the item under the action's id.
 /// `width`: in pixels, for labels that change; 0: as the label needs.
 bool action_button(PanelContext& context, std::string_view id, const char* label, bool primary = false, float width = 0);

@@ -220,8 +220,7 @@ class Widget {
         static_cast<std::size_t>(std::count_if(plot_.legend.begin(), plot_.legend.end(), [](const auto& e) { return e.of_run; }));
     const std::size_t runs = runs_with_room(all, right);
     const auto go_on = [&](std::size_t k, float width) {
-      if (k == 0) return;
-      ImGui::SameLine(0, (k == all ? 32 : 16) * s_);
+      if (k > 0) ImGui::SameLine(0, (k == all ? 32 : 16) * s_);
       if (ImGui::GetCursorScreenPos().x + width > right) ImGui::NewLine();
     };
     for (std::size_t k = 0; k < plot_.legend.size(); ++k) {

@@ -96,8 +96,9 @@ std::vector<ViewOption> inside_options() {
           {"perspective"}),
       row("up-axis", "the axis that points up: guessed of a mesh that is opened",
           words(at<&V::orbit, &render::OrbitCamera::up_axis>(), choice("z", "z"), choice("y", "y")).changed_by([](V& state, double axis) {
-            state.orbit.raise(static_cast<render::UpAxis>(static_cast<int>(axis)));
-            state.requests.fit = true;
+            const auto wanted = static_cast<render::UpAxis>(static_cast<int>(axis));
+            state.requests.fit = state.requests.fit || wanted != state.orbit.up_axis;
+            state.orbit.raise(wanted);
           }),
           {"/volume/up_axis", "", kScript}, {"The other axis up", "from-perspective", "", "from-up-axis", Volume}, {}, {"up"}),
   };

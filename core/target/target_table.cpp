@@ -153,7 +153,8 @@ class TargetTable::Maker {
     if (name == kLayersName) {
       BoundaryLayers layers = find_boundary_layers(mesh_, frames_.geometry);
       if (layers.empty())
-        throw UsageError("the mesh has no boundary layers: no stretched quadrilaterals, pairs of triangles, wedges or hexahedra stand on its boundary");
+        throw UsageError(
+            "the mesh has no boundary layers: no stretched quadrilaterals, pairs of triangles, wedges or hexahedra stand on its boundary");
       return std::move(layers.elements);
     }
     names.push_back(kLayersName);

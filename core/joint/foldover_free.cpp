@@ -3,17 +3,21 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
-#include "core/joint/atom_blocks.h"
+#include "core/joint/determinant_samples.h"
+#include "core/joint/element_blocks.h"
 #include "core/joint/mean_ratio_atom.h"
+#include "core/quality/validity.h"
 
 namespace dmoscope {
 
 namespace {
 
+constexpr std::size_t kAtOnce = 1024, kGrain = 32;  // elements
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLeastEpsilon = 1e-9;
-constexpr double kLeastFall = 0.3;      // of chi of the least J, in a step
-constexpr double kOntoDiagonal = 1e-9;  // what rounding could take from it
+constexpr double kLeastFall = 0.3;  // of chi of the least J, in a step
 constexpr double kFirstDamping = 1e-3, kLeastDamping = 1e-6, kMostDamping = 1e6;
 constexpr double kHopeless = 0.02;  // of the least J: where epsilon is below that, what is inverted is behind the wall and stays there
 constexpr int kAfterwards = 4;      // steps that are taken when nothing is inverted any more, for better shapes
@@ -29,156 +33,343 @@ struct Wall {
   double value, first, second;
 };
 
-/// chi^(2 / D).
 template <int D>
-double power_of(double chi) {
-  return scale_of<D>(chi);
+double root_of(double size) {
+  if constexpr (D == 2)
+    return std::sqrt(size);
+  else
+    return scalar::cube_root(size);
 }
 
 template <int D>
 class FoldoverFree {
-  static constexpr std::size_t kD = D, kEdges = kD * kD;
+  static constexpr std::size_t kD = D;
   using Place = std::array<double, kD>;
+  using Places = std::vector<Place>;
+  using Corners = std::array<Place, 8>;
+  using Element = typename FoldoverFreeProblem<D>::Element;
+  using Sample = DeterminantSample<D>;
+  using Matrix = MatrixOfColumns<D>;
+  using Derivatives = typename ElementBlocks<D>::Derivatives;
 
  public:
-  FoldoverFree(const JointProblem<D>& problem, const FoldoverFreeOptions& options)
-      : problem_(problem), options_(options), system_(problem), lengths_(problem.atoms.size()) {
-    for (std::size_t a = 0; a < lengths_.size(); ++a) lengths_[a] = 1.0 / root_of(problem.references[a]);
+  FoldoverFree(const FoldoverFreeProblem<D>& problem, const FoldoverFreeOptions& options)
+      : problem_(problem), options_(options), system_(problem, options.pool), unit_(1.0 / root_of<D>(problem.size)) {
+    for (std::size_t e = 0; e < problem.elements.size(); ++e) watched_.push_back(corners_that_move(e));
   }
-  FoldoverFreeSolution<D> solve(std::vector<Place> start, const std::function<void(const FoldoverFreeIterate<D>&)>& on_step,
-                                Progress& progress);
+  FoldoverFreeSolution<D> solve(const std::function<void(const FoldoverFreeIterate<D>&)>& on_step, Progress& progress);
 
  private:
   /// What a set of displacements is worth, whatever epsilon is.
   struct Standing {
     std::size_t inverted = 0;
-    double least = std::numeric_limits<double>::infinity();           // see FoldoverFreeIterate
-    double least_jacobian = std::numeric_limits<double>::infinity();  // against the reference
+    double least = kInfinity;           // see FoldoverFreeIterate
+    double least_jacobian = kInfinity;  // of what is watched, against the size
+    std::vector<std::size_t> inside{};  // elements that are sound at their corners and not proved to be so inside
+  };
+  /// What is watched of an element: bits of its corner samples, and of its inner ones behind them.
+  struct Watch {
+    std::uint32_t bits = 0;
+    bool is_lost = false;  // a corner that cannot move is inverted
   };
 
-  static double root_of(double reference) {
-    if constexpr (D == 2)
-      return std::sqrt(reference);
-    else
-      return scalar::cube_root(reference);
+  [[nodiscard]] bool moves(const Element& element, const Sample& sample) const {
+    return std::any_of(sample.corners.begin(), sample.corners.begin() + sample.count,
+                       [&](std::uint8_t k) { return element.vertices[k] < problem_.free_vertices; });
   }
-  /// In a unit in which its reference is 1.
-  [[nodiscard]] MatrixAgainstIdeal<D> matrix(std::size_t atom, const std::vector<Place>& displacements) const {
-    AtomEdges<D> edges = displaced_edges<D>(problem_, atom, displacements);
-    for (auto& edge : edges)
-      for (double& x : edge) x *= lengths_[atom];
-    return {problem_.atoms[atom].shape, edges};
+  [[nodiscard]] Watch corners_that_move(std::size_t element) const;
+  void watch_inside(std::size_t element);
+  /// For each sample of an element that is watched.
+  template <class Body>
+  void for_watched(std::size_t element, const Body& body) const {
+    const ElementKind kind = problem_.elements[element].kind;
+    const std::span<const Sample> corners = corner_samples<D>(kind), inner = inner_samples<D>(kind);
+    std::uint32_t bits = watched_[element].bits;
+    for (std::size_t s = 0; bits != 0; ++s, bits >>= 1U)
+      if ((bits & 1U) != 0) body(s < corners.size() ? corners[s] : inner[s - corners.size()], s < corners.size());
   }
-  [[nodiscard]] Standing stand(const std::vector<Place>& displacements) const;
-  [[nodiscard]] double energy(const std::vector<Place>& displacements) const;
-  void assemble();
-  /// Of an atom's energy by T.
-  void derive(const MatrixAgainstIdeal<D>& t, typename AtomBlocks<D>::Gradient& g, typename AtomBlocks<D>::Hessian& h) const;
+  [[nodiscard]] Corners corners(std::size_t element, const Places& displacements) const;
+  /// In a unit in which the size is 1.
+  [[nodiscard]] Matrix matrix(const Sample& sample, const Corners& corners) const;
+  [[nodiscard]] bool proved_inside(std::size_t element, const Corners& corners) const;
+  [[nodiscard]] Standing stand(const Places& displacements) const;
+  [[nodiscard]] double energy(const Places& displacements) const;
+  void derive(std::size_t element, const Corners& corners, Derivatives& result) const;
+  void derive_springs(std::size_t element, const Corners& corners, Derivatives& result) const;
+  template <class Derive>
+  void assemble(const Derive& derive_one);
+  void assemble() {
+    assemble([this](std::size_t e, const Corners& at, Derivatives& result) { derive(e, at, result); });
+  }
+  void spring();
   [[nodiscard]] bool find_direction();
   [[nodiscard]] bool step();
+  [[nodiscard]] bool go(double share);
   void lower_epsilon(double least_jacobian, double fall);
 
-  const JointProblem<D>& problem_;
+  const FoldoverFreeProblem<D>& problem_;
   const FoldoverFreeOptions& options_;
-  AtomBlocks<D> system_;
-  std::vector<double> lengths_;  // of each atom: its unit is the inverse
-  std::vector<Place> at_, trial_;
-  std::vector<double> gradient_, direction_;
+  ElementBlocks<D> system_;
+  double unit_;
+  std::vector<Watch> watched_;
+  Places at_, trial_;
+  std::vector<double> direction_;
+  std::vector<Derivatives> derivatives_;  // of some elements at once
   double epsilon_ = 1.0, energy_ = 0.0, fall_ = 0.0, damping_ = kFirstDamping, alpha_ = 1.0;
 };
 
+// ---- what is watched ----
+
 template <int D>
-typename FoldoverFree<D>::Standing FoldoverFree<D>::stand(const std::vector<Place>& displacements) const {
-  Standing result;
-  for (std::size_t a = 0; a < problem_.atoms.size(); ++a) {
-    const MatrixAgainstIdeal<D> t = matrix(a, displacements);
-    result.inverted += t.determinant <= 0.0 ? 1 : 0;
-    result.least_jacobian = std::min(result.least_jacobian, t.determinant);
-    result.least = std::min(result.least, t.square > 0.0 ? inverse_norm_power<D>(t.square) * t.determinant : 0.0);
+typename FoldoverFree<D>::Watch FoldoverFree<D>::corners_that_move(std::size_t index) const {
+  const Element& element = problem_.elements[index];
+  const auto samples = corner_samples<D>(element.kind);
+  Watch watch;
+  for (std::size_t s = 0; s < samples.size(); ++s) {
+    if (moves(element, samples[s]))
+      watch.bits |= 1U << s;
+    else
+      watch.is_lost = watch.is_lost || !(matrix(samples[s], element.corners).determinant > 0.0);
   }
+  return watch;
+}
+
+template <int D>
+void FoldoverFree<D>::watch_inside(std::size_t index) {
+  const Element& element = problem_.elements[index];
+  const auto samples = inner_samples<D>(element.kind);
+  const std::size_t first = corner_samples<D>(element.kind).size();
+  for (std::size_t s = 0; s < samples.size(); ++s)
+    if (moves(element, samples[s])) watched_[index].bits |= 1U << (first + s);
+}
+
+template <int D>
+typename FoldoverFree<D>::Corners FoldoverFree<D>::corners(std::size_t index, const Places& displacements) const {
+  const Element& element = problem_.elements[index];
+  Corners result = element.corners;
+  for (std::size_t k = 0; k < info(element.kind).corners; ++k)
+    if (const Index v = element.vertices[k]; v < problem_.free_vertices)
+      for (std::size_t r = 0; r < kD; ++r) result[k][r] += displacements[v][r];
   return result;
 }
 
 template <int D>
-double FoldoverFree<D>::energy(const std::vector<Place>& displacements) const {
-  double sum = 0.0;
-  for (std::size_t a = 0; a < problem_.atoms.size(); ++a) {
-    const MatrixAgainstIdeal<D> t = matrix(a, displacements);
-    const double j = t.determinant, chi = Wall(j, epsilon_).value;
-    sum += t.square / (D * power_of<D>(chi)) + options_.theta * (j * j + 1.0) / chi;
+typename FoldoverFree<D>::Matrix FoldoverFree<D>::matrix(const Sample& sample, const Corners& corners) const {
+  Matrix result;
+  for (std::size_t i = 0; i < sample.count; ++i) {
+    const Place& corner = corners[sample.corners[i]];
+    for (std::size_t c = 0; c < kD; ++c)
+      for (std::size_t r = 0; r < kD; ++r) result.column[c][r] += sample.slopes[i][c] * corner[r];
   }
+  for (auto& column : result.column)
+    for (double& x : column) x *= unit_;
+  result.measure();
+  return result;
+}
+
+template <int D>
+bool FoldoverFree<D>::proved_inside(std::size_t index, const Corners& corners) const {
+  if constexpr (D == 3) {
+    const auto proved = [&]<std::size_t N>(auto shape, std::array<Vec3, N>& at) {
+      for (std::size_t k = 0; k < N; ++k) at[k] = {corners[k][0], corners[k][1], corners[k][2]};
+      shape.at = at;
+      return validity_of(shape).proved;
+    };
+    if (problem_.elements[index].kind == ElementKind::Hexahedron) {
+      std::array<Vec3, 8> at{};
+      return proved(formulas::Hexahedron<Vec3>{}, at);
+    }
+    if (problem_.elements[index].kind == ElementKind::Wedge) {
+      std::array<Vec3, 6> at{};
+      return proved(formulas::Wedge<Vec3>{}, at);
+    }
+  }
+  return true;
+}
+
+template <int D>
+typename FoldoverFree<D>::Standing FoldoverFree<D>::stand(const Places& displacements) const {
+  std::vector<Standing> parts((problem_.elements.size() + kGrain - 1) / kGrain);
+  for_chunks(options_.pool, problem_.elements.size(), kGrain, [&](std::size_t first, std::size_t last) {
+    Standing& part = parts[first / kGrain];
+    for (std::size_t e = first; e < last; ++e) {
+      const Corners at = corners(e, displacements);
+      bool sound = true;
+      for_watched(e, [&](const Sample& sample, bool is_corner) {
+        const Matrix t = matrix(sample, at);
+        sound = sound && (!is_corner || t.determinant > 0.0);
+        part.least_jacobian = std::min(part.least_jacobian, t.determinant);
+        if (is_corner) part.least = std::min(part.least, t.square > 0.0 ? inverse_norm_power<D>(t.square) * t.determinant : 0.0);
+      });
+      if (sound && !watched_[e].is_lost && !proved_inside(e, at)) {
+        part.inside.push_back(e);
+        sound = false;
+      }
+      part.inverted += sound ? 0 : 1;
+    }
+  });
+  Standing result;
+  for (const Standing& part : parts) {
+    result.inverted += part.inverted;
+    result.least = std::min(result.least, part.least);
+    result.least_jacobian = std::min(result.least_jacobian, part.least_jacobian);
+    result.inside.insert(result.inside.end(), part.inside.begin(), part.inside.end());
+  }
+  return result;
+}
+
+// ---- the energy ----
+
+template <int D>
+double FoldoverFree<D>::energy(const Places& displacements) const {
+  std::vector<double> parts((problem_.elements.size() + kGrain - 1) / kGrain, 0.0);
+  for_chunks(options_.pool, problem_.elements.size(), kGrain, [&](std::size_t first, std::size_t last) {
+    double& sum = parts[first / kGrain];
+    for (std::size_t e = first; e < last; ++e) {
+      const Corners at = corners(e, displacements);
+      for_watched(e, [&](const Sample& sample, bool) {
+        const Matrix t = matrix(sample, at);
+        const double j = t.determinant, chi = Wall(j, epsilon_).value;
+        sum += t.square / (D * scale_of<D>(chi)) + options_.theta * (j * j + 1.0) / chi;
+      });
+    }
+  });
+  double sum = 0.0;
+  for (const double part : parts) sum += part;
   return sum;
 }
 
 /// The Hessian is that of the energy with J linear in the vertices and chi linear in J where shapes are concerned: positive semidefinite.
 template <int D>
-void FoldoverFree<D>::derive(const MatrixAgainstIdeal<D>& matrix, typename AtomBlocks<D>::Gradient& g,
-                             typename AtomBlocks<D>::Hessian& h) const {
-  const double j = matrix.determinant, p = 2.0 / D, theta = options_.theta;
-  const Wall chi(j, epsilon_);
-  const double s = 1.0 / power_of<D>(chi.value), shape = matrix.square / D * s, steep = chi.first / chi.value;
-  const double size = (j * j + 1.0) / chi.value;
-  const double by_j = -p * shape * steep + theta * (2.0 * j / chi.value - size * steep);
-  const double bend = theta * (2.0 / chi.value - 4.0 * j / chi.value * steep + size * (2.0 * steep * steep - chi.second / chi.value));
-  const double twice = p * (p + 1.0) * shape * steep * steep + std::max(0.0, bend), both = -p * (2.0 / D) * s * steep;
-  const auto t = flat<D>(matrix.column, 1.0), c = flat<D>(matrix.cofactor, 1.0);
-  for (std::size_t i = 0; i < kEdges; ++i) {
-    g[i] = 2.0 / D * s * t[i] + by_j * c[i];
-    for (std::size_t k = 0; k < kEdges; ++k) h[i * kEdges + k] = both * (t[i] * c[k] + c[i] * t[k]) + twice * (c[i] * c[k]);
-    h[i * kEdges + i] += 2.0 / D * s;
-  }
+void FoldoverFree<D>::derive(std::size_t index, const Corners& at, Derivatives& result) const {
+  result = {};
+  for_watched(index, [&](const Sample& sample, bool) {
+    const Matrix t = matrix(sample, at);
+    const double j = t.determinant, p = 2.0 / D, theta = options_.theta;
+    const Wall chi(j, epsilon_);
+    const double s = 1.0 / scale_of<D>(chi.value), shape = t.square / D * s, steep = chi.first / chi.value;
+    const double size = (j * j + 1.0) / chi.value;
+    const double by_j = -p * shape * steep + theta * (2.0 * j / chi.value - size * steep);
+    const double bend = theta * (2.0 / chi.value - 4.0 * j / chi.value * steep + size * (2.0 * steep * steep - chi.second / chi.value));
+    const double twice = p * (p + 1.0) * shape * steep * steep + std::max(0.0, bend), both = -p * (2.0 / D) * s * steep;
+    std::array<Place, 8> by_square{}, by_determinant{};  // derivatives of half the square, and of J, by the corners
+    for (std::size_t i = 0; i < sample.count; ++i) {
+      for (std::size_t c = 0; c < kD; ++c)
+        for (std::size_t r = 0; r < kD; ++r) {
+          by_square[i][r] += unit_ * sample.slopes[i][c] * t.column[c][r];
+          by_determinant[i][r] += unit_ * sample.slopes[i][c] * t.cofactor[c][r];
+        }
+      for (std::size_t r = 0; r < kD; ++r)
+        result.gradient[sample.corners[i]][r] += 2.0 / D * s * by_square[i][r] + by_j * by_determinant[i][r];
+    }
+    for (std::size_t i = 0; i < sample.count; ++i)
+      for (std::size_t m = 0; m < sample.count; ++m) {
+        const std::size_t k = sample.corners[i], l = sample.corners[m];
+        if (l > k) continue;
+        double slopes = 0.0;
+        for (std::size_t c = 0; c < kD; ++c) slopes += sample.slopes[i][c] * sample.slopes[m][c];
+        auto& block = result.hessian[k * (k + 1) / 2 + l];
+        for (std::size_t r = 0; r < kD; ++r) {
+          for (std::size_t c = 0; c < kD; ++c)
+            block[r * kD + c] += both * (by_square[i][r] * by_determinant[m][c] + by_determinant[i][r] * by_square[m][c]) +
+                                 twice * (by_determinant[i][r] * by_determinant[m][c]);
+          block[r * kD + r] += 2.0 / D * s * unit_ * unit_ * slopes;
+        }
+      }
+  });
+}
+
+/// Half the sum of |T|^2.
+template <int D>
+void FoldoverFree<D>::derive_springs(std::size_t index, const Corners& at, Derivatives& result) const {
+  result = {};
+  for_watched(index, [&](const Sample& sample, bool) {
+    const Matrix t = matrix(sample, at);
+    for (std::size_t i = 0; i < sample.count; ++i) {
+      for (std::size_t c = 0; c < kD; ++c)
+        for (std::size_t r = 0; r < kD; ++r) result.gradient[sample.corners[i]][r] += unit_ * sample.slopes[i][c] * t.column[c][r];
+      for (std::size_t m = 0; m < sample.count; ++m) {
+        const std::size_t k = sample.corners[i], l = sample.corners[m];
+        if (l > k) continue;
+        double slopes = 0.0;
+        for (std::size_t c = 0; c < kD; ++c) slopes += sample.slopes[i][c] * sample.slopes[m][c];
+        for (std::size_t r = 0; r < kD; ++r) result.hessian[k * (k + 1) / 2 + l][r * kD + r] += unit_ * unit_ * slopes;
+      }
+    }
+  });
 }
 
 template <int D>
-void FoldoverFree<D>::assemble() {
-  system_.cholesky.clear();
-  gradient_.assign(problem_.free_vertices * kD, 0.0);
-  typename AtomBlocks<D>::Gradient g{};
-  typename AtomBlocks<D>::Hessian h{};
-  AtomDerivatives<D> derivatives;
-  for (std::size_t a = 0; a < problem_.atoms.size(); ++a) {
-    const MatrixAgainstIdeal<D> t = matrix(a, at_);
-    derive(t, g, h);
-    t.to_edges(g, h, derivatives);
-    const double unit = lengths_[a];
-    for (double& x : derivatives.gradient) x *= unit;
-    for (double& x : derivatives.hessian) x *= unit * unit;
-    typename AtomBlocks<D>::ByVertex none{};
-    system_.add_hessian(a, derivatives.hessian, none);
-    system_.add_gradient(a, 1.0, derivatives.gradient, gradient_);
+template <class Derive>
+void FoldoverFree<D>::assemble(const Derive& derive_one) {
+  system_.clear();
+  const std::size_t count = problem_.elements.size();
+  derivatives_.resize(std::min(kAtOnce, count));
+  for (std::size_t begin = 0; begin < count; begin += kAtOnce) {
+    const std::size_t size = std::min(kAtOnce, count - begin);
+    for_chunks(options_.pool, size, kGrain, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) derive_one(begin + i, corners(begin + i, at_), derivatives_[i]);
+    });
+    for (std::size_t i = 0; i < size; ++i) system_.add(begin + i, derivatives_[i]);
   }
+}
+
+// ---- steps ----
+
+/// To where springs along all edges balance.
+template <int D>
+void FoldoverFree<D>::spring() {
+  const auto derive_one = [this](std::size_t e, const Corners& at, Derivatives& result) { derive_springs(e, at, result); };
+  assemble(derive_one);
+  if (problem_.path != nullptr) {
+    std::vector<double> forces = system_.gradient();
+    for (double& x : forces) x = -x;
+    problem_.path->choose(forces);
+    assemble(derive_one);
+  }
+  if (system_.solve(0.0, direction_) && go(1.0)) at_.swap(trial_);
+  if (problem_.path != nullptr) problem_.path->take();
 }
 
 /// Newton's, with more and more of the diagonal on top where the matrix is singular.
 template <int D>
 bool FoldoverFree<D>::find_direction() {
+  if (problem_.path != nullptr) {
+    assemble();
+    std::vector<double> forces = system_.gradient();
+    for (double& x : forces) x = -x;
+    problem_.path->choose(forces);
+  }
   for (; damping_ <= kMostDamping; damping_ *= 10.0) {
     assemble();
-    system_.scale_diagonal(1.0 + kOntoDiagonal + damping_);
-    if (!system_.cholesky.factorise()) continue;
-    direction_ = gradient_;
-    for (double& x : direction_) x = -x;
-    system_.cholesky.solve(direction_);
-    return true;
+    if (system_.solve(damping_, direction_)) return true;
   }
   return false;
+}
+
+/// Tries a share of the direction. False: the trial cannot be.
+template <int D>
+bool FoldoverFree<D>::go(double share) {
+  for (std::size_t v = 0; v < at_.size(); ++v)
+    for (std::size_t r = 0; r < kD; ++r) trial_[v][r] = at_[v][r] + share * direction_[v * kD + r];
+  return problem_.path == nullptr || problem_.path->put_back(at_, trial_);
 }
 
 template <int D>
 bool FoldoverFree<D>::step() {
   if (!find_direction()) return false;
   double slope = 0.0;
-  for (std::size_t i = 0; i < direction_.size(); ++i) slope += direction_[i] * gradient_[i];
+  for (std::size_t i = 0; i < direction_.size(); ++i) slope += direction_[i] * system_.gradient()[i];
   if (!(slope < 0.0)) return false;
   alpha_ = 1.0;
   for (int attempt = 0; attempt < 30; ++attempt, alpha_ *= 0.6) {
-    for (std::size_t v = 0; v < at_.size(); ++v)
-      for (std::size_t r = 0; r < kD; ++r) trial_[v][r] = at_[v][r] + alpha_ * direction_[v * kD + r];
+    if (!go(alpha_)) continue;
     const double there = energy(trial_);
     if (!(there <= energy_ + 1e-4 * alpha_ * slope)) continue;
     fall_ = 1.0 - there / energy_;
     energy_ = there;
     at_.swap(trial_);
+    if (problem_.path != nullptr) problem_.path->take();
     return true;
   }
   return false;
@@ -193,25 +384,30 @@ void FoldoverFree<D>::lower_epsilon(double j, double fall) {
 }
 
 template <int D>
-FoldoverFreeSolution<D> FoldoverFree<D>::solve(std::vector<Place> start, const std::function<void(const FoldoverFreeIterate<D>&)>& on_step,
-                                               Progress& progress) {
+FoldoverFreeSolution<D> FoldoverFree<D>::solve(const std::function<void(const FoldoverFreeIterate<D>&)>& on_step, Progress& progress) {
   FoldoverFreeSolution<D> solution;
   solution.best.assign(problem_.free_vertices, Place{});
-  const Standing before = stand(solution.best);
-  solution.start_inverted = solution.inverted = before.inverted;
-  solution.start_least = solution.least = before.least;
-  at_ = trial_ = std::move(start);
-  Standing now = stand(at_);
-  epsilon_ = now.least_jacobian > 0.0 ? 1e-3 : std::sqrt(1e-6 + 0.04 * now.least_jacobian * now.least_jacobian);
-  energy_ = energy(at_);
+  Standing now = stand(solution.best);
+  solution.start_inverted = solution.inverted = now.inverted;
+  solution.start_least = solution.least = now.least;
+  at_ = trial_ = solution.best;
   const auto keep = [&] {
     if (now.least < solution.start_least || now.inverted > solution.inverted) return;
     if (now.inverted == solution.inverted && now.least <= solution.least) return;
     solution.best = at_;
     solution.inverted = now.inverted;
     solution.least = now.least;
+    if (problem_.path != nullptr) problem_.path->keep_best();
   };
-  keep();
+  if (options_.springs_first) {
+    spring();
+    now = stand(at_);
+    keep();
+  }
+  for (const std::size_t e : now.inside) watch_inside(e);
+  if (!now.inside.empty()) now = stand(at_);
+  epsilon_ = now.least_jacobian > 0.0 ? 1e-3 : std::sqrt(1e-6 + 0.04 * now.least_jacobian * now.least_jacobian);
+  energy_ = energy(at_);
   for (int afterwards = 0; solution.steps < options_.max_steps && afterwards <= kAfterwards;) {
     progress.check();
     if (!step()) break;
@@ -223,6 +419,7 @@ FoldoverFreeSolution<D> FoldoverFree<D>::solve(std::vector<Place> start, const s
     if (now.inverted == 0) ++afterwards;
     if (epsilon_ < kHopeless * -now.least_jacobian) break;
     lower_epsilon(now.least_jacobian, fall_);
+    for (const std::size_t e : now.inside) watch_inside(e);
     energy_ = energy(at_);
     if (!std::isfinite(energy_)) break;
   }
@@ -232,46 +429,14 @@ FoldoverFreeSolution<D> FoldoverFree<D>::solve(std::vector<Place> start, const s
 }  // namespace
 
 template <int D>
-FoldoverFreeSolution<D> solve_foldover_free(const JointProblem<D>& problem, std::vector<std::array<double, D>> start,
-                                            const FoldoverFreeOptions& options,
+FoldoverFreeSolution<D> solve_foldover_free(const FoldoverFreeProblem<D>& problem, const FoldoverFreeOptions& options,
                                             const std::function<void(const FoldoverFreeIterate<D>&)>& on_step, Progress& progress) {
-  return FoldoverFree<D>(problem, options).solve(std::move(start), on_step, progress);
+  return FoldoverFree<D>(problem, options).solve(on_step, progress);
 }
 
-template <int D>
-std::vector<std::array<double, D>> sprung_displacements(const JointProblem<D>& problem) {
-  constexpr std::size_t kD = D, kEdges = kD * kD;
-  AtomBlocks<D> system(problem);
-  std::vector<double> pull(problem.free_vertices * kD, 0.0);
-  for (std::size_t a = 0; a < problem.atoms.size(); ++a) {
-    const AtomShape shape = problem.atoms[a].shape;
-    const bool simplex = shape == AtomShape::Triangle || shape == AtomShape::Tetrahedron;  // its other edges as well, e_i - e_j
-    typename AtomBlocks<D>::Hessian h{};
-    typename AtomBlocks<D>::Gradient g{};
-    for (std::size_t i = 0; i < kEdges; ++i)
-      for (std::size_t j = i % kD; j < kEdges; j += kD) {
-        const double weight = i == j ? (simplex ? D : 1.0) : (simplex ? -1.0 : 0.0);
-        h[i * kEdges + j] = weight;
-        g[i] += weight * problem.edges[a][j / kD][j % kD];
-      }
-    system.add_hessian(a, h, {});
-    system.add_gradient(a, -1.0, g, pull);
-  }
-  system.scale_diagonal(1.0 + kOntoDiagonal);
-  std::vector<std::array<double, D>> result(problem.free_vertices);
-  if (!system.cholesky.factorise()) return result;
-  system.cholesky.solve(pull);
-  for (std::size_t i = 0; i < pull.size(); ++i) result[i / kD][i % kD] = pull[i];
-  return result;
-}
-
-template FoldoverFreeSolution<2> solve_foldover_free<2>(const JointProblem<2>&, std::vector<std::array<double, 2>>,
-                                                        const FoldoverFreeOptions&,
+template FoldoverFreeSolution<2> solve_foldover_free<2>(const FoldoverFreeProblem<2>&, const FoldoverFreeOptions&,
                                                         const std::function<void(const FoldoverFreeIterate<2>&)>&, Progress&);
-template FoldoverFreeSolution<3> solve_foldover_free<3>(const JointProblem<3>&, std::vector<std::array<double, 3>>,
-                                                        const FoldoverFreeOptions&,
+template FoldoverFreeSolution<3> solve_foldover_free<3>(const FoldoverFreeProblem<3>&, const FoldoverFreeOptions&,
                                                         const std::function<void(const FoldoverFreeIterate<3>&)>&, Progress&);
-template std::vector<std::array<double, 2>> sprung_displacements<2>(const JointProblem<2>&);
-template std::vector<std::array<double, 3>> sprung_displacements<3>(const JointProblem<3>&);
 
 }  // namespace dmoscope

@@ -1,22 +1,44 @@
 #pragma once
-// Turns inverted atoms the right way round by moving all free vertices together: a foldover-free map (Garanzha, Kaporin, Kudryavtseva,
+// Turns inverted elements the right way round by moving all free vertices together: a foldover-free map (Garanzha, Kaporin, Kudryavtseva,
 // Protais, Ray and Sokolov 2021, "Foldover-free maps in 50 lines of code", ACM Transactions on Graphics 40(4)), by Newton's method.
 //
-// With T an atom's edges against the ideal ones and J its determinant, minimised is the sum of
+// With T the map from an ideal element at a place of an element and J its determinant, minimised is the sum over places of
 //   (|T|^2 / D) / chi(J)^(2 / D) + theta (J^2 + 1) / chi(J),   chi(J) = (J + sqrt(epsilon^2 + J^2)) / 2,
-// finite for any J while epsilon > 0, which falls towards 0: a wall at J = 0 that what is inverted can still pass.
+// finite for any J while epsilon > 0, which falls towards 0: a wall at J = 0 that what is inverted can still pass. The places are the
+// corners; once these are sound, of what is not proved to be valid inside more places as well.
 
+#include <array>
 #include <functional>
 #include <vector>
 
 #include "core/base/progress.h"
-#include "core/joint/interior_point.h"
+#include "core/base/thread_pool.h"
+#include "core/joint/joint_ways.h"
+#include "core/mesh/mesh.h"
 
 namespace dmoscope {
 
+/// Vertices are numbered for this problem: first those that may move. Unknown are their displacements.
+template <int D>
+struct FoldoverFreeProblem {
+  using Place = std::array<double, static_cast<std::size_t>(D)>;
+  struct Element {
+    ElementKind kind;
+    std::array<Index, 8> vertices{};
+    std::array<Place, 8> corners{};  // where they stand undisplaced, from any origin near them
+  };
+  std::size_t free_vertices = 0;
+  std::vector<Place> places;      // of the free ones, roughly
+  std::vector<Element> elements;  // each with a free vertex
+  double size = 1.0;              // what the determinant of an element is to be, against an ideal one with edges of length 1
+  JointWays<D>* path = nullptr;   // of those that slide; null: all may go anywhere
+};
+
 struct FoldoverFreeOptions {
-  double theta = 1.0 / 128.0;  // weighs sizes against shapes
-  int max_steps = 100;         // Newton steps
+  bool springs_first = false;   // begins where springs along all edges would take the vertices
+  double theta = 1.0 / 128.0;   // weighs sizes against shapes
+  int max_steps = 150;          // Newton steps
+  ThreadPool* pool = nullptr;   // null: the calling thread alone; the same bits for any
 };
 
 /// Where it stands after a Newton step.
@@ -24,31 +46,25 @@ template <int D>
 struct FoldoverFreeIterate {
   const std::vector<std::array<double, D>>& displacements;
   int steps = 0;
-  std::size_t inverted = 0;  // atoms with J <= 0
-  double least = 0.0;        // least signed (mean ratio)^(D / 2)
+  std::size_t inverted = 0;  // elements, at corners that can move, or not proved to be valid inside
+  double least = 0.0;        // least signed (mean ratio)^(D / 2) of these corners
 };
 
 template <int D>
 struct FoldoverFreeSolution {
-  /// With the fewest inverted atoms, and of these the best shape of the worst one, which is nowhere worse than at the start. All 0 where
-  /// nothing is better than that.
+  /// With the fewest inverted elements, and of these the best shape of the worst corner, which is nowhere worse than at the start. All 0
+  /// where nothing is better than that.
   std::vector<std::array<double, D>> best;
-  std::size_t start_inverted = 0, inverted = 0;  // atoms
+  std::size_t start_inverted = 0, inverted = 0;
   double start_least = 0.0, least = 0.0;
   int steps = 0;
 };
 
-/// `problem`: with a reference for each atom, the J that is wanted of it. `start`: the displacements to begin with; what is no worse than
-/// none is told against none. Throws Cancelled within one Newton step of Progress::request_cancel(). Every sum has a fixed order.
+/// What is no worse than the start is told against the undisplaced vertices. Throws Cancelled within one Newton step of
+/// Progress::request_cancel(). Every sum has a fixed order.
 template <int D>
-[[nodiscard]] FoldoverFreeSolution<D> solve_foldover_free(const JointProblem<D>& problem, std::vector<std::array<double, D>> start,
-                                                          const FoldoverFreeOptions& options,
+[[nodiscard]] FoldoverFreeSolution<D> solve_foldover_free(const FoldoverFreeProblem<D>& problem, const FoldoverFreeOptions& options,
                                                           const std::function<void(const FoldoverFreeIterate<D>&)>& on_step,
                                                           Progress& progress);
-
-/// Displacements that take every free vertex to the mean of its neighbours: of the edges of atoms all at once, as of a net of equal
-/// springs.
-template <int D>
-[[nodiscard]] std::vector<std::array<double, D>> sprung_displacements(const JointProblem<D>& problem);
 
 }  // namespace dmoscope

@@ -76,14 +76,13 @@ class JointClusters::Of final : public Base {
  private:
   std::optional<JointCluster> untangle(std::span<Vec3> positions, JointState& state, const JointOptions& options,
                                        Progress& progress) const {
-    const Domain* domain = sliding_.domain.get();
-    if (mesh_.input().is_surface()) return std::nullopt;  // all that moves slides, and what slides stays here
-    if (domain == nullptr && mesh_.metric() == Metric::MeanRatio)
-      return Untangler<D>(mesh_, Metric::MeanRatio, positions, state, options, progress).run();
+    if (mesh_.input().is_surface()) return std::nullopt;
+    if (mesh_.metric() == Metric::MeanRatio)
+      return Untangler<D>(mesh_, Metric::MeanRatio, sliding_, positions, state, options, progress).run();
     std::vector<std::uint8_t> fixed(positions.size(), 1);
-    for (const Index v : mesh_.free_vertices()) fixed[v] = domain != nullptr && domain->slides(v) ? 1 : 0;
+    for (const Index v : mesh_.free_vertices()) fixed[v] = 0;
     const JointMesh<D> by_mean_ratio(mesh_.input(), Metric::MeanRatio, fixed);
-    return Untangler<D>(by_mean_ratio, mesh_.metric(), positions, state, options, progress).run();
+    return Untangler<D>(by_mean_ratio, mesh_.metric(), sliding_, positions, state, options, progress).run();
   }
   JointMesh<D> mesh_;
   std::optional<JointMesh<D>> second_;                          // of the second aim; none: there is one

@@ -37,25 +37,52 @@ template <int D>
   }
 }
 
-/// T with its determinant, the derivative of that by T, and the square of its norm.
+/// A matrix with its determinant, the derivative of that by it, and the square of its norm.
 template <int D>
-class MatrixAgainstIdeal {
- public:
+struct MatrixOfColumns {
   static constexpr std::size_t kD = D, kCount = kD * kD;
   using Column = std::array<double, kD>;
 
-  MatrixAgainstIdeal(AtomShape shape, const AtomEdges<D>& edges) : weights_(ideal_weights<D>(shape)) {
-    for (std::size_t c = 0; c < kD; ++c)
-      for (std::size_t j = 0; j < kD; ++j)
-        for (std::size_t r = 0; r < kD; ++r) column[c][r] += weights_[j][c] * edges[j][r];
+  MatrixOfColumns() = default;
+  explicit MatrixOfColumns(const std::array<Column, kD>& columns) : column(columns) { measure(); }
+  /// Of the columns as they are now.
+  void measure() {
     if constexpr (D == 2) {
       cofactor = {{{column[1][1], -column[1][0]}, {-column[0][1], column[0][0]}}};
     } else {
       cofactor = {cross(column[1], column[2]), cross(column[2], column[0]), cross(column[0], column[1])};
     }
+    determinant = square = 0.0;
     for (std::size_t r = 0; r < kD; ++r) determinant += column[0][r] * cofactor[0][r];
     for (const Column& c : column)
       for (const double x : c) square += x * x;
+  }
+
+  std::array<Column, kD> column{}, cofactor{};
+  double determinant = 0.0, square = 0.0;
+
+ private:
+  static Column cross(const Column& a, const Column& b) {
+    if constexpr (D == 3)
+      return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    else
+      return {};
+  }
+};
+
+/// T of an atom.
+template <int D>
+class MatrixAgainstIdeal : public MatrixOfColumns<D> {
+ public:
+  using Base = MatrixOfColumns<D>;
+  using typename Base::Column;
+  using Base::kCount, Base::kD, Base::column;
+
+  MatrixAgainstIdeal(AtomShape shape, const AtomEdges<D>& edges) : weights_(ideal_weights<D>(shape)) {
+    for (std::size_t c = 0; c < kD; ++c)
+      for (std::size_t j = 0; j < kD; ++j)
+        for (std::size_t r = 0; r < kD; ++r) column[c][r] += weights_[j][c] * edges[j][r];
+    this->measure();
   }
 
   /// Adds w times the second derivatives of the determinant by T to a matrix of T's entries, column by column.
@@ -100,16 +127,7 @@ class MatrixAgainstIdeal {
       }
   }
 
-  std::array<Column, kD> column{}, cofactor{};
-  double determinant = 0.0, square = 0.0;
-
  private:
-  static Column cross(const Column& a, const Column& b) {
-    if constexpr (D == 3)
-      return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-    else
-      return {};
-  }
   IdealWeights<D> weights_;
 };
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "core/base/same_bits.h"
-#include "core/joint/foldover_free.h"
+#include "core/joint/atoms.h"
 #include "core/mesh/volume.h"
 #include "core/quality/quality.h"
 
@@ -14,8 +14,7 @@ namespace dmoscope {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr int kInteriorPointSteps = 30;  // what leads out does so soon
-constexpr double kEnough = 0.95;         // an f: far enough from inverted
+constexpr double kMostlyInverted = 0.3;  // share of a patch's elements from which on their places tell little
 
 /// What an element with edges of length 1 measures, by kind.
 constexpr std::array<double, kElementKindCount> kIdealSizes{0.4330127018922193, 1.0, 0.11785113019775793, 1.0, 0.4330127018922193,
@@ -35,19 +34,22 @@ double area(const InputMesh& input, std::span<const Vec3> positions, Index eleme
 }  // namespace
 
 template <int D>
-Untangler<D>::Untangler(const JointMesh<D>& mesh, Metric metric, std::span<Vec3> positions, JointState& state, const JointOptions& options,
-                        Progress& progress)
+Untangler<D>::Untangler(const JointMesh<D>& mesh, Metric metric, const JointSliding& sliding, std::span<Vec3> positions, JointState& state,
+                        const JointOptions& options, Progress& progress)
     : mesh_(mesh),
       metric_(metric),
+      domain_(sliding.domain.get()),
       positions_(positions),
       state_(state),
       options_(options),
       progress_(progress),
       most_together_(options.whole_at_most > 0 ? options.whole_at_most
-                     : D == 2                  ? 20000
-                                               : 3000),
+                     : D == 2                  ? 100000
+                                               : 20000),
       before_(kInfinity),
-      after_(kInfinity) {}
+      after_(kInfinity) {
+  if (domain_ != nullptr) limit_.emplace(*domain_, sliding.max_deviation);
+}
 
 template <int D>
 Untangler<D>::~Untangler() {
@@ -57,9 +59,7 @@ Untangler<D>::~Untangler() {
 
 template <int D>
 std::optional<JointCluster> Untangler<D>::run() {
-  std::vector<Index> inverted;
-  if (state_.untanglings < kMostAttempts) inverted = inverted_elements();
-  if (!inverted.empty()) attempt_all(inverted);
+  if (state_.untanglings < kMostCalls) grow(inverted_elements());
   finished_ = true;
   if (moved_from_.empty()) return std::nullopt;
   state_.atoms.clear();  // what is known of elements is of before
@@ -70,29 +70,21 @@ std::optional<JointCluster> Untangler<D>::run() {
   return told();
 }
 
-/// One attempt after another, from where the last call ended, until one helps; where none does that is the end of it.
+/// By more and more rings. Where that helps nothing it is the end of it.
 template <int D>
-void Untangler<D>::attempt_all(const std::vector<Index>& inverted) {
-  std::uint32_t& next = state_.untanglings;
-  std::vector<std::vector<Index>> groups;
-  int rings = 0;
-  bool same = false;  // as with fewer rings: they were tried in this call
-  for (std::size_t tried = 0; tried < kAttempts.size(); ++tried) {
-    if (next == kMostAttempts) return;
-    const Attempt& attempt = kAttempts[next++ % kAttempts.size()];
-    if (options_.only_untangle && attempt.rings == kWhole) return;
-    if (attempt.rings != rings) {
-      std::vector<std::vector<Index>> others = patches(inverted, attempt.rings);
-      same = attempt.rings > rings && others == groups;
-      groups = std::move(others);
-      rings = attempt.rings;
-    }
-    if (same) continue;
-    for (const std::vector<Index>& patch : groups)
-      if (untangle(patch, attempt.way)) vertices_.insert(vertices_.end(), patch.begin(), patch.end());
-    if (!moved_from_.empty()) return;
+void Untangler<D>::grow(std::vector<Index> inverted) {
+  if (inverted.empty()) return;
+  ++state_.untanglings;
+  std::vector<Patch> before;
+  for (const int rings : kRings) {
+    std::vector<Patch> groups = patches(inverted, rings);
+    for (const Patch& patch : groups)
+      if (std::ranges::find(before, patch) == before.end()) untangle(patch);
+    inverted = inverted_elements();
+    if (inverted.empty()) return;
+    before = std::move(groups);
   }
-  next = kMostAttempts;
+  if (moved_from_.empty()) state_.untanglings = kMostCalls;
 }
 
 /// Those that could be turned: the corners at fault have free vertices, or none is and it is inverted inside.
@@ -140,14 +132,14 @@ std::vector<int> Untangler<D>::rings_from(const std::vector<Index>& inverted, in
 
 /// Of those among `vertices` that are up to so many rings away the connected patches, in pieces of at most `most` vertices; each ascending.
 template <int D>
-std::vector<std::vector<Index>> Untangler<D>::connected(std::span<const Index> vertices, const std::vector<int>& rings, int limit,
+std::vector<typename Untangler<D>::Patch> Untangler<D>::connected(std::span<const Index> vertices, const std::vector<int>& rings, int limit,
                                                         std::size_t most) const {
   std::vector<std::uint8_t> open(positions_.size(), 0);
   for (const Index v : vertices) open[v] = rings[v] <= limit ? 1 : 0;
-  std::vector<std::vector<Index>> result;
+  std::vector<Patch> result;
   for (const Index first : vertices) {
     if (open[first] == 0) continue;
-    std::vector<Index> patch{first};
+    Patch patch{first};
     open[first] = 0;
     for (std::size_t i = 0; i < patch.size(); ++i)
       for (const Incidence& incidence : mesh_.input().topology.star(patch[i]))
@@ -165,55 +157,137 @@ std::vector<std::vector<Index>> Untangler<D>::connected(std::span<const Index> v
 /// Free vertices within so many rings of the inverted elements, by connected patches. Those that are too large have fewer rings, and at
 /// last are cut.
 template <int D>
-std::vector<std::vector<Index>> Untangler<D>::patches(const std::vector<Index>& inverted, int most) const {
+std::vector<typename Untangler<D>::Patch> Untangler<D>::patches(const std::vector<Index>& inverted, int most) const {
   const std::vector<int> rings = rings_from(inverted, most);
   int limit = 0;
   for (const int ring : rings)
     if (ring != kFar) limit = std::max(limit, ring);
-  std::vector<std::vector<Index>> result, large{{mesh_.free_vertices().begin(), mesh_.free_vertices().end()}};
+  std::vector<Patch> result, large{{mesh_.free_vertices().begin(), mesh_.free_vertices().end()}};
   for (bool is_last = false; !large.empty() && !is_last; limit /= 2) {
     is_last = limit == 0;
-    std::vector<std::vector<Index>> next;
-    for (const std::vector<Index>& one : large)
-      for (std::vector<Index>& patch : connected(one, rings, limit, is_last ? most_together_ : one.size()))
+    std::vector<Patch> next;
+    for (const Patch& one : large)
+      for (Patch& patch : connected(one, rings, limit, is_last ? most_together_ : one.size()))
         (patch.size() <= most_together_ ? result : next).push_back(std::move(patch));
     large = std::move(next);
   }
   return result;
 }
 
-/// The determinant of atoms that are all alike, if their elements filled what these do; that does not depend on where the free vertices
-/// are.
+// ---- one patch ----
+
+/// Of its vertices, ascending.
 template <int D>
-double Untangler<D>::reference(const LocalProblem<D>& local) const {
-  const InputMesh& input = mesh_.input();
-  double sum = 0.0, ideal = 0.0;
-  for (const Index e : mesh_.elements_at(local.free())) {
-    if constexpr (D == 2)
-      sum += area(input, positions_, e);
-    else
-      sum += signed_volume(input.mesh.elements, positions_, e);
-    ideal += kIdealSizes[static_cast<std::size_t>(input.mesh.elements.kind(e))];
-  }
-  double mean = ideal > 0.0 ? sum / ideal : 0.0;
-  for (int i = 0; i < D; ++i) mean *= local.scale;
-  if (mean > 1e-30) return mean;
-  // They enclose less than nothing.
-  double jacobians = 0.0;
-  for (std::size_t a = 0; a < local.problem.atoms.size(); ++a)
-    jacobians += std::fabs(atom_jacobian<D>(local.problem.atoms[a].shape, local.problem.edges[a]));
-  mean = jacobians / static_cast<double>(local.problem.atoms.size());
-  return mean > 1e-30 ? mean : 1.0;
+std::vector<Index> Untangler<D>::elements_of(const Patch& patch) const {
+  std::vector<Index> elements = mesh_.elements_at(patch);
+  std::erase_if(elements, [&](Index e) { return info(mesh_.input().mesh.elements.kind(e)).dimension != D; });
+  return elements;
 }
 
 template <int D>
-bool Untangler<D>::untangle(const std::vector<Index>& patch, Way way) {
-  LocalProblem<D> local = mesh_.problem(patch, positions_);
-  local.problem.references.assign(local.problem.atoms.size(), reference(local));
-  const Offsets displacements = way == Way::SignedPower ? by_interior_point(local) : by_foldover_free(local, way == Way::Sprung);
+LocalProblem<D> Untangler<D>::local_problem(const Patch& patch) const {
+  LocalProblem<D> local;
+  local.problem.free_vertices = patch.size();
+  local.vertices = patch;
+  double longest = 0.0;
+  for (const Index v : patch)
+    for (const Index a : mesh_.atoms_at(v))
+      for (const auto& edge : mesh_.edges(mesh_.atoms()[a], positions_))
+        for (const double x : edge) longest = std::max(longest, std::fabs(x));
+  int power = 0;
+  if (longest > 0.0) (void)std::frexp(longest, &power);
+  local.scale = std::ldexp(1.0, -power);
+  return local;
+}
+
+template <int D>
+FoldoverFreeProblem<D> Untangler<D>::pose(const LocalProblem<D>& local) const {
+  const ElementTable& elements = mesh_.input().mesh.elements;
+  FoldoverFreeProblem<D> problem;
+  problem.free_vertices = local.vertices.size();
+  std::vector<Index> number(positions_.size(), kNoIndex);
+  for (Index i = 0; i < local.vertices.size(); ++i) number[local.vertices[i]] = i;
+  const auto offset = [&](Index v, Index from) {
+    auto result = mesh_.in_frame(mesh_.difference(positions_[v], positions_[from]));
+    for (double& x : result) x *= local.scale;
+    return result;
+  };
+  for (const Index v : local.vertices) problem.places.push_back(offset(v, local.vertices[0]));
+  const std::vector<Index> around = elements_of(local.vertices);
+  problem.elements.reserve(around.size());
+  for (const Index e : around) {
+    typename FoldoverFreeProblem<D>::Element element{.kind = elements.kind(e)};
+    const auto corners = elements.corners(e);
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      element.vertices[k] = number[corners[k]];
+      element.corners[k] = offset(corners[k], corners[0]);
+    }
+    problem.elements.push_back(element);
+  }
+  problem.size = size(around);
+  for (int i = 0; i < D; ++i) problem.size *= local.scale;
+  if (!(problem.size > 1e-30)) problem.size = 1.0;
+  return problem;
+}
+
+/// What an ideal element of edges 1 is to be scaled by, if all were alike and filled what these do; that does not depend on where the free
+/// vertices are.
+template <int D>
+double Untangler<D>::size(const std::vector<Index>& elements) const {
+  const InputMesh& input = mesh_.input();
+  double sum = 0.0, all = 0.0, ideal = 0.0;
+  for (const Index e : elements) {
+    double measure = 0.0;
+    if constexpr (D == 2)
+      measure = area(input, positions_, e);
+    else
+      measure = signed_volume(input.mesh.elements, positions_, e);
+    sum += measure;
+    all += std::fabs(measure);
+    ideal += kIdealSizes[static_cast<std::size_t>(input.mesh.elements.kind(e))];
+  }
+  return (sum > 0.0 ? sum : all) / ideal;  // or they enclose less than nothing
+}
+
+/// From where they stand, and where springs take them: the other one first where most are inverted.
+template <int D>
+void Untangler<D>::untangle(const Patch& patch) {
+  const QualityContext context = mesh_.input().quality_context();
+  const std::vector<Index> elements = elements_of(patch);
+  const auto inverted = std::ranges::count_if(
+      elements, [&](Index e) { return smallest_jacobian(context, std::span<const Vec3>(positions_), e) <= 0.0; });
+  const bool springs = static_cast<double>(inverted) > kMostlyInverted * static_cast<double>(elements.size());
+  const std::size_t moves = moved_from_.size();
+  if (untangle(patch, springs) > 0) (void)untangle(patch, !springs);
+  if (moved_from_.size() > moves) vertices_.insert(vertices_.end(), patch.begin(), patch.end());
+}
+
+/// Returns how many elements that could be turned are left inverted.
+template <int D>
+Index Untangler<D>::untangle(const Patch& patch, bool springs_first) {
+  const LocalProblem<D> local = local_problem(patch);
+  FoldoverFreeProblem<D> problem = pose(local);
+  std::unique_ptr<SlidingPath<D>> path;
+  if (domain_ != nullptr) path = std::make_unique<SlidingPath<D>>(mesh_, local, positions_, *domain_, *limit_);
+  if (path && path->any()) problem.path = path.get();
+  const FoldoverFreeSolution<D> solution = solve_foldover_free<D>(
+      problem, {.springs_first = springs_first, .pool = options_.pool},
+      [&](const FoldoverFreeIterate<D>& at) { show(local, at.displacements, at.steps, at.least); }, progress_);
+  newton_steps_ += solution.steps;
   ++solutions_;
-  if (displacements.empty()) return false;
-  const JudgedMove move = mesh_.move(local, displacements, positions_, metric_);
+  if (!(solution.inverted < solution.start_inverted)) return static_cast<Index>(solution.start_inverted);
+  const bool moved = move(local, problem.path != nullptr ? path.get() : nullptr, solution.best);
+  return static_cast<Index>(moved ? solution.inverted : solution.start_inverted);
+}
+
+/// Where that is better by the program's own judgement.
+template <int D>
+bool Untangler<D>::move(const LocalProblem<D>& local, SlidingPath<D>* path, const Offsets& displacements) {
+  std::vector<Vec3> targets;
+  for (std::size_t i = 0; i < displacements.size(); ++i)
+    targets.push_back(mesh_.placed(positions_[local.vertices[i]], displacements[i], local.scale));
+  if (path != nullptr) (void)path->settle(1.0, local.free(), positions_, targets);
+  const JudgedMove move = mesh_.move_to(local, targets, positions_, metric_);
   const bool better = move.inverted_after < move.inverted_before && move.after >= move.before;
   for (std::size_t i = 0; i < move.moved_from.size(); ++i) {
     const Index v = local.vertices[i];
@@ -226,32 +300,6 @@ bool Untangler<D>::untangle(const std::vector<Index>& patch, Way way) {
   before_ = std::min(before_, move.before);
   after_ = std::min(after_, move.after);
   return true;
-}
-
-/// Empty: it leads nowhere.
-template <int D>
-typename Untangler<D>::Offsets Untangler<D>::by_interior_point(const LocalProblem<D>& local) {
-  JointCallbacks<D> callbacks;
-  callbacks.step = [&](const JointIterate<D>& at) { show(local, at.displacements, at.steps, 1.0 - at.worst); };
-  JointSolution<D> solution =
-      solve_joint<D>(local.problem, AtomFunction<D>(Metric::MeanRatio, AtomMeasure::SignedPower),
-                     {.enough = kEnough, .max_steps = kInteriorPointSteps, .pool = options_.pool}, callbacks, progress_);
-  newton_steps_ += solution.last.steps;
-  if (!(solution.best_worst < solution.start_worst)) return {};
-  return std::move(solution.best);
-}
-
-template <int D>
-typename Untangler<D>::Offsets Untangler<D>::by_foldover_free(const LocalProblem<D>& local, bool sprung) {
-  Offsets start(local.problem.free_vertices);
-  if (sprung) start = sprung_displacements<D>(local.problem);
-  FoldoverFreeSolution<D> solution = solve_foldover_free<D>(
-      local.problem, std::move(start), {}, [&](const FoldoverFreeIterate<D>& at) { show(local, at.displacements, at.steps, at.least); },
-      progress_);
-  newton_steps_ += solution.steps;
-  const bool only_inside = solution.start_inverted == 0 && solution.least > solution.start_least;  // what corners do not tell
-  if (!(solution.inverted < solution.start_inverted) && !only_inside) return {};
-  return std::move(solution.best);
 }
 
 template <int D>
@@ -268,8 +316,12 @@ JointCluster Untangler<D>::told() const {
   JointCluster result;
   result.vertices = vertices_;
   std::ranges::sort(result.vertices);
-  for (const auto& [vertex, from] : moved_from_)
-    if (!same_bits(from, positions_[vertex])) result.moved.push_back({vertex, positions_[vertex]});
+  result.vertices.erase(std::unique(result.vertices.begin(), result.vertices.end()), result.vertices.end());
+  std::vector<std::uint8_t> is_known(positions_.size(), 0);  // where it stood at the start
+  for (const auto& [vertex, from] : moved_from_) {
+    if (is_known[vertex] == 0 && !same_bits(from, positions_[vertex])) result.moved.push_back({vertex, positions_[vertex]});
+    is_known[vertex] = 1;
+  }
   std::ranges::sort(result.moved, {}, &JointCluster::Moved::vertex);
   result.before = before_;
   result.after = result.bound = after_;

@@ -51,8 +51,7 @@ DeterminantSample<3> in_hexahedron(const std::array<double, 3>& at) {
   for (std::size_t corner = 0; corner < 8; ++corner) {
     const auto weight = [&](std::size_t axis) { return kUpper[corner][axis] != 0 ? at[axis] : 1.0 - at[axis]; };
     DeterminantSample<3>::Slope slope{};
-    for (std::size_t c = 0; c < 3; ++c)
-      slope[c] = (kUpper[corner][c] != 0 ? 1.0 : -1.0) * weight((c + 1) % 3) * weight((c + 2) % 3);
+    for (std::size_t c = 0; c < 3; ++c) slope[c] = (kUpper[corner][c] != 0 ? 1.0 : -1.0) * weight((c + 1) % 3) * weight((c + 2) % 3);
     if (slope == DeterminantSample<3>::Slope{}) continue;
     sample.corners[sample.count] = static_cast<std::uint8_t>(corner);
     sample.slopes[sample.count++] = slope;

@@ -134,8 +134,7 @@ void ElementBlocks<D>::hold() {
     double stiff = 0.0;
     for (std::size_t r = 0; r < kD; ++r) stiff += block[r * kD + r];
     if (!(stiff > 0.0)) stiff = 1.0;
-    for (std::size_t i = 0; i < kD * kD; ++i)
-      block[i] += stiff * ((i % (kD + 1) == 0 ? 1.0 : 0.0) - problem_.path->ways()[v][i]);
+    for (std::size_t i = 0; i < kD * kD; ++i) block[i] += stiff * ((i % (kD + 1) == 0 ? 1.0 : 0.0) - problem_.path->ways()[v][i]);
   }
 }
 

@@ -35,10 +35,10 @@ struct FoldoverFreeProblem {
 };
 
 struct FoldoverFreeOptions {
-  bool springs_first = false;   // begins where springs along all edges would take the vertices
-  double theta = 1.0 / 128.0;   // weighs sizes against shapes
-  int max_steps = 150;          // Newton steps
-  ThreadPool* pool = nullptr;   // null: the calling thread alone; the same bits for any
+  bool springs_first = false;  // begins where springs along all edges would take the vertices
+  double theta = 1.0 / 128.0;  // weighs sizes against shapes
+  int max_steps = 150;         // Newton steps
+  ThreadPool* pool = nullptr;  // null: the calling thread alone; the same bits for any
 };
 
 /// Where it stands after a Newton step.

@@ -25,7 +25,25 @@ std::vector<std::uint8_t> held(const InputMesh& input, std::span<const std::uint
   return result;
 }
 
+template <int D>
+std::optional<JointCluster> untangle_all(const InputMesh& input, Metric metric, const std::vector<std::uint8_t>& fixed,
+                                         const JointSliding& sliding, std::span<Vec3> positions, const JointOptions& options,
+                                         Progress& progress) {
+  JointState state;
+  const JointMesh<D> by_mean_ratio(input, Metric::MeanRatio, fixed);
+  return Untangler<D>(by_mean_ratio, metric, sliding, positions, state, options, progress).run();
+}
+
 }  // namespace
+
+std::optional<JointCluster> untangle(const InputMesh& input, Metric metric, std::span<const std::uint8_t> fixed,
+                                     const JointSliding& sliding, std::span<Vec3> positions, const JointOptions& options,
+                                     Progress& progress) {
+  if (input.is_surface()) return std::nullopt;
+  const std::vector<std::uint8_t> stays = held(input, fixed, sliding.domain.get());
+  return input.is_volume() ? untangle_all<3>(input, metric, stays, sliding, positions, options, progress)
+                           : untangle_all<2>(input, metric, stays, sliding, positions, options, progress);
+}
 
 class JointClusters::Base {
  public:
@@ -55,7 +73,6 @@ class JointClusters::Of final : public Base {
       state = std::move(next);
       return untangled;
     }
-    if (options.only_untangle) return std::nullopt;
     std::optional<JointCluster> result;
     if (!next.beyond) result = ClusterSearch<D>(mesh_, threshold_, nullptr, sliding_, positions, next, options, progress).run();
     if (!result && second_) {
@@ -84,6 +101,7 @@ class JointClusters::Of final : public Base {
     const JointMesh<D> by_mean_ratio(mesh_.input(), Metric::MeanRatio, fixed);
     return Untangler<D>(by_mean_ratio, mesh_.metric(), sliding_, positions, state, options, progress).run();
   }
+
   JointMesh<D> mesh_;
   std::optional<JointMesh<D>> second_;                          // of the second aim; none: there is one
   double threshold_ = std::numeric_limits<double>::infinity();  // of the first

@@ -43,8 +43,6 @@ struct JointOptions {
   bool push_first = false;  // first all free vertices together, down to `push_gap`: raises the mean as well
   double push_gap = 0.03;
   std::optional<MeanKind> mean{};   // of a phase that follows: a cluster that is done gives up half of the gap for it
-  std::optional<Guard> guard{};     // which a move must not break; half of it, and so on
-  bool only_untangle = false;       // and by the first attempts alone, which move few vertices
   bool beyond_minimum = false;      // goes on where the minimum is certified, with the next worst elements
   int max_steps = 150;              // Newton steps a solution
   std::size_t whole_at_most = 0;    // a cluster may become the whole mesh when this many vertices are free; 0: 80000, of volumes 3000
@@ -63,7 +61,7 @@ struct JointState {
   std::vector<double> levels{};  // of each vertex: it holds elements that are certified at this quality; +infinity: none
   std::uint32_t clusters = 0, passes = 0;
   double pass_began_at = 0.0;     // the minimum then
-  std::uint32_t untanglings = 0;  // attempts to turn inverted elements, in vain or not
+  std::uint32_t untanglings = 0;  // calls that untangle, in vain or not
   bool pushed = false;
   bool mean_raised = false;  // over the whole mesh, unless it is too large
   bool beyond = false;       // of two aims the second is raised now, and all the above is of that
@@ -115,6 +113,12 @@ struct JointSliding {
 /// Throws UsageError with that.
 void require_joint(const InputMesh& input, const JointObjective& aims);
 
+/// Turns elements that are inverted, as many as it can, by moving the vertices around them together: see Untangler. As
+/// JointClusters::raise_worst does, but of any metric that is defined for the mesh. None: nothing helps, or it is a curved surface.
+[[nodiscard]] std::optional<JointCluster> untangle(const InputMesh& input, Metric metric, std::span<const std::uint8_t> fixed,
+                                                   const JointSliding& sliding, std::span<Vec3> positions, const JointOptions& options,
+                                                   Progress& progress);
+
 /// The input must outlive it. It works in memory of its own, so one thread at a time.
 class JointClusters {
  public:
@@ -126,9 +130,8 @@ class JointClusters {
 
   /// Raises the worst open element with the vertices around it. `positions`: of the whole mesh, changed only where the least quality of the
   /// elements that change rises, judged by the program's metric in double, and no more of them are inverted; of two aims the second only
-  /// where the first stays above its threshold. Where elements are inverted,
-  /// the first calls untangle: fewer are inverted then, and the least quality is no lower; what slides stays in these. The vertices of what
-  /// is left inverted stay.
+  /// where the first stays above its threshold. Where elements are inverted, the first call untangles: fewer are inverted then, and the
+  /// least quality is no lower. The vertices of what is left inverted stay.
   /// None: state.end says why there is nothing more to do. On Cancelled positions and state are as before.
   [[nodiscard]] std::optional<JointCluster> raise_worst(std::span<Vec3> positions, JointState& state, const JointOptions& options,
                                                         Progress& progress);

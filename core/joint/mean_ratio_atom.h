@@ -75,8 +75,8 @@ template <int D>
 class MatrixAgainstIdeal : public MatrixOfColumns<D> {
  public:
   using Base = MatrixOfColumns<D>;
-  using typename Base::Column;
   using Base::kCount, Base::kD, Base::column;
+  using typename Base::Column;
 
   MatrixAgainstIdeal(AtomShape shape, const AtomEdges<D>& edges) : weights_(ideal_weights<D>(shape)) {
     for (std::size_t c = 0; c < kD; ++c)

@@ -133,7 +133,7 @@ std::vector<int> Untangler<D>::rings_from(const std::vector<Index>& inverted, in
 /// Of those among `vertices` that are up to so many rings away the connected patches, in pieces of at most `most` vertices; each ascending.
 template <int D>
 std::vector<typename Untangler<D>::Patch> Untangler<D>::connected(std::span<const Index> vertices, const std::vector<int>& rings, int limit,
-                                                        std::size_t most) const {
+                                                                  std::size_t most) const {
   std::vector<std::uint8_t> open(positions_.size(), 0);
   for (const Index v : vertices) open[v] = rings[v] <= limit ? 1 : 0;
   std::vector<Patch> result;
@@ -254,8 +254,8 @@ template <int D>
 void Untangler<D>::untangle(const Patch& patch) {
   const QualityContext context = mesh_.input().quality_context();
   const std::vector<Index> elements = elements_of(patch);
-  const auto inverted = std::ranges::count_if(
-      elements, [&](Index e) { return smallest_jacobian(context, std::span<const Vec3>(positions_), e) <= 0.0; });
+  const auto inverted =
+      std::ranges::count_if(elements, [&](Index e) { return smallest_jacobian(context, std::span<const Vec3>(positions_), e) <= 0.0; });
   const bool springs = static_cast<double>(inverted) > kMostlyInverted * static_cast<double>(elements.size());
   const std::size_t moves = moved_from_.size();
   if (untangle(patch, springs) > 0) (void)untangle(patch, !springs);

@@ -34,7 +34,7 @@ class Untangler {
 
  private:
   using Offsets = std::vector<typename JointMesh<D>::Offset>;
-  using Patch = std::vector<Index>;  // vertices, ascending
+  using Patch = std::vector<Index>;                          // vertices, ascending
   static constexpr int kWhole = 1 << 20, kFar = kWhole + 1;  // rings: as far as it goes
   static constexpr std::array<int, 4> kRings{2, 6, 20, kWhole};
   static constexpr std::uint32_t kMostCalls = 3;

@@ -45,10 +45,11 @@ OrientationReport normalise_orientation(Mesh& mesh, const Plane& plane, const To
   const auto is_against = [&](Index e) { return !against.empty() && against[e] != 0; };
 
   std::vector<WindingVote> votes(edges.components);
+  const double whole = box_measure(mesh, 2);
   for (Index e = 0; e < count; ++e) {
     if (edges.component[e] == kNoIndex) continue;
     const double area = is_against(e) ? -signed_area(mesh, plane, e) : signed_area(mesh, plane, e);
-    votes[edges.component[e]].add(area);
+    votes[edges.component[e]].add(area, whole);
   }
   for (Index e = 0; e < count; ++e) {
     if (edges.component[e] == kNoIndex || is_against(e) == votes[edges.component[e]].reverse()) continue;

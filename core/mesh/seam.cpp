@@ -89,12 +89,13 @@ class Windings {
     Index contradictions = 0;
     if (!edges.consistent) against_ = relate_windings(mesh, topology, contradictions);
     auto next = wide.begin();
+    const double whole = box_measure(mesh, 2);
     for (Index e = 0; e < mesh.elements.size(); ++e) {
       if (next != wide.end() && *next == e) {
         ++next;
       } else if (edges.component[e] != kNoIndex) {
         const double area = area_vector(mesh, e).z;
-        votes_[edges.component[e]].add(is_against(e) ? -area : area);
+        votes_[edges.component[e]].add(is_against(e) ? -area : area, whole);
       }
     }
   }

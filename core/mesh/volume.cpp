@@ -42,13 +42,14 @@ OrientationReport normalise_orientation(Mesh& mesh, const FaceNeighbours& neighb
   std::vector<WindingVote> votes(count);  // vote of each component, at its root
   std::vector<std::uint8_t> against(count);
   std::vector<Index> root(count);
+  const double whole = box_measure(mesh, 3);
   for (Index e = 0; e < count; ++e) {
     const auto place = sets.find(e);
     root[e] = place.root;
     against[e] = place.against;
     if (place.root == e) ++report.components;
     const double volume = signed_volume(mesh, e);
-    votes[place.root].add(place.against != 0 ? -volume : volume);
+    votes[place.root].add(place.against != 0 ? -volume : volume, whole);
   }
   for (Index e = 0; e < count; ++e) {
     if ((against[e] != 0) == votes[root[e]].reverse()) continue;

@@ -2,7 +2,9 @@
 // Relative windings of elements, and the winding that a component should get. Used to normalise orientation.
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <numeric>
 #include <vector>
 
@@ -47,14 +49,30 @@ class WindingSets {
   std::vector<std::uint8_t> against_;
 };
 
-/// Vote of a component's elements on their winding, as long as its first element keeps its own.
+/// What the box of a mesh measures at most: its diagonal to the power of the dimension.
+inline double box_measure(const Mesh& mesh, int dimension) {
+  if (mesh.positions.empty()) return 1.0;
+  Vec3 low = mesh.positions[0], high = low;
+  for (const Vec3& p : mesh.positions) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  return std::pow(length(high - low), dimension);
+}
+
+/// What a component's elements vote for when its first element keeps its winding.
 struct WindingVote {
   Index members = 0;
   std::int64_t balance = 0;        // positive minus negative elements
-  double least = 0.0, most = 0.0;  // signed areas or volumes: no sum, which would depend on the order
-  void add(double signed_measure) {
+  std::int64_t sum = 0;            // of signed areas or volumes, in small whole parts of the mesh's: it does not depend on the order
+  double least = 0.0, most = 0.0;  // of these
+  /// `whole`: what the mesh's box measures at most, roughly.
+  void add(double signed_measure, double whole) {
+    constexpr double kParts = 1U << 28U, kMost = 1U << 30U;
     ++members;
     balance += (signed_measure > 0 ? 1 : 0) - (signed_measure < 0 ? 1 : 0);
+    const double parts = kParts * (signed_measure / whole);
+    if (std::fabs(parts) < kMost) sum += std::llround(parts);
     least = std::min(least, signed_measure);
     most = std::max(most, signed_measure);
   }
@@ -62,11 +80,18 @@ struct WindingVote {
   void add(const WindingVote& other, bool against) {
     members += other.members;
     balance += against ? -other.balance : other.balance;
+    sum += against ? -other.sum : other.sum;
     least = std::min(least, against ? -other.most : other.least);
     most = std::max(most, against ? -other.least : other.most);
   }
-  /// Whether to reverse the component: decided by the majority or, in a tie, by the largest element.
-  [[nodiscard]] bool reverse() const { return members > 1 && (balance < 0 || (balance == 0 && -least > most)); }
+  /// By a clear majority; where the mesh is so tangled that there is none, by what it encloses, which its inner vertices have no part in;
+  /// else by the majority or the largest element.
+  [[nodiscard]] bool reverse() const {
+    if (members < 2) return false;
+    const bool is_clear = 2 * std::abs(balance) > static_cast<std::int64_t>(members);
+    if (!is_clear && sum != 0) return sum < 0;
+    return balance < 0 || (balance == 0 && -least > most);
+  }
 };
 
 /// Reverses an element, and records that in the mesh.

@@ -32,6 +32,8 @@
 
 namespace dmoscope {
 
+struct MeshRegion;
+
 enum class StepUnit { Vertex, Class, Iteration };
 
 /// What a run of iterations that is under way is after: of Run::iterate and Run::until_converged, while they are at work.
@@ -48,6 +50,11 @@ struct ConvergenceLimits {
   std::uint64_t max_iterations = 10000;
   double rise = kLeastRise;
 };
+/// An iteration in which vertices around inverted elements moved together, and how many of these it found and left.
+struct JointUntangling {
+  std::uint64_t iteration = 0, moved = 0;
+  Index before = 0, after = 0;
+};
 enum class StopReason { NothingMoved, NoRise, Certified, NoJointGain, IterationLimit };
 struct Outcome {
   StopReason reason = StopReason::IterationLimit;
@@ -60,6 +67,7 @@ struct Outcome {
   ConvergenceLimits limits;
   bool two_aims = false;     // of a combination
   std::uint64_t raised = 0;  // iterations in which vertices around the worst element moved together, within the method's phase
+  std::vector<JointUntangling> untanglings{};  // those that turned any
   /// "converged: no vertex moved any more; the minimum last rose in iteration 9"
   [[nodiscard]] std::string sentence() const;
 };
@@ -246,7 +254,7 @@ class Run {
   [[nodiscard]] bool joint_untangling_follows(std::uint64_t iteration) const;
   [[nodiscard]] bool raise_of_worst_follows(std::uint64_t iteration) const;
   [[nodiscard]] bool is_joint(std::uint64_t iteration) const;
-  [[nodiscard]] std::vector<std::uint8_t> held_jointly() const;
+  [[nodiscard]] std::optional<MeshRegion> region_of_inverted(std::span<const Vec3> positions) const;
   [[nodiscard]] JointObjective joint_aims() const;
   [[nodiscard]] JointClusters& joint_clusters();
   void move_jointly(Progress& progress);

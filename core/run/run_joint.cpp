@@ -1,5 +1,5 @@
-// Joint moves within the method's phase: where it is stuck in a tangle, or in what is left of one, and to certify its minimum. All look at
-// a region of the mesh alone.
+// Joint moves within the method's phase: they untangle, raise what it is stuck in, and certify its minimum. Where nothing slides they look
+// at a region of the mesh alone.
 
 #include <algorithm>
 #include <optional>
@@ -37,42 +37,47 @@ bool Run::knows_joint_moves() const {
   return method_info(parameters_.method).optimises && !(input_->share ? input_->share->any(cannot) : cannot);
 }
 
-/// Whether the iteration after this one, of the method's phase, moves vertices of inverted elements together.
+/// Whether the iteration after this one, of the method's phase, moves vertices around inverted elements together. A share's regions know
+/// no targets and fields of the whole mesh.
 bool Run::joint_untangling_follows(std::uint64_t iteration) const {
-  return untangles_jointly(history_.records(), iteration) && !joint_follows(iteration) && knows_joint_moves();
+  const bool can =
+      method_info(parameters_.method).optimises && !input_->is_surface() && (!input_->share || is_built_in(parameters_.metric));
+  return can && untangles_jointly(history_.records(), iteration) && !joint_follows(iteration);
 }
 
-/// By vertex: those that stay where vertices of inverted elements move together.
-std::vector<std::uint8_t> Run::held_jointly() const {
-  std::vector<std::uint8_t> held(fixed_.begin(), fixed_.end());
-  if (domain_)
-    for (Index v = 0; v < held.size(); ++v)
-      if (domain_->slides(v)) held[v] = 1;
-  return held;
-}
-
-/// At the end of an iteration (or after edits there): the next one, in which vertices of inverted elements move together.
+/// At the end of an iteration (or after edits there): the next one, in which vertices around inverted elements move together.
 void Run::untangle_jointly(Progress& progress) {
-  constexpr int kRings = 6;  // as far as an Untangler's smaller patches go
   const std::uint64_t iteration = at_.moment.iteration + 1;
   const Stopwatch watch;
   recovering([this] { download(); });
   std::vector<Vec3> positions(positions_.host().begin(), positions_.host().end());
-  const QualityContext context = input_->quality_context();
-  const auto is_inverted = [&](Index e) { return smallest_jacobian(context, std::span<const Vec3>(positions), e) <= 0.0; };
-  const auto region = region_around(*input_, positions, held_jointly(), elements_that(*input_, is_inverted), kRings, kMostVertices);
-  last_moved_ = 0;
-  if (region) {
+  JointOptions options;
+  options.pool = pool_.get();
+  options.on_step = [&](const JointStep&) {
+    if (observer_) observer_(*this);
+  };
+  std::optional<JointCluster> found;
+  if (domain_ || !is_built_in(parameters_.metric)) {
+    const JointSliding sliding{domain_, parameters_.max_deviation * input_->geometry.size};
+    found = untangle(*input_, parameters_.metric, fixed_, sliding, positions, options, progress);
+  } else if (const auto region = region_of_inverted(positions)) {
     std::vector<Vec3> places = region->input->mesh.positions;
-    JointState state;
-    JointClusters clusters(*region->input, parameters_.metric, region->fixed);
-    const auto found = clusters.raise_worst(places, state, {.only_untangle = true, .pool = pool_.get()}, progress);
-    if (found) last_moved_ = found->moved.size();
+    found = untangle(*region->input, parameters_.metric, region->fixed, {}, places, options, progress);
     for (std::size_t i = 0; i < places.size(); ++i)
       if (const Index v = find_vertex(*input_, region->vertices[i]); v != kNoIndex) positions[v] = places[i];
   }
+  last_moved_ = found ? found->moved.size() : 0;
   put(positions, {{iteration}});
   record({.moment = {iteration}, .moved = last_moved_, .seconds = watch.seconds()});
+}
+
+/// As far around inverted elements as can be taken together.
+std::optional<MeshRegion> Run::region_of_inverted(std::span<const Vec3> positions) const {
+  constexpr int kMostRings = 254, kFewRings = 6;
+  const QualityContext context = input_->quality_context();
+  const std::vector<Index> seeds = elements_that(*input_, [&](Index e) { return smallest_jacobian(context, positions, e) <= 0.0; });
+  auto region = region_around(*input_, positions, fixed_, seeds, kMostRings, kMostVertices);
+  return region ? std::move(region) : region_around(*input_, positions, fixed_, seeds, kFewRings, kMostVertices);
 }
 
 /// Whether look_at_worst() tells what raises the worst element. Where vertices slide it would hold them: a region knows no domain, nor the

@@ -18,6 +18,9 @@ std::string Outcome::sentence() const {
   std::string rose =
       last_rise == 0 ? "the minimum rose in none of these iterations" : fmt::format("the minimum last rose in iteration {}", last_rise);
   if (inverted > 0) rose += fmt::format("; {} element{} still inverted", inverted, inverted == 1 ? " is" : "s are");
+  for (const JointUntangling& each : untanglings)
+    rose += fmt::format("; in iteration {} {} vertices moved together, which untangled {} of {} inverted element{}", each.iteration,
+                        each.moved, each.before - each.after, each.before, each.before == 1 ? "" : "s");
   const auto begin = [](const std::optional<std::uint64_t>& from) {
     return from ? fmt::format(", which begins with the state of {}, the best one before", iteration_name(*from)) : std::string();
   };
@@ -369,6 +372,9 @@ Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, std:
       outcome.reason = joint_end == JointState::End::Certified && now.inverted == 0 ? StopReason::Certified : StopReason::NoJointGain;
     }
     if (phase == Phase::Method && record.joint) ++outcome.raised;
+    if (const Index inverted = history_.records()[reached - 1].statistics.inverted;
+        is_joint(reached - 1) && !raise_of_worst_follows(reached - 1) && inverted > now.inverted)
+      outcome.untanglings.push_back({reached, record.moved, inverted, now.inverted});
     if (since_rise == 0) looked_ = false;
     if (record.raise_follows) {  // it has been looked then
       looked_ = true;

@@ -12,10 +12,11 @@ std::uint64_t iterations_since_untangled(std::span<const IterationRecord> record
 
 namespace {
 
-/// Has each iteration so far, of at most a few, left fewer inverted elements than it found?
+/// Has each iteration so far, of at most a few, left fewer inverted elements than it found? A first one that moved nothing does not count.
 bool repairs(std::span<const IterationRecord> records, std::uint64_t iteration) {
-  if (iteration >= UntanglingPlan::kRepairs) return false;
-  for (std::uint64_t i = 0; i < iteration; ++i)
+  const std::uint64_t first = iteration > 0 && records[1].moved == 0 ? 1 : 0;
+  if (iteration - first >= UntanglingPlan::kRepairs) return false;
+  for (std::uint64_t i = first; i < iteration; ++i)
     if (records[i + 1].statistics.inverted >= records[i].statistics.inverted) return false;
   return true;
 }
@@ -23,10 +24,10 @@ bool repairs(std::span<const IterationRecord> records, std::uint64_t iteration) 
 }  // namespace
 
 bool untangles_jointly(std::span<const IterationRecord> records, std::uint64_t iteration) {
-  if (records[iteration].statistics.inverted == 0 || iteration == 0) return false;
-  const std::uint64_t since = iterations_since_untangled(records, iteration);
-  if (since < UntanglingPlan::kEnd) return since == 2 && records[iteration].moved == 0;
-  return iterations_since_untangled(records, iteration - 1) < since;
+  if (records[iteration].statistics.inverted == 0) return false;
+  if (iteration == 0) return true;
+  return iterations_since_untangled(records, iteration) == UntanglingPlan::kEnd &&
+         iterations_since_untangled(records, iteration - 1) < UntanglingPlan::kEnd;
 }
 
 Sweep sweep_after(std::span<const IterationRecord> records, std::uint64_t iteration, const MeanPhase& mean, bool strays) {

@@ -29,8 +29,8 @@ struct MeanPhase {
 /// of it begins with repairs.
 [[nodiscard]] Sweep sweep_after(std::span<const IterationRecord> records, std::uint64_t iteration, const MeanPhase& mean, bool strays);
 
-/// Whether vertices of inverted elements are then moved together instead of one by one: once where an attempt has moved nothing, and once
-/// after the last.
+/// Whether vertices around inverted elements are then moved together instead of one by one: at the very first, and once after the last
+/// attempt.
 [[nodiscard]] bool untangles_jointly(std::span<const IterationRecord> records, std::uint64_t iteration);
 
 /// Iterations since the number of inverted elements last fell, at the end of `iteration`: at most UntanglingPlan::kEnd.

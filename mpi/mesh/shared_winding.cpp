@@ -1,6 +1,7 @@
 #include "mpi/mesh/shared_winding.h"
 
 #include <algorithm>
+#include <cmath>
 #include <unordered_map>
 
 #include "core/mesh/edges.h"
@@ -76,10 +77,11 @@ class Orienter {
   /// Votes of each set of this share.
   [[nodiscard]] std::vector<SetVotes> votes_here() {
     std::unordered_map<Index, WindingVote> votes;
+    const double whole = std::pow(geometry_.size, geometry_.shape == Shape::Volume ? 3 : 2);
     for (Index e = 0; e < mesh_.elements.size(); ++e) {
       const auto place = sets_.find(e);
       WindingVote& vote = votes[place.root];
-      if (share_.home[e] != 0) vote.add(place.against != 0 ? -measure(e) : measure(e));
+      if (share_.home[e] != 0) vote.add(place.against != 0 ? -measure(e) : measure(e), whole);
     }
     std::vector<SetVotes> all;
     for (const auto& [root, vote] : votes) all.push_back({name(root), vote});

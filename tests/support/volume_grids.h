@@ -11,11 +11,12 @@
 
 namespace dmoscope::test {
 
-/// Elements that the cells of a block become.
-enum class Fill { Hexahedra, Tetrahedra, Mixed };
+/// What becomes of the cells of a block.
+enum class Fill { Hexahedra, Tetrahedra, Mixed, Wedges };
 
-/// n x n x n cells over the unit cube: hexahedra, six tetrahedra each along the same diagonal, or by columns hexahedra, two wedges, or six
-/// pyramids about a vertex of their own. Inner vertices are moved by up to `jitter` cells, the same way for the same seed.
+/// n x n x n cells over the unit cube: hexahedra, six tetrahedra each along the same diagonal, two wedges each, or by columns hexahedra,
+/// two wedges, or six pyramids about a vertex of their own. Inner vertices are moved by up to `jitter` cells, the same way for the same
+/// seed.
 inline Mesh volume_grid(Index n, Fill fill, double jitter = 0.0, unsigned seed = 1) {
   Mesh mesh;
   std::mt19937 random(seed);
@@ -47,9 +48,9 @@ inline Mesh volume_grid(Index n, Fill fill, double jitter = 0.0, unsigned seed =
           for (const auto& [a, b] : {std::pair{1, 2}, {2, 3}, {3, 7}, {7, 4}, {4, 5}, {5, 1}}) {
             add(ElementKind::Tetrahedron, {c[0], c[static_cast<std::size_t>(a)], c[static_cast<std::size_t>(b)], c[6]});
           }
-        } else if (fill == Fill::Hexahedra || (i + j) % 3 == 0) {
+        } else if (fill == Fill::Hexahedra || (fill == Fill::Mixed && (i + j) % 3 == 0)) {
           mesh.elements.add(ElementKind::Hexahedron, c);
-        } else if ((i + j) % 3 == 1) {
+        } else if (fill == Fill::Wedges || (i + j) % 3 == 1) {
           add(ElementKind::Wedge, {c[0], c[1], c[2], c[4], c[5], c[6]});
           add(ElementKind::Wedge, {c[0], c[2], c[3], c[4], c[6], c[7]});
         } else {

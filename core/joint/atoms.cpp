@@ -142,14 +142,8 @@ template void append_atoms<2>(const ElementTable&, Metric, Index, std::vector<At
 template void append_atoms<3>(const ElementTable&, Metric, Index, std::vector<Atom<3>>&);
 
 template <int D>
-AtomFunction<D>::AtomFunction(Metric metric, AtomMeasure measure) {
-  if (measure == AtomMeasure::SignedPower) {
-    value_.fill(signed_power_gap<D>);
-    derive_.fill(derive_signed_power_gap<D>);
-  } else if (measure == AtomMeasure::RelativeJacobian) {
-    value_.fill(relative_jacobian_gap<D>);
-    derive_.fill(derive_relative_jacobian_gap<D>);
-  } else if (joint_metric(metric, D) == Metric::MeanRatio) {
+AtomFunction<D>::AtomFunction(Metric metric) {
+  if (joint_metric(metric, D) == Metric::MeanRatio) {
     value_.fill(inverse_mean_ratio<D>);
     derive_.fill(derive_inverse_mean_ratio<D>);
     convex_by_vertex_ = true;

@@ -69,14 +69,8 @@ void append_atoms(const ElementTable& elements, Metric metric, Index element, st
 template <int D>
 using AtomEdges = std::array<std::array<double, D>, D>;
 
-/// What of an atom is minimised. With J the determinant of its edges against the ideal ones and q its mean ratio, signed as J:
-///   InverseQuality    1 / metric, +infinity where the metric is <= 0;
-///   SignedPower       1 - q^(D / 2), smooth through J = 0, so that it leads out of a tangle;
-///   RelativeJacobian  1 - J / reference, likewise.
-enum class AtomMeasure : std::uint8_t { InverseQuality, SignedPower, RelativeJacobian };
-
-/// Exact: the Hessian. Convex: a positive semidefinite one instead, with the determinant taken as linear (1 / mean ratio), without negative
-/// eigenvalues (1 / any other metric), or 0 (what leads out of a tangle).
+/// Exact: the Hessian. Convex: a positive semidefinite one instead, with the determinant taken as linear (1 / mean ratio), or without
+/// negative eigenvalues (1 / any other metric).
 enum class Curvature : std::uint8_t { Exact, Convex };
 
 /// By the D * D coordinates of the edges, edge by edge. By the atom's vertices: vertex j + 1 has the part of edge j, the first vertex the
@@ -92,18 +86,18 @@ struct AtomDerivatives {
 template <int D>
 class DefinedAtoms;
 
-/// The function to minimise, of atoms of any shape. The value at edges of any scale is the same, but of RelativeJacobian and of metrics
-/// that are defined by formulas or targets.
+/// What of an atom is minimised: 1 / metric, +infinity where that is <= 0. The value at edges of any scale is the same, but of metrics that
+/// are defined by formulas or targets.
 template <int D>
 class AtomFunction {
  public:
-  /// `metric`: must be built in and defined in this dimension; of no account unless for InverseQuality.
-  AtomFunction(Metric metric, AtomMeasure measure);
-  /// InverseQuality of a built-in metric on a curved surface; D is 3.
+  /// `metric`: must be built in and defined in this dimension.
+  explicit AtomFunction(Metric metric);
+  /// Of a built-in metric on a curved surface; D is 3.
   AtomFunction(Metric metric, const Curved& frame);
-  /// InverseQuality of a metric that is defined by a formula or a target.
+  /// Of a metric that is defined by a formula or a target.
   explicit AtomFunction(std::shared_ptr<const DefinedAtoms<D>> atoms);
-  /// `reference`: > 0, for RelativeJacobian in the unit of the edges to the power of D; for DefinedAtoms see there; else of no account.
+  /// `reference`: for DefinedAtoms see there; else of no account.
   [[nodiscard]] double value(const Atom<D>& atom, const AtomEdges<D>& edges, double reference) const {
     if (defined_) return defined_value(atom, edges, reference);
     if (surface_.value != nullptr) return surface_.value(atom.shape, edges, surface_.frame.of(atom.element));
@@ -115,7 +109,7 @@ class AtomFunction {
     if (surface_.value != nullptr) return surface_.derive(atom.shape, edges, surface_.frame.of(atom.element), curvature, result);
     derive_[static_cast<std::size_t>(atom.shape)](atom.shape, edges, reference, curvature, result);
   }
-  /// The metric where InverseQuality is f.
+  /// The metric where 1 / metric is f.
   [[nodiscard]] double quality_of(double f) const noexcept { return 1.0 / f - shift(); }
   [[nodiscard]] double inverse_of(double quality) const noexcept { return 1.0 / (quality + shift()); }
   [[nodiscard]] const DefinedAtoms<D>* defined() const noexcept { return defined_.get(); }

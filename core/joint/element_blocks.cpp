@@ -1,6 +1,7 @@
 #include "core/joint/element_blocks.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace dmoscope {
 
@@ -48,24 +49,32 @@ std::array<double, D * D> times(const std::array<double, D * D>& a, const std::a
 
 constexpr double kOntoDiagonal = 1e-9;  // what rounding could take from it
 
+template <int D>
+auto matrix_for(const FoldoverFreeProblem<D>& problem, ThreadPool* pool) {
+  if constexpr (D == 2)
+    return BlockCholesky<D>(element_adjacency(problem), problem.places, pool);
+  else
+    return BlockConjugate<D>(element_adjacency(problem), pool);
+}
+
 }  // namespace
 
 template <int D>
 ElementBlocks<D>::ElementBlocks(const FoldoverFreeProblem<D>& problem, ThreadPool* pool)
-    : problem_(problem), cholesky_(element_adjacency(problem), problem.places, pool) {
+    : problem_(problem), matrix_(matrix_for(problem, pool)) {
   for (const Element& element : problem.elements) {
     first_slot_.push_back(slots_.size());
     for (std::size_t k = 0; k < info(element.kind).corners; ++k)
       for (std::size_t l = 0; l <= k; ++l) {
         const Index v = element.vertices[k], w = element.vertices[l];
-        if (v < problem.free_vertices && w < problem.free_vertices) slots_.push_back(cholesky_.slot(v, w));
+        if (v < problem.free_vertices && w < problem.free_vertices) slots_.push_back(matrix_.slot(v, w));
       }
   }
 }
 
 template <int D>
 void ElementBlocks<D>::clear() {
-  cholesky_.clear();
+  matrix_.clear();
   gradient_.assign(problem_.free_vertices * kD, 0.0);
 }
 
@@ -86,7 +95,7 @@ void ElementBlocks<D>::add(std::size_t index, const Derivatives& derivatives) {
         for (std::size_t i = 0; i < block.size(); ++i) block[i] += other[i];
       }
       if (problem_.path != nullptr) project(v, w, block);
-      cholesky_.add(slots_[slot++], block);
+      matrix_.add(slots_[slot++], block);
     }
   }
 }
@@ -94,15 +103,15 @@ void ElementBlocks<D>::add(std::size_t index, const Derivatives& derivatives) {
 template <int D>
 bool ElementBlocks<D>::solve(double damping, std::vector<double>& step) {
   for (Index v = 0; v < problem_.free_vertices; ++v) {
-    Block& block = cholesky_.diagonal(v);
+    Block& block = matrix_.diagonal(v);
     for (std::size_t r = 0; r < kD; ++r) block[r * kD + r] *= 1.0 + kOntoDiagonal + damping;
   }
   hold();
-  if (!cholesky_.factorise()) return false;
+  if (!matrix_.factorise()) return false;
   step = gradient_;
   for (double& x : step) x = -x;
   project(step);
-  cholesky_.solve(step);
+  matrix_.solve(step);
   project(step);
   return true;
 }
@@ -130,7 +139,7 @@ template <int D>
 void ElementBlocks<D>::hold() {
   for (Index v = 0; problem_.path != nullptr && v < problem_.free_vertices; ++v) {
     if (!is_bound(v)) continue;
-    Block& block = cholesky_.diagonal(v);
+    Block& block = matrix_.diagonal(v);
     double stiff = 0.0;
     for (std::size_t r = 0; r < kD; ++r) stiff += block[r * kD + r];
     if (!(stiff > 0.0)) stiff = 1.0;

@@ -2,9 +2,11 @@
 // The Newton system of a problem over elements: each one's blocks, one a pair of its corners, summed up by the free vertices.
 
 #include <array>
+#include <type_traits>
 #include <vector>
 
 #include "core/joint/block_cholesky.h"
+#include "core/joint/block_conjugate.h"
 #include "core/joint/foldover_free.h"
 
 namespace dmoscope {
@@ -40,7 +42,8 @@ class ElementBlocks {
   void hold();
 
   const FoldoverFreeProblem<D>& problem_;
-  BlockCholesky<D> cholesky_;
+  /// A volume's factor is dense.
+  std::conditional_t<D == 2, BlockCholesky<D>, BlockConjugate<D>> matrix_;
   std::vector<typename BlockCholesky<D>::Slot> slots_;  // of each element's pairs of free corners, one element after another
   std::vector<std::size_t> first_slot_;                 // of each element
   std::vector<double> gradient_;

@@ -28,7 +28,7 @@ template <int D>
 AtomFunction<D> function_of(const InputMesh& input, Metric metric) {
   if constexpr (D == 3)
     if (input.is_surface() && is_built_in(metric)) return {metric, input.view<Curved>().frame};
-  if (is_built_in(metric)) return {metric, AtomMeasure::InverseQuality};
+  if (is_built_in(metric)) return AtomFunction<D>(metric);
   return AtomFunction<D>(std::make_shared<const DefinedAtoms<D>>(input, metric));
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// The mean ratio of an atom and what leads out of a tangle, with their derivatives in closed form: both are functions of the atom's edges
-// against the ideal ones, T, by its determinant J and its norm alone.
+// The mean ratio of an atom with its derivatives in closed form: it is a function of the atom's edges against the ideal ones, T, by its
+// determinant J and its norm alone.
 
 #include <array>
 #include <cmath>
@@ -147,24 +147,12 @@ template <int D>
   return scale > 0.0 ? t.square / (D * scale) : std::numeric_limits<double>::infinity();
 }
 
-/// 1 - k J / |T|^D, k such that it is 0 for the ideal element.
+/// k / |T|^D, k such that it is 1 for the ideal element: times J it is (mean ratio)^(D / 2), signed.
 template <int D>
 [[nodiscard]] inline double inverse_norm_power(double square) {
   if constexpr (D == 2) return 2.0 / square;
   return 5.196152422706632 / (square * std::sqrt(square));
 }
-template <int D>
-[[nodiscard]] inline double signed_power_gap(AtomShape shape, const AtomEdges<D>& edges, double /*reference*/) {
-  const MatrixAgainstIdeal<D> t(shape, edges);
-  return t.square > 0.0 ? 1.0 - inverse_norm_power<D>(t.square) * t.determinant : 1.0;
-}
-
-/// 1 - J / reference.
-template <int D>
-[[nodiscard]] inline double relative_jacobian_gap(AtomShape shape, const AtomEdges<D>& edges, double reference) {
-  return 1.0 - MatrixAgainstIdeal<D>(shape, edges).determinant / reference;
-}
-
 /// A matrix's entries in one row, column by column of the matrix.
 template <int D>
 [[nodiscard]] inline std::array<double, MatrixAgainstIdeal<D>::kCount> flat(
@@ -193,39 +181,6 @@ void derive_inverse_mean_ratio(AtomShape shape, const AtomEdges<D>& edges, doubl
   if (curvature == Curvature::Exact) matrix.add_bend(-s * power * square / matrix.determinant, h);
   result.value = s * square;
   matrix.to_edges(g, h, result);
-}
-
-template <int D>
-void derive_signed_power_gap(AtomShape shape, const AtomEdges<D>& edges, double /*reference*/, Curvature curvature,
-                             AtomDerivatives<D>& result) {
-  constexpr std::size_t kCount = MatrixAgainstIdeal<D>::kCount;
-  const MatrixAgainstIdeal<D> matrix(shape, edges);
-  const double j_of_t = matrix.determinant, square = matrix.square, p = inverse_norm_power<D>(square), half = D / 2.0;
-  const auto t = flat<D>(matrix.column, 1.0), c = flat<D>(matrix.cofactor, 1.0);
-  std::array<double, kCount> g{};
-  std::array<double, kCount * kCount> h{};
-  const double slope = 2.0 * half / square, bend = 4.0 * half * (half + 1.0) * j_of_t / (square * square);
-  for (std::size_t i = 0; i < kCount; ++i) g[i] = -p * (c[i] - slope * j_of_t * t[i]);
-  if (curvature == Curvature::Exact) {
-    for (std::size_t i = 0; i < kCount; ++i) {
-      for (std::size_t j = 0; j < kCount; ++j) h[i * kCount + j] = p * (slope * (c[i] * t[j] + t[i] * c[j]) - bend * (t[i] * t[j]));
-      h[i * kCount + i] += p * slope * j_of_t;
-    }
-    matrix.add_bend(-p, h);
-  }
-  result.value = 1.0 - p * j_of_t;
-  matrix.to_edges(g, h, result);
-}
-
-template <int D>
-void derive_relative_jacobian_gap(AtomShape shape, const AtomEdges<D>& edges, double reference, Curvature curvature,
-                                  AtomDerivatives<D>& result) {
-  constexpr std::size_t kCount = MatrixAgainstIdeal<D>::kCount;
-  const MatrixAgainstIdeal<D> matrix(shape, edges);
-  std::array<double, kCount * kCount> h{};
-  if (curvature == Curvature::Exact) matrix.add_bend(-1.0 / reference, h);
-  result.value = 1.0 - matrix.determinant / reference;
-  matrix.to_edges(flat<D>(matrix.cofactor, -1.0 / reference), h, result);
 }
 
 }  // namespace dmoscope

@@ -45,7 +45,7 @@ Untangler<D>::Untangler(const JointMesh<D>& mesh, Metric metric, const JointSlid
       progress_(progress),
       most_together_(options.whole_at_most > 0 ? options.whole_at_most
                      : D == 2                  ? 100000
-                                               : 20000),
+                                               : 200000),
       before_(kInfinity),
       after_(kInfinity) {
   if (domain_ != nullptr) limit_.emplace(*domain_, sliding.max_deviation);
@@ -70,20 +70,24 @@ std::optional<JointCluster> Untangler<D>::run() {
   return told();
 }
 
-/// By more and more rings. Where that helps nothing it is the end of it.
+/// By more and more rings; where vertices slide, first without these and then, as long as patches are small, with them. Where nothing
+/// helps it is the end of it.
 template <int D>
 void Untangler<D>::grow(std::vector<Index> inverted) {
   if (inverted.empty()) return;
   ++state_.untanglings;
   std::vector<Patch> before;
-  for (const int rings : kRings) {
-    std::vector<Patch> groups = patches(inverted, rings);
-    for (const Patch& patch : groups)
-      if (std::ranges::find(before, patch) == before.end()) untangle(patch);
-    inverted = inverted_elements();
-    if (inverted.empty()) return;
-    before = std::move(groups);
-  }
+  for (const int rings : kRings)
+    for (const bool sliding : {false, true}) {
+      if (sliding && (domain_ == nullptr || rings > kMostSliding)) continue;
+      slides_ = sliding;
+      std::vector<Patch> groups = patches(inverted, rings);
+      for (const Patch& patch : groups)
+        if (std::ranges::find(before, patch) == before.end()) untangle(patch);
+      inverted = inverted_elements();
+      if (inverted.empty()) return;
+      before = std::move(groups);
+    }
   if (moved_from_.empty()) state_.untanglings = kMostCalls;
 }
 
@@ -108,7 +112,7 @@ template <int D>
 std::vector<int> Untangler<D>::rings_from(const std::vector<Index>& inverted, int most) const {
   const Mesh& mesh = mesh_.input().mesh;
   std::vector<std::uint8_t> movable(positions_.size(), 0);
-  for (const Index v : mesh_.free_vertices()) movable[v] = 1;
+  for (const Index v : mesh_.free_vertices()) movable[v] = slides_ || domain_ == nullptr || !domain_->slides(v) ? 1 : 0;
   std::vector<int> rings(positions_.size(), kFar);
   std::vector<Index> last, next;
   for (const Index e : inverted)
@@ -268,7 +272,7 @@ Index Untangler<D>::untangle(const Patch& patch, bool springs_first) {
   const LocalProblem<D> local = local_problem(patch);
   FoldoverFreeProblem<D> problem = pose(local);
   std::unique_ptr<SlidingPath<D>> path;
-  if (domain_ != nullptr) path = std::make_unique<SlidingPath<D>>(mesh_, local, positions_, *domain_, *limit_);
+  if (slides_) path = std::make_unique<SlidingPath<D>>(mesh_, local, positions_, *domain_, *limit_);
   if (path && path->any()) problem.path = path.get();
   const FoldoverFreeSolution<D> solution = solve_foldover_free<D>(
       problem, {.springs_first = springs_first, .pool = options_.pool},

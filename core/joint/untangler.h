@@ -37,6 +37,7 @@ class Untangler {
   using Patch = std::vector<Index>;                          // vertices, ascending
   static constexpr int kWhole = 1 << 20, kFar = kWhole + 1;  // rings: as far as it goes
   static constexpr std::array<int, 4> kRings{2, 6, 20, kWhole};
+  static constexpr int kMostSliding = 6;  // rings of patches whose vertices slide
   static constexpr std::uint32_t kMostCalls = 3;
 
   void grow(std::vector<Index> inverted);
@@ -68,6 +69,7 @@ class Untangler {
   std::vector<Index> vertices_;                     // of the patches that rose
   double before_, after_;                           // least quality of what changed
   int newton_steps_ = 0, solutions_ = 0;
+  bool slides_ = false;  // what can slide does; else it stays
   bool finished_ = false;
 };
 

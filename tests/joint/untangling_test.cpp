@@ -10,9 +10,7 @@
 #include <gmock/gmock.h>
 
 #include "core/base/same_bits.h"
-#include "core/joint/foldover_free.h"
 #include "core/joint/joint_clusters.h"
-#include "core/joint/joint_mesh.h"
 #include "tests/smooth/promises.h"
 #include "tests/smooth/tangled_zoo.h"
 
@@ -220,17 +218,6 @@ TEST(Untangling, CancelledLeavesAllAsItWas) {
   EXPECT_THROW((void)tangle.call(), Cancelled);
   EXPECT_TRUE(same_bits(std::span(tangle.positions), std::span(before)));
   EXPECT_EQ(tangle.state, JointState{});
-}
-
-TEST(FoldoverFree, SpringsKeepARegularLattice) {
-  const auto mesh = input(lattice(4, 0.0, 1, Cells::Quadrilaterals));
-  const dmoscope::Run run = make_run(mesh, {});
-  const JointMesh<2> joint(*mesh, Metric::MeanRatio, run.fixed());
-  const auto local = joint.problem(joint.free_vertices(), run.positions());
-  for (const auto& each : sprung_displacements<2>(local.problem)) {
-    EXPECT_NEAR(each[0], 0.0, 1e-6);
-    EXPECT_NEAR(each[1], 0.0, 1e-6);
-  }
 }
 
 struct Tangled {

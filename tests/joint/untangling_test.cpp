@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 
 #include "core/base/same_bits.h"
+#include "core/joint/atoms.h"
 #include "core/joint/joint_clusters.h"
 #include "tests/smooth/promises.h"
 #include "tests/smooth/tangled_zoo.h"

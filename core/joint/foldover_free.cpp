@@ -19,6 +19,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLeastEpsilon = 1e-9;
 constexpr double kLeastFall = 0.3;  // of chi of the least J, in a step
 constexpr double kFirstDamping = 1e-3, kLeastDamping = 1e-6, kMostDamping = 1e6;
+constexpr double kStronger = 16.0, kMostShortened = 1e3;  // damping where something slides and no step does
 constexpr double kHopeless = 0.02;  // of the least J: where epsilon is below that, what is inverted is behind the wall and stays there
 constexpr int kAfterwards = 4;      // steps that are taken when nothing is inverted any more, for better shapes
 
@@ -362,7 +363,8 @@ bool FoldoverFree<D>::step() {
   for (std::size_t i = 0; i < direction_.size(); ++i) slope += direction_[i] * system_.gradient()[i];
   if (!(slope < 0.0)) return false;
   alpha_ = 1.0;
-  for (int attempt = 0; attempt < 30; ++attempt, alpha_ *= 0.6) {
+  const int attempts = problem_.path == nullptr ? 30 : 8;
+  for (int attempt = 0; attempt < attempts; ++attempt, alpha_ *= 0.6) {
     if (!go(alpha_)) continue;
     const double there = energy(trial_);
     if (!(there <= energy_ + 1e-4 * alpha_ * slope)) continue;
@@ -391,6 +393,7 @@ FoldoverFreeSolution<D> FoldoverFree<D>::solve(const std::function<void(const Fo
   solution.start_inverted = solution.inverted = now.inverted;
   solution.start_least = solution.least = now.least;
   at_ = trial_ = solution.best;
+  if (now.inverted == 0) return solution;
   const auto keep = [&] {
     if (now.least < solution.start_least || now.inverted > solution.inverted) return;
     if (now.inverted == solution.inverted && now.least <= solution.least) return;
@@ -410,7 +413,11 @@ FoldoverFreeSolution<D> FoldoverFree<D>::solve(const std::function<void(const Fo
   energy_ = energy(at_);
   for (int afterwards = 0; solution.steps < options_.max_steps && afterwards <= kAfterwards;) {
     progress.check();
-    if (!step()) break;
+    if (!step()) {  // what slides may go less far than it should: smaller steps may do
+      if (problem_.path == nullptr || damping_ >= kMostShortened) break;
+      damping_ = kStronger * std::max(damping_, kFirstDamping);
+      continue;
+    }
     ++solution.steps;
     damping_ = alpha_ > 0.7 ? std::max(damping_ / 4.0, kLeastDamping) : alpha_ < 0.3 ? 4.0 * damping_ : damping_;
     now = stand(at_);

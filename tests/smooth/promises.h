@@ -15,6 +15,7 @@
 #include "core/base/same_bits.h"
 #include "core/joint/joint_clusters.h"
 #include "core/run/run.h"
+#include "core/run/sweep_after.h"
 #include "core/smooth/execution/method_table.h"
 #include "core/smooth/methods/dmo.h"
 #include "tests/smooth/zoo.h"
@@ -70,8 +71,11 @@ inline void expect_promise_one(const Specimen& specimen, dmoscope::Run& run, std
     const Statistics all_before = run.statistics();
     if (visits == 0) at_start = all_before;
     const Untangling rule = run.sweep().untangling;
+    // Where many are moved together to untangle, one star may fall.
+    const bool together = visits == 0 && !mesh.is_surface() && untangles_jointly(run.history().records(), run.moment().iteration);
     run.step(StepUnit::Class, progress);
-    for (std::size_t i = 0; i < members.size(); ++i) expect_no_worse(specimen, run, members[i], old[members[i]], before[i], rule);
+    for (std::size_t i = 0; i < members.size() && !together; ++i)
+      expect_no_worse(specimen, run, members[i], old[members[i]], before[i], rule);
     const Statistics all_after = run.statistics();
     EXPECT_LE(all_after.inverted, all_before.inverted) << specimen.name;
     EXPECT_GE(all_after.minimum, at_start.minimum) << specimen.name;

@@ -32,7 +32,7 @@ bool same_bits(const Statistics& a, const Statistics& b) {
 }
 
 const std::shared_ptr<const InputMesh>& rough_lattice() {
-  static const auto shared = input(lattice(30, 0.45, 31));
+  static const auto shared = input(lattice(30, 0.3, 31));
   return shared;
 }
 dmoscope::Run run_with(RunParameters parameters, Acceleration acceleration, std::size_t budget = kPlenty) {

@@ -211,7 +211,7 @@ TEST(Edits, StatisticsAndRecordsAreOfTheirMoments) {
 
 TEST(Edits, ManyAreSeveral) {
   Progress progress;
-  const auto large = input(lattice(90, 0.4, 2));
+  const auto large = input(lattice(90, 0.3, 2));
   dmoscope::Run run(large, {}, std::make_shared<ThreadPool>(2), std::size_t{1} << 28U);
   run.visit_vertices(run.colouring().order, progress);
   EXPECT_EQ(run.moment(), (Moment{0, 0, 2})) << "89 * 89 vertices";

@@ -173,7 +173,7 @@ TEST_F(KindsInASession, AFileThatHasOtherEdgesNowForgetsThem) {
 
 TEST_F(KindsInASession, AMadeCornerThatHoldsTheMinimumIsGivenBack) {
   Mesh mesh = test::volume_grid(4, test::Fill::Hexahedra);
-  mesh.positions[12] = mesh.positions[12] + Vec3{0.2, 0.2, 0};  // on the lower side, almost to the next one
+  mesh.positions[12] = mesh.positions[12] + Vec3{0.2, 0, 0};  // on the lower side, almost to the next one
   Progress progress;
   write_mesh(folder_.path() / "spoiled.vtk", mesh, mesh.positions, progress);
   say("open \"" + (folder_.path() / "spoiled.vtk").string() + "\"");

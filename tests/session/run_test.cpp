@@ -17,7 +17,7 @@ using testing::lattice;
 
 std::vector<Vec3> positions_of(const dmoscope::Run& run) { return {run.positions().begin(), run.positions().end()}; }
 dmoscope::Run lattice_run(std::size_t budget = std::size_t{1} << 28U, Index n = 16) {
-  return {input(lattice(n, 0.45, 31)), {}, std::make_shared<ThreadPool>(2), budget};
+  return {input(lattice(n, 0.3, 31)), {}, std::make_shared<ThreadPool>(2), budget};
 }
 
 TEST(Run, BackUndoesEveryKindOfStepBitForBit) {

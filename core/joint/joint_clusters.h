@@ -43,6 +43,7 @@ struct JointOptions {
   bool push_first = false;  // first all free vertices together, down to `push_gap`: raises the mean as well
   double push_gap = 0.03;
   std::optional<MeanKind> mean{};   // of a phase that follows: a cluster that is done gives up half of the gap for it
+  std::optional<Guard> guard{};     // which a move must not break; half of it, and so on
   bool beyond_minimum = false;      // goes on where the minimum is certified, with the next worst elements
   int max_steps = 150;              // Newton steps a solution
   std::size_t whole_at_most = 0;    // a cluster may become the whole mesh when this many vertices are free; 0: 80000, of volumes 3000

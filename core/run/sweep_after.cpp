@@ -12,20 +12,20 @@ std::uint64_t iterations_since_untangled(std::span<const IterationRecord> record
 
 namespace {
 
-/// Has each iteration so far, of at most a few, left fewer inverted elements than it found? A first one that moved nothing does not count.
+/// Whether each iteration so far, of at most a few, left fewer inverted elements than it found.
 bool repairs(std::span<const IterationRecord> records, std::uint64_t iteration) {
-  const std::uint64_t first = iteration > 0 && records[1].moved == 0 ? 1 : 0;
-  if (iteration - first >= UntanglingPlan::kRepairs) return false;
-  for (std::uint64_t i = first; i < iteration; ++i)
+  if (iteration >= UntanglingPlan::kRepairs) return false;
+  for (std::uint64_t i = 0; i < iteration; ++i)
     if (records[i + 1].statistics.inverted >= records[i].statistics.inverted) return false;
   return true;
 }
 
 }  // namespace
 
-bool untangles_jointly(std::span<const IterationRecord> records, std::uint64_t iteration) {
+bool untangles_jointly(std::span<const IterationRecord> records, std::uint64_t iteration, bool strays) {
   if (records[iteration].statistics.inverted == 0) return false;
-  if (iteration == 0) return true;
+  if (strays && repairs(records, iteration)) return false;
+  if (iteration == 0 || (strays && repairs(records, iteration - 1))) return true;
   return iterations_since_untangled(records, iteration) == UntanglingPlan::kEnd &&
          iterations_since_untangled(records, iteration - 1) < UntanglingPlan::kEnd;
 }

@@ -29,9 +29,9 @@ struct MeanPhase {
 /// of it begins with repairs.
 [[nodiscard]] Sweep sweep_after(std::span<const IterationRecord> records, std::uint64_t iteration, const MeanPhase& mean, bool strays);
 
-/// Whether vertices around inverted elements are then moved together instead of one by one: at the very first, and once after the last
-/// attempt.
-[[nodiscard]] bool untangles_jointly(std::span<const IterationRecord> records, std::uint64_t iteration);
+/// Whether vertices around inverted elements are then moved together instead of one by one: at the very first, after the repairs of strays,
+/// and once after the last attempt.
+[[nodiscard]] bool untangles_jointly(std::span<const IterationRecord> records, std::uint64_t iteration, bool strays);
 
 /// Iterations since the number of inverted elements last fell, at the end of `iteration`: at most UntanglingPlan::kEnd.
 [[nodiscard]] std::uint64_t iterations_since_untangled(std::span<const IterationRecord> records, std::uint64_t iteration);

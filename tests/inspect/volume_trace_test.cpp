@@ -1,6 +1,7 @@
 // A trace of a visit of a volume shows the smoother's result, bit for bit, and its values hold against the judges of whole meshes.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -15,6 +16,7 @@
 #include "core/mesh/generate.h"
 #include "core/mesh/random.h"
 #include "core/run/run.h"
+#include "core/run/sweep_after.h"
 #include "tests/smooth/promises.h"
 #include "tests/smooth/zoo.h"
 #include "tests/support/inside.h"
@@ -76,13 +78,13 @@ class VolumeFollower {
     for (int i = 0; i < iterations; ++i)
       for (const Index vertex : run_.colouring().order) {
         if (made_++ % kEvery != 0) {
-          run_.step(StepUnit::Vertex, progress_);
+          visit(vertex);
           positions[vertex] = run_.positions()[vertex];
           continue;
         }
         const VolumeTrace trace = look(positions, vertex);
         const bool repair = run_.sweep().untangling.repair;
-        const std::uint64_t steps = run_.step(StepUnit::Vertex, progress_);
+        const std::uint64_t steps = visit(vertex);
         expect_as_stored(trace, steps, positions[vertex]);
         if (trace.end == VisitEnd::Waits) {
           EXPECT_TRUE(repair && trace.before.jacobian > 0.0 && trace.levels.empty());
@@ -108,6 +110,12 @@ class VolumeFollower {
   std::uint64_t visits = 0, moved = 0, fast = 0, untangling = 0, halved = 0;
 
  private:
+  /// Visits the vertex that is next. A step of a tangled mesh would move the vertices around inverted elements together.
+  std::uint64_t visit(Index vertex) {
+    const bool together =
+        run_.moment().visits == 0 && untangles_jointly(run_.history().records(), run_.moment().iteration, run_.input().has_strays);
+    return together ? run_.visit_vertices(std::array{vertex}, progress_) : run_.step(StepUnit::Vertex, progress_);
+  }
   static RunParameters parameters_of(const Wish& wish) {
     RunParameters parameters{.metric = wish.metric, .search = wish.search, .backend = Backend::Cpu};
     if (wish.second) parameters.combination = CompositeTerms{.threshold = 0.4, .second = *wish.second};

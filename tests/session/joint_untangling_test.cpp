@@ -93,10 +93,18 @@ TEST(JointUntangling, ComesFirstAndOnceAfterTheLastAttempt) {
     records[i].moved = 1;
     records[i].statistics.inverted = i < 4 ? 3 : 2;
   }
-  std::vector<std::uint64_t> all;
-  for (std::size_t i = 0; i < records.size(); ++i)
-    if (untangles_jointly(records, i)) all.push_back(i);
-  EXPECT_EQ(all, (std::vector<std::uint64_t>{0, 4 + UntanglingPlan::kEnd}));
+  const auto joint_iterations = [&records](bool strays) {
+    std::vector<std::uint64_t> all;
+    for (std::size_t i = 0; i < records.size(); ++i)
+      if (untangles_jointly(records, i, strays)) all.push_back(i);
+    return all;
+  };
+  EXPECT_EQ(joint_iterations(false), (std::vector<std::uint64_t>{0, 4 + UntanglingPlan::kEnd}));
+  // Strays go home first; the first iteration here brings none home.
+  EXPECT_EQ(joint_iterations(true), (std::vector<std::uint64_t>{1, 4 + UntanglingPlan::kEnd}));
+  records[1].statistics.inverted = 2;
+  for (std::size_t i = 2; i < records.size(); ++i) records[i].statistics.inverted = 1;
+  EXPECT_EQ(joint_iterations(true), (std::vector<std::uint64_t>{3, 2 + UntanglingPlan::kEnd}));
 }
 
 }  // namespace joint_untangling

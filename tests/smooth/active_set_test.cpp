@@ -26,6 +26,16 @@ dmoscope::Run active_set_run(const testing::Specimen& specimen, const std::share
   return {mesh, std::move(parameters), std::make_shared<ThreadPool>(1), std::size_t{1} << 28U};
 }
 
+/// Visits every vertex, all awake.
+void visit_all(Smoother& smoother, const Colouring& colouring, std::vector<Vec3>& positions) {
+  for (Index c = 0; c < colouring.class_count(); ++c) {
+    const std::uint64_t first = colouring.class_offsets[c], count = colouring.class_offsets[c + 1] - first;
+    smoother.positions_replaced();
+    smoother.visit(first, count, positions, nullptr);
+    smoother.store(positions, nullptr);
+  }
+}
+
 /// Positions after each iteration of a run that wakes all vertices before every visit.
 std::vector<std::vector<Vec3>> always_awake(const dmoscope::Run& run) {
   const auto mesh = std::shared_ptr<const InputMesh>(std::shared_ptr<void>(), &run.input());
@@ -36,16 +46,20 @@ std::vector<std::vector<Vec3>> always_awake(const dmoscope::Run& run) {
   std::vector<Vec3> positions = after[0];
   std::vector<IterationRecord> records{run.history().records()[0]};
   for (std::uint64_t iteration = 0; iteration < kMostIterations; ++iteration) {
-    smoother->begin(sweep_after(records, iteration, {}, mesh->has_strays));
-    for (Index c = 0; c < colouring->class_count(); ++c) {
-      const std::uint64_t first = colouring->class_offsets[c], count = colouring->class_offsets[c + 1] - first;
-      smoother->positions_replaced();
-      smoother->visit(first, count, positions, nullptr);
-      smoother->store(positions, nullptr);
+    std::uint64_t moved = 0;
+    if (!mesh->is_surface() && untangles_jointly(records, iteration, mesh->has_strays)) {
+      dmoscope::Run other(mesh, run.parameters(), std::make_shared<ThreadPool>(1), 0);
+      Progress progress;
+      other.iterate(iteration + 1, progress);
+      moved = other.history().records().back().moved;
+      positions.assign(other.positions().begin(), other.positions().end());
+    } else {
+      smoother->begin(sweep_after(records, iteration, {}, mesh->has_strays));
+      visit_all(*smoother, *colouring, positions);
     }
     after.push_back(positions);
     const Statistics now = compute_statistics(mesh->quality_context(), positions, run.parameters().metric, run.immovable(), nullptr);
-    records.push_back({iteration + 1, now, 0, 0.0});
+    records.push_back({iteration + 1, now, moved, 0.0});
   }
   return after;
 }

@@ -362,7 +362,9 @@ TEST(Combined, BelowItsThresholdItIsThePlainSearch) {
       both.step(StepUnit::Iteration, progress);
       EXPECT_TRUE(same_bits(plain.positions(), both.positions())) << prepared->mesh.name << ", " << i;
     }
-    EXPECT_LT(both.statistics().minimum, 0.9999);
+    if (prepared->report.inverted_elements.empty()) {  // a tangled lattice becomes regular at once
+      EXPECT_LT(both.statistics().minimum, 0.9999);
+    }
     EXPECT_FALSE(same_bits(both.positions(), prepared->mesh.positions));
   }
 }

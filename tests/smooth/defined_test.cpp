@@ -272,7 +272,7 @@ TEST(DefinedMetrics, LooksIntoVisitsShowWhatTheSmootherDoes) {
           else
             check(trace_visit(*mesh, run.positions(), run.fixed(), parameters.metric, parameters.search, v, {}, run.sweep().untangling,
                               run.guard()));
-          run.step(StepUnit::Vertex, progress);
+          run.visit_vertices(std::array{v}, progress);  // a step of a tangled mesh would move them together
           ASSERT_EQ(run.positions()[v], to) << "vertex " << v;
         }
       }

@@ -72,7 +72,8 @@ inline void expect_promise_one(const Specimen& specimen, dmoscope::Run& run, std
     if (visits == 0) at_start = all_before;
     const Untangling rule = run.sweep().untangling;
     // Where many are moved together to untangle, one star may fall.
-    const bool together = visits == 0 && !mesh.is_surface() && untangles_jointly(run.history().records(), run.moment().iteration);
+    const bool together =
+        visits == 0 && !mesh.is_surface() && untangles_jointly(run.history().records(), run.moment().iteration, mesh.has_strays);
     run.step(StepUnit::Class, progress);
     for (std::size_t i = 0; i < members.size() && !together; ++i)
       expect_no_worse(specimen, run, members[i], old[members[i]], before[i], rule);

@@ -2,6 +2,7 @@
 // candidate, and the program's promises.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -387,7 +388,7 @@ TEST(TargetKernels, LooksIntoVisitsShowWhatTheyDo) {
                    .to;
         else
           to = trace_visit(*mesh, run.positions(), run.fixed(), parameters.metric, parameters.search, v, {}, run.sweep().untangling).to;
-        run.step(StepUnit::Vertex, progress);
+        run.visit_vertices(std::array{v}, progress);  // a step of a tangled mesh would move them together
         ASSERT_EQ(run.positions()[v], to) << "vertex " << v;
       }
     }

@@ -1,9 +1,11 @@
 #pragma once
 // Files for the tests of readers and writers: a temporary folder, and properties of all formats.
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <iterator>
 #include <random>
 #include <span>
 #include <string>
@@ -31,7 +33,8 @@ void put(const std::filesystem::path& path, std::string_view bytes);
 
 /// Whether the format can write a mesh that was read from another one.
 [[nodiscard]] inline bool is_made_anew(const FormatInfo& format) {
-  return format.name != "meshb" && format.name != "mike" && format.name != "selafin" && format.name != "exodus" && format.name != "cgns";
+  constexpr std::string_view kOnlyAsRead[] = {"meshb", "unv", "mike", "selafin", "exodus", "cgns"};
+  return std::ranges::find(kOnlyAsRead, format.name) == std::end(kOnlyAsRead);
 }
 
 /// Expects InputError at this line (from 1; 0: none) with these words in it.

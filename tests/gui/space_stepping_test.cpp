@@ -95,7 +95,8 @@ class VolumeStepping : public app::HeadlessTest {
   void SetUp() override {
     HeadlessTest::SetUp();
     if (IsSkipped()) return;
-    const Mesh mesh = test::volume_grid(4, test::Fill::Hexahedra, 0.3);
+    Mesh mesh = test::volume_grid(4, test::Fill::Hexahedra, 0.1);
+    mesh.positions[124] = {0.87, 0.87, 0.87};  // the corner in front, so that the worst element is seen
     Progress progress;
     write_mesh(folder_.path() / "block.vtk", mesh, mesh.positions, progress);
     good("open \"" + (folder_.path() / "block.vtk").string() + "\"");

@@ -1,5 +1,5 @@
 #pragma once
-// Looking at a plane from straight above.
+// A view of a plane from straight above.
 
 #include "core/base/vec.h"
 
@@ -23,7 +23,7 @@ struct Camera2D {
 
   /// Shows all of `bounds` with at least `margin` pixels around it. Empty or single-point bounds give a sensible view.
   [[nodiscard]] static Camera2D fit(const Bounds2& bounds, Vec2<double> viewport, double margin = 24.0);
-  /// Moves what is seen by a number of pixels (a drag of the mouse).
+  /// Moves the picture by a number of pixels (a drag of the mouse).
   void pan(Vec2<double> pixels);
   /// Makes everything `factor` times as big (> 1: closer); the point under `cursor` stays there. Limits keep it finite.
   void zoom_at(Vec2<double> cursor, Vec2<double> viewport, double factor);

@@ -124,7 +124,7 @@ std::span<const Oklab> control_path(ColourMap map) {
   return kPaths[static_cast<std::size_t>(found - kTable.begin())];
 }
 
-/// Both ends are as light and as strong as each other, and far apart for every kind of colour vision.
+/// A colour between two ends that are equally light and strong, and far apart for every kind of colour vision.
 Rgb sample_diverging(double t) {
   constexpr Oklab kMiddle{0.96, 0.0, 0.005}, kBelow{0.60, 0.105, 0.125}, kAbove{0.60, -0.055, -0.125};
   const Oklab& end = t < 0.5 ? kBelow : kAbove;
@@ -142,7 +142,7 @@ Rgb sample(ColourMap map, double t) {
   if (t == 1.0) return colours.back();
   const std::span<const Oklab> path = control_path(map);
   const double lightness = path.front().l + t * (path.back().l - path.front().l);
-  // Where the path of the control colours has this lightness, there are hue and chroma read.
+  // Hue and chroma are read where the path of the control colours has this lightness.
   std::size_t end = 1;
   while (end + 1 < path.size() && lightness > path[end].l) ++end;
   const Oklab &low = path[end - 1], &high = path[end];

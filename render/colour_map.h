@@ -8,7 +8,7 @@
 
 namespace dmoscope::render {
 
-/// OrangeBlue is of differences: from orange (below) through white to blue; not among those of quality.
+/// Maps of colours. OrangeBlue is for differences, from orange (below) through white to blue, and is not among the maps of quality.
 enum class ColourMap { Beacon, Viridis, Cividis, Magma, Grey, OrangeBlue };
 
 struct ColourMapInfo {
@@ -19,14 +19,14 @@ struct ColourMapInfo {
 /// All maps of quality, the default first.
 [[nodiscard]] std::span<const ColourMapInfo> colour_map_table();
 [[nodiscard]] std::string_view name(ColourMap map);
-/// Throws UsageError that lists the names.
+/// Map of this name. Throws UsageError that lists the names.
 [[nodiscard]] ColourMap colour_map_from_name(std::string_view name);
 
-/// Whether it is the low values that are bright: those of quality that are sought.
+/// Whether low values are bright; they are in maps of quality, because low qualities are sought.
 [[nodiscard]] constexpr bool low_is_bright(ColourMap map) { return map == ColourMap::Beacon; }
 
 /// Colour at t in [0, 1] (clamped). OKLab lightness rises linearly with t, or falls so where the low is bright; hue and chroma follow the
-/// map's control colours. Of OrangeBlue it rises so up to the middle and falls as much from there.
+/// map's control colours. The lightness of OrangeBlue rises so up to the middle and falls as much from there.
 [[nodiscard]] Rgb sample(ColourMap map, double t);
 
 /// Colour of inverted elements, drawn with hatching: far from every colour of every map.
@@ -44,7 +44,7 @@ struct ColourScale {
   friend bool operator==(const ColourScale&, const ColourScale&) = default;
   /// Position in the map, [0, 1], of a quality: clamped, reversed and stepped. NaN gives NaN.
   [[nodiscard]] double position(double quality) const;
-  /// Colour of a quality; NaN gives kUndefinedColour. Inverted elements are the caller's (kInvertedColour).
+  /// Colour of a quality; NaN gives kUndefinedColour. The caller colours inverted elements (kInvertedColour).
   [[nodiscard]] Rgb colour(double quality) const;
 };
 

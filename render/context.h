@@ -20,14 +20,14 @@ class Context {
   virtual void make_current() = 0;
   /// Waits until everything that was drawn is there. The context must be current.
   void finish();
-  /// What draws, for the status bar and `info`: "OpenGL 4.5, llvmpipe (LLVM 15.0.6, 256 bits), surfaceless EGL".
+  /// Name of the renderer, for the status bar and `info`: "OpenGL 4.5, llvmpipe (LLVM 15.0.6, 256 bits), surfaceless EGL".
   [[nodiscard]] const std::string& description() const noexcept { return description_; }
-  /// True when the processor draws (llvmpipe, softpipe, swrast): big meshes are then slow, see suggested_detail.
+  /// True when the processor draws (llvmpipe, softpipe, swrast): big meshes are then slow, see Scene::suggested_detail.
   [[nodiscard]] bool is_software() const noexcept { return software_; }
 
  protected:
-  /// For a context that was just made current and whose functions are loaded: checks that it is 4.5 or newer (Error that says
-  /// which version is there and which is needed), fills the description, and in debug builds turns OpenGL's messages on.
+  /// Takes over a context that was just made current and whose functions are loaded: checks that it is 4.5 or newer (else Error that says
+  /// which version there is and which is needed), fills the description, and in debug builds turns OpenGL's messages on.
   void adopt(const std::string& origin);
 
  private:

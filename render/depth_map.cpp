@@ -8,11 +8,11 @@
 namespace dmoscope::render {
 namespace {
 
-constexpr double kLongerSide = 800.0;  // pixels of the map
-constexpr double kLeastSlack = 2e-3;   // of the range of depths, -1 to 1
-constexpr double kSteep = 3.0;         // of faces whose outermost corner is not to be lost
+constexpr double kLongerSide = 800.0;  // length of the longer side, in pixels of the map
+constexpr double kLeastSlack = 2e-3;   // share of the range of depths, -1 to 1
+constexpr double kSteep = 3.0;         // steepness of faces whose outermost corner must not be lost
 
-/// What of a convex polygon a cutting plane leaves (Sutherland and Hodgman).
+/// Part of a convex polygon that a cutting plane leaves (Sutherland and Hodgman).
 std::vector<Vec3> left_by(const ClipPlane& clip, std::span<const Vec3> polygon) {
   std::vector<Vec3> left;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -46,7 +46,7 @@ DepthMap::DepthMap(const SeenFaces& seen, const Projection& projection) : projec
   for (const CutPolygon& polygon : cuts.polygons) draw(std::span(cuts.points).subspan(polygon.first, polygon.count));
 }
 
-/// How much deeper what lies as far behind the middle of the mesh as a pixel of the map is wide there.
+/// Difference of depth for a way behind the mesh's middle as long as a pixel of the map is wide there.
 double DepthMap::depth_of_a_pixel() const {
   const auto& m = projection_.matrix();
   const Vec3 right{m[0], m[4], m[8]}, up{m[1], m[5], m[9]}, across = cross(right, up);
@@ -77,14 +77,14 @@ void DepthMap::draw(std::span<const Vec3> polygon) {
   }
 }
 
-/// Depths run evenly over the picture of a triangle, also in perspective.
+/// Draws a triangle. Depths are linear over its picture, also in perspective.
 void DepthMap::draw(const Corner& a, const Corner& b, const Corner& c) {
   const double area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
   if (!(std::abs(area) > 1e-12)) return;
   const auto within = [](double at, int count) { return static_cast<int>(std::clamp(at, 0.0, static_cast<double>(count))); };
   const int left = within(std::floor(std::min({a.x, b.x, c.x})), width_), end = within(std::ceil(std::max({a.x, b.x, c.x})), width_);
   const int low = within(std::floor(std::min({a.y, b.y, c.y})), height_), high = within(std::ceil(std::max({a.y, b.y, c.y})), height_);
-  // How the shares of b and c grow along x and y, from a.
+  // Growth of the shares of b and c along x and y, from a.
   const double b_x = (c.y - a.y) / area, b_y = (a.x - c.x) / area, c_x = (a.y - b.y) / area, c_y = (b.x - a.x) / area;
   for (int row = low; row < high; ++row) {
     const double y = row + 0.5 - a.y;

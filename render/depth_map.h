@@ -1,5 +1,5 @@
 #pragma once
-// Which parts of a volume mesh hide others, found without OpenGL. Only for sources of this module.
+// Finds which parts of a volume mesh hide others, without OpenGL. Only for sources of this module.
 
 #include <span>
 #include <vector>
@@ -13,8 +13,8 @@ namespace dmoscope::render {
 class DepthMap {
  public:
   DepthMap(const SeenFaces& seen, const Projection& projection);
-  /// Whether it is in view and no face lies in front of it. Little behind a face counts as on it, and so does what is hidden by a pixel or
-  /// two of the map alone.
+  /// Whether a point is in view and no face lies in front of it. A point little behind a face counts as on it, and so does one that only a
+  /// pixel or two of the map hide.
   [[nodiscard]] bool shows(Vec3 point) const;
   [[nodiscard]] const Projection& projection() const noexcept { return projection_; }
 
@@ -28,8 +28,8 @@ class DepthMap {
   void draw(const Corner& a, const Corner& b, const Corner& c);
 
   Projection projection_;
-  double scale_;  // pixels of the map for one of the picture
-  double slack_;  // of depths: a vertex lies on the faces around it
+  double scale_;  // pixels of the map per pixel of the picture
+  double slack_;  // tolerance of depths: a vertex lies on the faces around it
   int width_, height_;
   std::vector<float> depths_;  // row after row from below; infinite where nothing is
 };

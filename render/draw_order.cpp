@@ -14,7 +14,7 @@ bool meets(const Bounds2& a, const Bounds2& b) {
   return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
 }
 
-/// 16 bits spread to every second bit.
+/// Spreads 16 bits to every second bit.
 std::uint32_t spread(std::uint32_t v) {
   v = (v | (v << 8U)) & 0x00ff00ffU;
   v = (v | (v << 4U)) & 0x0f0f0f0fU;
@@ -34,7 +34,8 @@ Bounds2 used_bounds(const Mesh& mesh, std::span<const Vec2<double>> points) {
   return bounds;
 }
 
-/// Elements sorted along a Morton curve through their first corners' middles; ties by element, so that it is the same everywhere.
+/// An element and its place on a Morton curve through the middles of the elements' first corners; ties are sorted by element, so that the
+/// order is the same everywhere.
 struct KeyedElement {
   std::uint32_t key;
   Index element;
@@ -54,8 +55,8 @@ std::vector<KeyedElement> curve_order(const Mesh& mesh, std::span<const Vec2<dou
   return keys;
 }
 
-/// Edges with one element. Edges are gathered at their lower vertex, where each has only a few companions. `may_end`: one a vertex, 0
-/// where no such edge ends; empty: they may end anywhere.
+/// Edges with one element. Edges are gathered at their lower vertex, where each has only a few companions. `may_end`: one flag a vertex, 0
+/// when no such edge ends there; empty: they may end anywhere.
 std::vector<std::array<Index, 2>> boundary_edges(const Mesh& mesh, std::span<const std::uint8_t> may_end) {
   const auto ends = [&](Index v) { return may_end.empty() || may_end[v] != 0; };
   const auto for_edges = [&](auto&& visit) {
@@ -91,7 +92,7 @@ std::vector<std::array<Index, 2>> boundary_edges(const Mesh& mesh, std::span<con
   return edges;
 }
 
-/// A box is found from each of a block's vertices once; as corners they come up six times.
+/// Lists each vertex of a block once, because the block's box needs each only once; as corners they come up six times.
 void gather_block_vertices(const Mesh& mesh, Batch& batch) {
   std::vector<Index> last_block(mesh.vertex_count(), kNoIndex);
   batch.block_begins.reserve(std::size_t{batch.block_count()} + 1);

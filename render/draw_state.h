@@ -1,5 +1,5 @@
 #pragma once
-// What drawing changes of OpenGL's state. Only for sources of this module.
+// OpenGL state that drawing changes. Only for sources of this module.
 
 #include "core/base/vec.h"
 #include "render/framebuffer.h"
@@ -8,7 +8,7 @@
 
 namespace dmoscope::render {
 
-/// Keeps what a draw changes and others may rely on: the bound framebuffer and the viewport.
+/// Keeps and restores what a draw changes and others may rely on: the bound framebuffer and the viewport.
 class TargetGuard {
  public:
   TargetGuard();
@@ -20,13 +20,13 @@ class TargetGuard {
   GLint draw_ = 0, read_ = 0, viewport_[4] = {0, 0, 0, 0};
 };
 
-/// In pixels.
+/// Width and height in pixels.
 [[nodiscard]] Vec2<double> size_of(const Framebuffer& target);
-/// Fills with the background.
+/// Fills the target with the background.
 void clear(Framebuffer& target, const Style& style);
-/// From here on elements cover each other by depth.
+/// Sets the state for elements: from here on they cover each other by depth.
 void begin_elements();
-/// From here on marks are blended over each other.
+/// Sets the state for marks: from here on they are blended over each other.
 void begin_marks();
 
 }  // namespace dmoscope::render

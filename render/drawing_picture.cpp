@@ -10,7 +10,7 @@
 namespace dmoscope::render {
 namespace {
 
-constexpr int kSupersample = 3;  // drawn that much larger and averaged, which smooths the edges
+constexpr int kSupersample = 3;  // factor of the size drawn; averaging then smooths the edges
 
 using Point = Drawing::Point;
 
@@ -31,7 +31,7 @@ class Painter {
 
   void draw(const Drawing::Line& line) const {
     const double reach = 0.5 * factor_ * line.width;
-    double drawn = 0.0;  // of the line so far: where in the pattern of dashes it is
+    double drawn = 0.0;  // length of the line drawn so far: gives the place in the pattern of dashes
     for (std::size_t i = 1; i < line.points.size(); ++i) {
       const Point a = scaled(line.points[i - 1]), b = scaled(line.points[i]);
       const double length = std::hypot(b.x - a.x, b.y - a.y);
@@ -72,12 +72,13 @@ class Painter {
  private:
   [[nodiscard]] Point scaled(Point p) const { return {factor_ * p.x, factor_ * p.y}; }
 
-  /// All pixels whose centre is within `reach` of the stretch from a to b.
+  /// Colours all pixels whose centre is within `reach` of the stretch from a to b.
   void stroke(Point a, Point b, double reach, Rgba colour) const {
     const auto from = [reach](double u, double v) { return std::max(0, static_cast<int>(std::floor(std::min(u, v) - reach))); };
     const auto to = [reach](double u, double v, int end) { return std::min(end - 1, static_cast<int>(std::ceil(std::max(u, v) + reach))); };
     const double dx = b.x - a.x, dy = b.y - a.y;
-    // In a row, only what is near the whole straight line can be near the stretch: long slanted lines would cost their box else.
+    // In a row, only pixels near the whole straight line can be near the stretch; without this, long slanted lines would cost their whole
+    // box.
     const double half = dy != 0.0 ? reach * std::hypot(dx, dy) / std::abs(dy) + 1.0 : 0.0;
     const int left = from(a.x, b.x), right = to(a.x, b.x, image_.width);
     for (int y = from(a.y, b.y); y <= to(a.y, b.y, image_.height); ++y) {

@@ -63,7 +63,7 @@ void ElementPainter::upload_shades(std::span<const float> shades) { shades_.writ
 
 void ElementPainter::mark_inverted(const Layout& layout, std::span<const float> shades) {
   odd_ = shades.empty() ? Odd::Unknown : Odd::None;
-  constexpr Index kTogether = 32;  // elements a bit
+  constexpr Index kTogether = 32;  // elements per bit
   const Index triangles = layout.batches[0].size();
   std::array<std::vector<std::uint32_t>, 2> bits;
   for (Index e = 0; e < shades.size(); ++e) {
@@ -113,7 +113,7 @@ void ElementPainter::draw_coarse(const View& view, const Style& style, std::size
   colouring_.bind(coarse_, style, shades_, elements_[batch].order);
   points_.bind_storage(0);
   elements_[batch].corners.bind_storage(3);
-  // Where a selection makes elements count or not every one is to be asked.
+  // With a selection, the shader asks of every element whether it counts.
   const Odd odd = colouring_.selects() ? Odd::Unknown : odd_;
   (odd == Odd::Some ? elements_[batch].odd : shades_).bind_storage(7);
   coarse_.set("u_look", odd == Odd::None ? 0 : odd == Odd::Some ? 1 : 2);

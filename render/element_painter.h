@@ -1,5 +1,5 @@
 #pragma once
-// Elements on the OpenGL side. Only for sources of this module.
+// Draws elements on the OpenGL side. Only for sources of this module.
 
 #include <array>
 #include <span>
@@ -12,13 +12,13 @@
 
 namespace dmoscope::render {
 
-/// A camera as the shaders take it.
+/// A camera in the form that the shaders take.
 struct View {
   Vec2<float> offset_high, offset_low;  // the camera's centre less the layout's origin
   float zoom = 1.0F;                    // pixels per unit
   Vec2<float> viewport;
-  float widest = 1e30F;     // pixels; see Layout::widest
-  Vec2<float> hatch_phase;  // of rising and falling stripes, in periods
+  float widest = 1e30F;     // widest element to be drawn, in pixels; see Layout::widest
+  Vec2<float> hatch_phase;  // phase of rising and falling stripes, in periods
   void apply(const Program& program) const;
 };
 inline constexpr float kHatchPeriod = 8.0F;  // pixels at scale 1
@@ -26,20 +26,20 @@ inline constexpr float kHatchPeriod = 8.0F;  // pixels at scale 1
 class ElementPainter {
  public:
   ElementPainter();
-  /// Makes buffers for this layout; what the last one's held is gone.
+  /// Makes buffers for this layout; the content of the last one's is lost.
   void upload_topology(const Layout& layout);
-  /// Relative to the layout's origin, in place.
+  /// Replaces all points, in place; they are relative to the layout's origin.
   void upload_points(std::span<const Vec2<float>> points);
-  /// The same of the vertices from `first` on.
+  /// Replaces the points of the vertices from `first` on; they are relative to the layout's origin.
   void upload_points(Index first, std::span<const Vec2<float>> points);
-  /// One per element, in place: see shade_of.
+  /// Replaces the shades in place, one per element: see shade_of.
   void upload_shades(std::span<const float> shades);
-  /// Which elements are inverted, of those shades; empty: nobody here knows, any may be.
+  /// Notes which elements are inverted according to those shades; empty: not known, any may be.
   void mark_inverted(const Layout& layout, std::span<const float> shades);
-  /// The buffers of the two, for others to write: new ones with every upload_topology, the same ones until then.
+  /// OpenGL's names of the buffers of points and shades, for others to write; new with every upload_topology.
   [[nodiscard]] GLuint point_buffer() const noexcept { return points_.id(); }
   [[nodiscard]] GLuint shade_buffer() const noexcept { return shades_.id(); }
-  /// Shading and selection are gone with upload_topology.
+  /// Colouring of the elements. upload_topology clears shading and selection.
   [[nodiscard]] Fill& fill() noexcept { return colouring_; }
   /// Draws all elements of the ranges.
   void draw(const View& view, const Style& style, std::size_t batch, std::span<const DrawRange> ranges);
@@ -53,15 +53,15 @@ class ElementPainter {
     Buffer odd;  // a bit for every 32 drawn elements, see coarse.vert.glsl
     Handle<DeleteVertexArray> array;
   };
-  enum class Odd { None, Some, Unknown };       // elements that are inverted
-  std::array<std::array<Program, 2>, 2> fill_;  // one colour an element, or by corners; of triangles, of quadrilaterals
+  enum class Odd { None, Some, Unknown };       // inverted elements
+  std::array<std::array<Program, 2>, 2> fill_;  // by one colour per element or by corners; then triangles or quadrilaterals
   Program coarse_, boundary_;
   std::array<Elements, 2> elements_;
   Buffer points_, shades_, edges_;
   GLsizei edge_count_ = 0;
   Odd odd_ = Odd::Unknown;
   Fill colouring_;
-  Handle<DeleteVertexArray> nothing_;  // for shaders that read their vertices from buffers
+  Handle<DeleteVertexArray> nothing_;  // empty vertex array, for shaders that read their vertices from buffers
 };
 
 }  // namespace dmoscope::render

@@ -8,7 +8,7 @@ namespace dmoscope::render {
 namespace {
 
 constexpr Stages kFaces{"faces.vert.glsl", {}, "faces.frag.glsl"};
-constexpr Index kMostAtOnce = 1U << 24U;  // faces: six vertices of each are to be counted in 31 bits
+constexpr Index kMostAtOnce = 1U << 24U;  // faces: six vertices of each must be counted in 31 bits
 
 std::array<float, 4> four(Vec3 v, double w) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
@@ -27,7 +27,7 @@ SpaceView::SpaceView(const OrbitCamera& camera, const Projection& projection) {
   std::ranges::transform(projection.matrix(), to_clip_space.begin(), [](double x) { return static_cast<float>(x); });
   const Vec3 back = camera.back();
   eye = camera.perspective ? four(camera.eye() - projection.origin(), 1.0) : four(back, 0.0);
-  // From over the left shoulder: faces at the same angle to the line of sight differ.
+  // Light comes from over the left shoulder, so that faces at the same angle to the line of sight differ.
   const Vec3 towards = back + 0.45 * camera.up + -0.3 * camera.right;
   light = four(1.0 / length(towards) * towards, 0.0);
   viewport = {static_cast<float>(projection.viewport().x), static_cast<float>(projection.viewport().y)};
@@ -45,7 +45,7 @@ void FacePainter::reset() {
   colouring_.reset();
   for (Buffer* buffer : {&points_, &shades_, &means_, &cut_points_, &faces_.records, &ghost_.records, &cuts_.records}) {
     *buffer = Buffer();
-    buffer->reserve(sizeof(Point));  // something to bind
+    buffer->reserve(sizeof(Point));  // at least one, so that there is a buffer to bind
   }
   faces_.count = ghost_.count = cuts_.count = 0;
 }
@@ -55,7 +55,7 @@ void FacePainter::upload_cuts(std::span<const FaceRecord> faces, std::span<const
   upload(cuts_, faces);
 }
 
-/// Binds and sets what the shaders of faces read.
+/// Binds and sets everything that the shaders of faces read.
 void FacePainter::prepare(const Program& program, const Faces& faces, const Buffer& points, const SpaceView& view, const Look& look) const {
   program.use();
   program.set("u_viewport", view.viewport);

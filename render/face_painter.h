@@ -1,5 +1,5 @@
 #pragma once
-// Faces of volume elements on the OpenGL side. Only for sources of this module.
+// Draws faces of volume elements on the OpenGL side. Only for sources of this module.
 
 #include <array>
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace dmoscope::render {
 
-/// A camera as the shaders of faces take it. Positions are relative to an origin.
+/// A camera in the form that the shaders of faces take. Positions are relative to an origin.
 struct SpaceView {
   SpaceView(const OrbitCamera& camera, const Projection& projection);
   std::array<float, 16> to_clip_space{};
@@ -24,31 +24,31 @@ struct SpaceView {
 class FacePainter {
  public:
   FacePainter();
-  /// Another mesh: what buffers held is gone.
+  /// Prepares for another mesh: the buffers' content is lost.
   void reset();
   using Point = std::array<float, 3>;
   void upload_points(std::span<const Point> points) { points_.write(points); }
   void upload_shades(std::span<const float> shades) { shades_.write(shades); }
-  /// The mean of each element's corners; needed while elements are drawn shrunk.
+  /// Replaces the mean of each element's corners; needed while elements are drawn shrunk.
   void upload_means(std::span<const Point> means) { means_.write(means); }
   void upload_faces(std::span<const FaceRecord> faces) { upload(faces_, faces); }
   void upload_ghost(std::span<const FaceRecord> faces) { upload(ghost_, faces); }
   void upload_cuts(std::span<const FaceRecord> faces, std::span<const Point> points);
   [[nodiscard]] Fill& fill() noexcept { return colouring_; }
 
-  /// How faces are drawn.
+  /// Look of faces.
   struct Look {
     const Style& style;
     double shrink = 1.0;
-    bool both_sides = false;                    // of a surface; else what is seen has a closed skin
-    std::optional<std::array<float, 4>> plane;  // normal and offset: what is beyond is left out
+    bool both_sides = false;                    // both sides of a surface are seen; false for a closed skin
+    std::optional<std::array<float, 4>> plane;  // normal and offset of a plane; everything beyond it is left out
   };
   [[nodiscard]] Index face_count() const noexcept { return static_cast<Index>(faces_.count); }
   void draw_faces(const SpaceView& view, const Look& look, Index first, Index count) const;
-  /// A square for one of every `stride` faces.
+  /// Draws a square for one of every `stride` faces.
   void draw_coarse(const SpaceView& view, const Look& look, Index stride) const;
   void draw_cuts(const SpaceView& view, const Style& style) const;
-  /// Before the others: these are seen through it in their own colours.
+  /// Draws faces that the others are seen through; to be called before the others are drawn.
   void draw_ghost(const SpaceView& view, const Style& style) const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// The colours of elements on the OpenGL side: what resources/shaders/fill.glsl reads. Only for sources of this module.
+// Colours of elements on the OpenGL side, in the form that resources/shaders/fill.glsl reads. Only for sources of this module.
 
 #include <optional>
 
@@ -9,26 +9,28 @@
 
 namespace dmoscope::render {
 
-/// rgb of a colour, and alpha.
+/// Sets a uniform to the rgb of a colour, and alpha.
 void set_colour(const Program& program, const char* name, Rgb colour, float alpha = 1.0F);
 
-/// An object that holds nothing, for shaders that read their vertices from buffers.
+/// An empty vertex array, for shaders that read their vertices from buffers.
 [[nodiscard]] Handle<DeleteVertexArray> make_array();
 
 class Fill {
  public:
   Fill();
-  /// Another mesh: forgets shading and selection.
+  /// Prepares for another mesh: forgets shading and selection.
   void reset();
   void set_colours(const ColourScale& colours);
-  /// What is shown instead of quality; null: quality.
+  /// Sets the shading that is shown instead of quality; null: quality.
   void set_shading(const Shading* shading);
   void set_selection(const Selection& selection);
-  /// For the programs that include fill.glsl. `shades`: one per element, see shade_of; `order`: the elements as they are drawn.
+  /// Binds the colours for programs that include fill.glsl. `shades`: one per element, see shade_of; `order`: the elements as they are
+  /// drawn.
   void bind(const Program& program, const Style& style, const Buffer& shades, const Buffer& order) const;
-  /// Values by vertex and the palette for the shaders of edges; `instead`: what to bind where edges have no categories. Their number.
+  /// Binds values by vertex and the palette for the shaders of edges; `instead`: what to bind when edges have no categories. Returns their
+  /// number.
   [[nodiscard]] int bind_edges(const Buffer& instead) const;
-  /// Whether some elements may not count.
+  /// Whether the selection may leave some elements out.
   [[nodiscard]] bool selects() const noexcept { return !selection_.all(); }
   [[nodiscard]] bool by_vertices() const noexcept { return by_ == Shading::By::Vertices; }
 
@@ -39,7 +41,7 @@ class Fill {
   int categories_ = 0;
   bool edges_by_category_ = false;
   Selection selection_;
-  std::optional<ColourScale> uploaded_;  // the map as it is in colours_, from 0 to 1
+  std::optional<ColourScale> uploaded_;  // the map in colours_, with a range from 0 to 1
 };
 
 }  // namespace dmoscope::render

@@ -1,5 +1,5 @@
 #pragma once
-// A picture on the OpenGL side that scenes (and ImGui) are drawn into.
+// A picture on the OpenGL side, drawn into by scenes and ImGui.
 
 #include "render/image.h"
 
@@ -20,13 +20,13 @@ class Framebuffer {
   /// OpenGL's name of the colour texture, for ImGui::Image: reinterpret_cast<ImTextureID>(std::uintptr_t{texture()}), with
   /// uv0 = (0, 1) and uv1 = (1, 0), because its first row is the bottom one.
   [[nodiscard]] unsigned texture() const noexcept { return colour_; }
-  /// Likewise of the depths, as they lie in OpenGL's buffer: 0 to 1, where nothing was drawn 1.
+  /// OpenGL's name of the texture of depths, as they lie in OpenGL's buffer: 0 to 1, and 1 when nothing was drawn.
   [[nodiscard]] unsigned depth_texture() const noexcept { return depth_; }
-  /// Draws go here, all of it is the viewport.
+  /// Makes this the target of draws, with all of it as the viewport.
   void bind();
-  /// Draws go to the window's own framebuffer again (0).
+  /// Makes the window's own framebuffer (0) the target of draws again.
   static void bind_default(int width, int height);
-  /// Binds and fills: depth to its farthest.
+  /// Binds and fills with a colour; depth is set to its farthest.
   void clear(Rgba colour);
   /// Takes the size and the colours of another one; depth is left as it is.
   void copy_from(const Framebuffer& other);
@@ -34,7 +34,7 @@ class Framebuffer {
   void copy_middle_of(const Framebuffer& larger);
   /// The picture, with straight alpha. Waits for OpenGL.
   [[nodiscard]] Image read_pixels() const;
-  /// The largest width and height OpenGL allows here.
+  /// The largest width and height that OpenGL allows here.
   [[nodiscard]] static int largest_size();
 
  private:

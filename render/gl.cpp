@@ -28,7 +28,7 @@ std::string_view error_name(GLenum error) {
   }
 }
 
-/// The text of a shader with what its lines `#include "FILE"` name in their place.
+/// Text of a shader with every line `#include "FILE"` replaced by that file's text.
 std::string whole_text(std::string_view file) {
   std::string text(shader_text(file));
   if (text.empty()) throw Error(fmt::format("the program holds no shader '{}'", file));
@@ -116,7 +116,7 @@ Program::Program(const Stages& stages, Defines defines) : program_(glCreateProgr
 
 void Program::use() const { DMOSCOPE_GL(glUseProgram(program_.id())); }
 
-// -1 for a uniform that the compiler left out because nothing reads it; OpenGL then ignores the value.
+// OpenGL returns -1 for a uniform that the compiler left out because nothing reads it, and ignores its value.
 GLint Program::location(const char* name) const { return glGetUniformLocation(program_.id(), name); }
 void Program::set(const char* name, float value) const { glProgramUniform1f(program_.id(), location(name), value); }
 void Program::set(const char* name, int value) const { glProgramUniform1i(program_.id(), location(name), value); }

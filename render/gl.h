@@ -13,7 +13,7 @@
 
 namespace dmoscope::render {
 
-/// Throws Error with the call, its place and OpenGL's error, if there is one.
+/// Throws Error with the call, its place and OpenGL's error if there is one.
 void check_gl(const char* call, const char* file, int line);
 
 /// An OpenGL object name with the function that deletes it.
@@ -91,10 +91,10 @@ struct Stages {
 /// Macros set to 1 in all stages of a program.
 using Defines = std::initializer_list<std::string_view>;
 
-/// A linked program made of embedded shaders; "common.glsl" is put before each, and lines `#include "FILE"` stand for other ones.
+/// A linked program made of embedded shaders; "common.glsl" is put before each, and lines `#include "FILE"` stand for other files.
 class Program {
  public:
-  /// Throws Error with the compiler's log.
+  /// Compiles and links the shaders. Throws Error with the compiler's log.
   explicit Program(const Stages& stages, Defines defines = {});
   void use() const;
   void set(const char* name, float value) const;
@@ -102,7 +102,7 @@ class Program {
   void set(const char* name, unsigned value) const;
   void set(const char* name, Vec2<float> value) const;
   void set(const char* name, float r, float g, float b, float a) const;
-  /// A matrix of 4 x 4, column after column.
+  /// Sets a 4 x 4 matrix, column after column.
   void set(const char* name, const std::array<float, 16>& matrix) const;
 
  private:

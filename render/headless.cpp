@@ -1,5 +1,5 @@
-// Contexts without a window: of an EGL device, or surfaceless. libEGL is looked for when it is needed, so that the
-// program starts (and smooths) where it is not installed.
+// Contexts without a window: of an EGL device, or surfaceless. libEGL is loaded when it is needed, so that the program starts (and smooths)
+// without it.
 
 #include <array>
 #include <cstdlib>
@@ -165,7 +165,7 @@ std::unique_ptr<Context> create_headless_context(std::optional<int> cuda_device)
     } catch (const Error& error) {
       tried.push_back(fmt::format("{}: {}", way.description, error.what()));
     }
-    if (software && software_wanted) break;  // software drawing was asked for; else a graphics card may do better
+    if (software && software_wanted) break;  // software drawing was asked for; otherwise a graphics card may do better
   }
   if (software) {
     software->make_current();

@@ -8,7 +8,7 @@
 namespace dmoscope::render {
 namespace {
 
-/// sRGB's transfer function, 8 bits to linear light.
+/// Table of sRGB's transfer function, from 8 bits to linear light.
 const std::array<float, 256>& linear_table() {
   static const std::array<float, 256> table = [] {
     std::array<float, 256> values{};

@@ -31,7 +31,7 @@ struct Image {
 
 /// The picture as a PNG file's bytes. Throws Error.
 [[nodiscard]] std::string encode_png(const Image& image);
-/// Writes a PNG: beside `path`, then renamed. Throws OutputError.
+/// Writes a PNG to a file beside `path`, then renames it. Throws OutputError.
 void write_png(const std::filesystem::path& path, const Image& image);
 /// Reads a PNG. Throws InputError.
 [[nodiscard]] Image read_png(const std::filesystem::path& path);
@@ -39,7 +39,7 @@ void write_png(const std::filesystem::path& path, const Image& image);
 /// Averages blocks of n x n pixels, in linear light and weighted by alpha, so that edges get neither dark nor bright fringes.
 /// width and height must be multiples of n.
 [[nodiscard]] Image downsample(const Image& image, int n);
-/// Draws `top` over `bottom` with its left upper corner at (x, y); what does not fit is cut off.
+/// Draws `top` over `bottom` with its left upper corner at (x, y); parts that do not fit are cut off.
 void blend_over(Image& bottom, const Image& top, int x, int y);
 
 }  // namespace dmoscope::render

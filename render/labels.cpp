@@ -39,10 +39,10 @@ void draw_labels(Image& image, std::span<const Label> labels, Vec2<double> viewp
   for (const Label& label : labels) {
     const std::string text = std::to_string(label.id);
     const int width = font->width(text, size), pad = static_cast<int>(std::lround(2.0F * scale));
-    const int height = static_cast<int>(std::lround(0.74F * size));  // of a digit
+    const int height = static_cast<int>(std::lround(0.74F * size));  // height of a digit
     const Vec2<double> at{0.5 * viewport.x + label.point.x, 0.5 * viewport.y - label.point.y};
     const int left = static_cast<int>(std::lround(at.x)) - width / 2, top = static_cast<int>(std::lround(at.y)) - height / 2;
-    // Vertices dark on light where elements are light on dark.
+    // Labels of vertices are dark on light, those of elements light on dark.
     const Rgba plate = label.vertex ? ink : paper, letters = label.vertex ? paper : ink;
     for (int y = top - pad; y < top + height + pad; ++y) {
       for (int x = left - pad; x < left + width + pad; ++x) blend(image, x, y, {plate.r, plate.g, plate.b}, 0.88);

@@ -9,13 +9,13 @@
 
 namespace dmoscope::render {
 
-/// How wide a digit of a label in a picture is, and how high its line, at a scale; for LabelWish.
+/// Width of a digit of a label in a picture and height of its line, in pixels, at a scale; for LabelWish.
 [[nodiscard]] Vec2<double> label_digit(float scale);
 
-/// How wide an id is in pixels.
+/// Width of an id in pixels.
 [[nodiscard]] double label_width(Index id, const LabelWish& wish);
 
-/// Writes the labels of a view of the size `viewport` into the left upper part of `image`. Without a font it does nothing.
+/// Writes the labels of a view of size `viewport` into the left upper part of `image`. Does nothing without a font.
 void draw_labels(Image& image, std::span<const Label> labels, Vec2<double> viewport, const Style& style, float scale);
 
 }  // namespace dmoscope::render

@@ -11,7 +11,7 @@
 namespace dmoscope::render {
 namespace {
 
-/// Sizes in pixels, all grown with the scale.
+/// Sizes in pixels, multiplied by the scale.
 struct Measures {
   explicit Measures(float scale) : unit(scale) {}
   float unit;
@@ -20,7 +20,7 @@ struct Measures {
 };
 
 Rgba text_colour(const Style& style) {
-  // On a transparent picture nobody knows what will lie below: middle grey reads on dark and on light.
+  // The background of a transparent picture is not known: middle grey reads on dark and on light.
   if (style.transparent) return {0x80, 0x84, 0x8c, 255};
   return to_oklab(style.background).l > 0.6 ? Rgba{0x22, 0x26, 0x2d, 255} : Rgba{0xdd, 0xe1, 0xe7, 255};
 }
@@ -42,7 +42,7 @@ void draw_bar(Image& image, const Style& style, int left, int top, int width, in
   }
 }
 
-/// The magenta hatched square of inverted elements.
+/// Draws the magenta hatched square of inverted elements.
 void draw_inverted_swatch(Image& image, int left, int top, int size, float unit) {
   for (int y = 0; y < size; ++y) {
     for (int x = 0; x < size; ++x) {
@@ -82,7 +82,7 @@ struct BarTick {
   std::string label;
 };
 
-/// At 1 of every power of ten, and at 2 and 5 where there are few.
+/// Ticks at 1 of every power of ten, and at 2 and 5 when there are few powers.
 std::vector<BarTick> powers_of_ten(double low, double high) {
   std::vector<BarTick> ticks;
   const bool few = high - low < 2.0;
@@ -128,7 +128,7 @@ class LegendPainter {
     const auto write = [&](int left, const std::string& words) {
       if (font_) font_->draw(image_, left, row() + height() + m_.px(16), words, small, ink_);
     };
-    // The ends are said whatever they are; other numbers where there is room between them.
+    // Both ends are always labelled; other numbers only where there is room between them.
     const auto end = [&](double value) { return fmt::format("{:.4g}", legend.logarithmic ? std::pow(10.0, value) : value); };
     const std::string low = end(scale.low), high = end(scale.high);
     const int low_ends = x_ + wide(low) + m_.px(8), high_begins = x_ + size - wide(high);
@@ -151,7 +151,7 @@ class LegendPainter {
     fill(image_, x_, row(), height(), height(), opaque(colour));
     beside_swatch(name);
   }
-  /// As many as there is room for, and how many there are more.
+  /// Draws as many categories as there is room for, and the number of the others.
   void categories(const std::vector<LegendEntry>& entries) {
     for (std::size_t k = 0; k < entries.size(); ++k) {
       const std::string name = fmt::format("{} ({})", entries[k].name, entries[k].count);

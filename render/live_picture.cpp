@@ -27,7 +27,7 @@ void LivePicture::update(Scene& scene, const Wish& wish) {
 }
 
 void LivePicture::refine(Scene& scene, const Wish& wish) {
-  constexpr double kMoment = 0.03;  // seconds; an input waits so long for its frame
+  constexpr double kMoment = 0.03;  // seconds that an input may wait for its frame
   finer_.resize(wish.width, wish.height);
   const auto begin = std::chrono::steady_clock::now();
   const Index before = progress_.drawn;
@@ -37,7 +37,8 @@ void LivePicture::refine(Scene& scene, const Wish& wish) {
   if (!complete_ && count > 0) {
     const double fitting = static_cast<double>(count) * kMoment / std::max(taken, 1e-6);
     slice_ = static_cast<Index>(std::clamp(fitting, 0.5 * static_cast<double>(slice_), 2.0 * static_cast<double>(slice_)));
-    // The clock also counts what other programs do: slices that shrank with it would never end on a busy machine.
+    // The slice has a least size because the clock also counts other programs: slices that shrank with it would never end on a busy
+    // machine.
     slice_ = std::clamp<Index>(slice_, 20'000, 4'000'000);
   }
   if (complete_) std::swap(base_, finer_);

@@ -1,5 +1,5 @@
 #pragma once
-// The picture of a scene that a person looks at: drawn in short slices, and only when something changed.
+// A scene's picture on the screen, drawn in short slices and only when something changed.
 
 #include <optional>
 
@@ -8,8 +8,8 @@
 
 namespace dmoscope::render {
 
-/// Elements are drawn again only when something about them changed; marks cost only themselves. Where drawing all of a big mesh takes long,
-/// a coarse picture comes first, and a full one is drawn beside it slice by slice until it takes its place.
+/// Draws elements again only when something about them changed; marks cost only themselves. When drawing all of a big mesh takes long, a
+/// coarse picture comes first, and a full one is drawn beside it slice by slice until it takes its place.
 class LivePicture {
  public:
   struct Wish {
@@ -17,16 +17,16 @@ class LivePicture {
     Camera camera;
     Style style;
     Marks marks;
-    double detail = 1.0;  // what can be drawn in a moment, see Scene::draw_elements
-    bool refine = true;   // go on towards the full picture
+    double detail = 1.0;  // share that can be drawn in a moment, see Scene::draw_elements
+    bool refine = true;   // whether to go on towards the full picture
   };
   /// Brings the picture up to date, as far as a moment goes. Throws Error.
   void update(Scene& scene, const Wish& wish);
-  /// Draws anew next time, whatever the scene says of itself.
+  /// Makes the next update draw anew, whatever the scene says of itself.
   void forget() { key_.reset(); }
   /// Whether every element in view is drawn.
   [[nodiscard]] bool complete() const noexcept { return complete_; }
-  /// See Framebuffer::texture.
+  /// OpenGL's name of the picture, see Framebuffer::texture.
   [[nodiscard]] unsigned texture() const noexcept { return shown_.texture(); }
   [[nodiscard]] Image picture() const { return shown_.read_pixels(); }
 
@@ -43,10 +43,10 @@ class LivePicture {
   void refine(Scene& scene, const Wish& wish);
 
   Framebuffer base_{1, 1}, finer_{1, 1}, shown_{1, 1};
-  std::optional<Key> key_;  // of base_
-  Marks marks_;             // on shown_
-  SliceProgress progress_;  // of finer_
-  Index slice_ = 50'000;    // elements that are drawn in a moment
+  std::optional<Key> key_;  // state that base_ shows
+  Marks marks_;             // marks that shown_ has
+  SliceProgress progress_;  // progress of finer_
+  Index slice_ = 50'000;    // elements drawn in a moment
   bool complete_ = true;
 };
 

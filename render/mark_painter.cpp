@@ -12,7 +12,7 @@ void put(float (&to)[4], Rgba colour) {
   to[3] = static_cast<float>(colour.a) / 255.0F;
 }
 
-/// Far outside the picture only the direction matters, and floats would run out of digits.
+/// Clamps a pixel's coordinate: far outside the picture only the direction matters, and floats would run out of digits.
 float pixel(double value) { return static_cast<float>(std::clamp(value, -1e6, 1e6)); }
 
 }  // namespace

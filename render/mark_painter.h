@@ -1,5 +1,5 @@
 #pragma once
-// Lines and dots given in pixels, on the OpenGL side. Only for sources of this module.
+// Draws lines and dots given in pixels on the OpenGL side. Only for sources of this module.
 
 #include <vector>
 

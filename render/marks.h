@@ -1,5 +1,5 @@
 #pragma once
-// What is marked over the picture of a mesh.
+// Marks over the picture of a mesh.
 
 #include <optional>
 #include <vector>
@@ -29,14 +29,14 @@ struct OverlayLine {
 
 /// Marks on top of the elements, in this order; nothing hides them.
 struct Marks {
-  std::vector<Index> elements{};  // all their edges
-  std::vector<Index> vertices{};  // dots
+  std::vector<Index> elements{};  // marked by all their edges
+  std::vector<Index> vertices{};  // marked by dots
   std::optional<Index> worst{};   // element with a ring around it
-  bool worst_behind = false;      // others hide it: the ring is faint
+  bool worst_behind = false;      // other elements hide it: the ring is faint
   std::vector<OverlayLine> lines{};
   std::vector<OverlayDot> dots{};      // the nearest on top
   bool triad = true;                   // the axes of a mesh in space, in the right lower corner
-  bool faint_where_taken_away = true;  // marks of elements and vertices of which nothing is seen
+  bool faint_where_taken_away = true;  // faint marks for elements and vertices that are taken away entirely
   friend bool operator==(const Marks&, const Marks&) = default;
 };
 

@@ -9,7 +9,7 @@
 namespace dmoscope::render {
 namespace {
 
-/// Of a matrix of 4 x 4, column after column, that has one: by Gauss and Jordan.
+/// Inverse of an invertible 4 x 4 matrix, column after column, by Gauss-Jordan elimination.
 std::array<double, 16> inverse_of(std::array<double, 16> m) {
   std::array<double, 16> inverse{};
   for (std::size_t i = 0; i < 4; ++i) inverse[5 * i] = 1.0;

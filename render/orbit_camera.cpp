@@ -12,9 +12,9 @@
 namespace dmoscope::render {
 namespace {
 
-constexpr double kSmallest = 1e-150, kLargest = 1e150;  // of what a viewport shows: squares of it are still numbers
-constexpr double kDragTurn = std::numbers::pi;          // by a drag over the shorter side of the viewport
-constexpr double kNearest = 1e-4;                       // of the farthest depth: what is nearer to the eye is not seen
+constexpr double kSmallest = 1e-150, kLargest = 1e150;  // size of what a viewport shows, so that its square stays finite and above 0
+constexpr double kDragTurn = std::numbers::pi;          // angle of a drag over the shorter side of the viewport
+constexpr double kNearest = 1e-4;                       // share of the farthest depth; everything nearer to the eye is not seen
 
 constexpr std::array<ViewPresetInfo, 7> kPresets{{{ViewPreset::Isometric, "iso"},
                                                   {ViewPreset::PlusX, "+x"},
@@ -32,7 +32,7 @@ Vec3 turned(Vec3 v, Vec3 axis, double angle) {
   return c * v + s * cross(axis, v) + (1.0 - c) * dot(axis, v) * axis;
 }
 
-/// After many turns: right angles and lengths of 1 again.
+/// Restores right angles and lengths of 1, which many turns wear off.
 void straighten(OrbitCamera& camera) {
   camera.right = normalised(camera.right);
   camera.up = normalised(camera.up - dot(camera.up, camera.right) * camera.right);
@@ -40,7 +40,7 @@ void straighten(OrbitCamera& camera) {
 
 double shorter_side(Vec2<double> viewport) { return std::max(1.0, std::min(viewport.x, viewport.y)); }
 
-/// A point on a ball that fills the viewport, or on the bowl around it (Bell's trackball): no jump at its border.
+/// Point under a pixel on a ball that fills the viewport, or on the bowl around it (Bell's trackball): no jump at its border.
 Vec3 on_ball(Vec2<double> pixel, Vec2<double> viewport) {
   const double radius = 0.5 * shorter_side(viewport);
   const double x = (pixel.x - 0.5 * viewport.x) / radius, y = (0.5 * viewport.y - pixel.y) / radius;
@@ -96,14 +96,14 @@ void look_upright(OrbitCamera& camera, Vec3 towards) {
 }  // namespace
 
 void OrbitCamera::look_from(ViewPreset preset) {
-  // Towards the eye, in the order of ViewPreset; the corner is on the right in front, whichever axis is up.
+  // Direction towards the eye, in the order of ViewPreset; the corner is on the right in front, whichever axis is up.
   const Vec3 corner = up_axis == UpAxis::Z ? Vec3{1, -1, 1} : Vec3{1, 1, 1};
   const std::array<Vec3, 7> directions{{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}, normalised(corner)}};
   look_upright(*this, directions[static_cast<std::size_t>(preset)]);
 }
 
 void OrbitCamera::face(Vec3 outward) {
-  constexpr double kWellEnough = 0.3;  // of the cosine
+  constexpr double kWellEnough = 0.3;  // least cosine
   const double size = length(outward);
   if (!(size > 0.0) || dot(outward, back()) >= kWellEnough * size) return;
   look_upright(*this, (1.0 / size) * outward);
@@ -125,9 +125,9 @@ bool OrbitCamera::is_valid() const {
 
 namespace {
 
-/// Where the eye may stand sideways so that points stay between two borders: the farther away (the higher `reach`), the more freely.
-/// Borders are slopes: how far beside the line of sight they are where it has gone 1 from the eye. In the orthographic view, where
-/// nothing shrinks with its distance, depths count as 0 and `reach` as half the height.
+/// Interval of the eye's places to the side for which points stay between two borders: the farther away a point (the higher `reach`), the
+/// more freely. Borders are slopes: their distance from the line of sight at 1 from the eye. In the orthographic view, where nothing
+/// shrinks with its distance, depths count as 0 and `reach` as half the height.
 class Between {
  public:
   Between(double low, double high) : low_(low), high_(high) {}
@@ -143,7 +143,7 @@ class Between {
   double lowest_ = std::numeric_limits<double>::infinity(), highest_ = -lowest_;
 };
 
-/// Not narrower than what something can still be seen in.
+/// Interval widened, if need be, until something can be seen in it.
 std::pair<double, double> wide_enough(double low, double high, double whole) {
   const double middle = 0.5 * (low + high), half = 0.5 * std::max(high - low, 0.2 * whole);
   return {middle - half, middle + half};
@@ -161,7 +161,7 @@ void OrbitCamera::fit(std::span<const Vec3> points, Vec2<double> viewport, const
   const double slope = std::tan(0.5 * kFieldOfView), unit = (perspective ? slope : 1.0) / (0.5 * size.y);
   Between across(unit * (left - 0.5 * size.x), unit * (end - 0.5 * size.x));
   Between upwards(unit * (0.5 * size.y - bottom), unit * (0.5 * size.y - top));
-  const Vec3 origin = centre, z = back();  // near them, so that no digits are lost far from the mesh's origin
+  const Vec3 origin = centre, z = back();  // near the points, so that no digits are lost far from the mesh's origin
   double nearest = -std::numeric_limits<double>::infinity(), farthest = -nearest;
   for (const Vec3& point : points) {
     const Vec3 p = point - origin;
@@ -190,11 +190,11 @@ void OrbitCamera::turn(Vec2<double> pixels, Vec2<double> viewport) {
   const Vec3 axis = upright();
   const double each = kDragTurn / shorter_side(viewport), height_of_eye = dot(back(), axis);
   const double elevation = std::asin(std::clamp(height_of_eye, -1.0, 1.0));
-  // Level, should it have been rolled; straight above or below `right` alone tells where it looks.
+  // The direction to the right is made level, in case the camera was rolled; straight above or below, `right` alone tells the direction.
   const Vec3 level = std::abs(height_of_eye) < 1.0 - 1e-9 ? cross(axis, back()) : right - dot(right, axis) * axis;
   right = turned(length(level) > 0.0 ? normalised(level) : Vec3{1, 0, 0}, axis, -each * pixels.x);
   const double raised = std::clamp(elevation + each * pixels.y, -0.5 * std::numbers::pi, 0.5 * std::numbers::pi);
-  const Vec3 outwards = cross(right, axis);  // of a camera that looks along the ground
+  const Vec3 outwards = cross(right, axis);  // outward direction of a camera that looks along the ground
   up = std::cos(raised) * axis - std::sin(raised) * outwards;
   straighten(*this);
 }
@@ -246,10 +246,10 @@ Projection OrbitCamera::projection(Vec2<double> viewport, const Bounds3& bounds,
   if (perspective) {
     const double eye_height = distance();
     rows[3] = axis(z, -1.0 / eye_height);
-    rows[3][3] += 1.0;  // 1 at the centre
+    rows[3][3] += 1.0;  // w is 1 at the centre
     const double farthest = std::max((eye_height - far_height) / eye_height, 1e-9);
     const double nearest = std::max((eye_height - near_height) / eye_height, kNearest * farthest);
-    // Depth a + b / w, from -1 to 1.
+    // Depth is a + b / w, from -1 to 1.
     const double b = -2.0 * farthest * nearest / (farthest - nearest), a = (farthest + nearest) / (farthest - nearest);
     for (std::size_t c = 0; c < 4; ++c) rows[2][c] = a * rows[3][c];
     rows[2][3] += b;
@@ -258,7 +258,7 @@ Projection OrbitCamera::projection(Vec2<double> viewport, const Bounds3& bounds,
     rows[2][3] += (near_height + far_height) / (near_height - far_height);
     rows[3] = {0, 0, 0, 1};
   }
-  // The part alone.
+  // Scale and shift to the part alone.
   const Vec2<double> scale{viewport.x / result.viewport_.x, viewport.y / result.viewport_.y};
   const Vec2<double> middle{(whole.low.x + whole.high.x) / viewport.x - 1.0, 1.0 - (whole.low.y + whole.high.y) / viewport.y};
   for (std::size_t c = 0; c < 4; ++c) {

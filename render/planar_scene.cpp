@@ -16,7 +16,7 @@
 namespace dmoscope::render {
 namespace {
 
-constexpr std::size_t kBigMesh = 100'000;  // elements whose layout takes long enough to be built in the background
+constexpr std::size_t kBigMesh = 100'000;  // elements; the layout of larger meshes takes long enough to be built in the background
 
 View make_view(const Layout& layout, const Camera2D& camera, Vec2<double> viewport, float scale) {
   View view;
@@ -45,7 +45,7 @@ bool PlanarScene::Impl::prepare(const Frame& wanted, Loading loading) {
   const bool background = loading == Loading::Background && wanted.input->mesh.elements.size() > kBigMesh;
   if (!pending.valid() || pending_serial != wanted.input_serial) {
     if (pending.valid()) {
-      // One at a time: the earlier one must end first, for it cannot be stopped.
+      // Only one layout is built at a time: the earlier one must end first, because it cannot be stopped.
       if (background && pending.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return false;
       pending.wait();
     }
@@ -119,13 +119,13 @@ void PlanarScene::Impl::upload(std::span<const Vec3> positions, std::span<const 
   upload_shades(quality, inverted_flags);
 }
 
-/// Whether these positions are on show: another metric changes colours alone.
+/// Whether these positions are on show: another metric changes only colours.
 bool PlanarScene::Impl::stands_at(const Frame& wanted) const {
   return source == Source::Host && placement_current && frame && !frame->device && frame->input_serial == wanted.input_serial &&
          !wanted.positions.empty() && same_bits(frame->positions, wanted.positions);
 }
 
-/// Piece by piece: memory for all of it would be asked of the system and given back with every frame.
+/// Uploads piece by piece: memory for all points would be asked of the system and given back with every frame.
 void PlanarScene::Impl::upload_points(std::span<const Vec3> positions) {
   constexpr std::size_t kPiece = std::size_t{1} << 14U;
   placement.move(positions);
@@ -150,7 +150,7 @@ void PlanarScene::Impl::upload_shades(std::span<const float> quality, std::span<
 }
 
 void PlanarScene::Impl::show_device(const Frame& light) {
-  if (placement.bounds().empty()) placement.move(light.input->mesh.positions);  // something to fit the view to
+  if (placement.bounds().empty()) placement.move(light.input->mesh.positions);  // positions to fit the view to
   placement_current = false;
   elements.mark_inverted(placement.layout(), {});
   const bool shown = device.show(light.device, elements, placement.layout());
@@ -176,7 +176,7 @@ std::vector<Vec2<double>> PlanarScene::Impl::points_of(std::span<const Index> ve
   return points;
 }
 
-/// Everything while nobody here knows where the elements are.
+/// Ranges of elements to draw; all of them while positions are not known on the host.
 std::vector<DrawRange> PlanarScene::Impl::visible(std::size_t batch, const Bounds2& window) const {
   if (placement_current) return placement.visible(batch, window);
   const Index all = placement.layout().batches[batch].size();
@@ -206,7 +206,7 @@ bool PlanarScene::Impl::is_known() {
   if (placement.empty() || source == Source::Unreachable) return false;
   try {
     place_all();
-  } catch (const DeviceError&) {  // the next frame finds out what is the matter
+  } catch (const DeviceError&) {  // the next frame finds out what is wrong
     return false;
   }
   return true;
@@ -251,7 +251,7 @@ class PlanarScene::PlanarPass final : public Pass {
       elements_.draw(view_, style_, batch, slice);
     }
   }
-  /// A group with an inverted element shows it.
+  /// Draws squares for groups of elements; a group with an inverted element shows it.
   void draw_coarse(Index stride) override {
     for (std::size_t batch = 0; batch < 2; ++batch) elements_.draw_coarse(view_, style_, batch, seen_.ranges[batch], stride);
   }

@@ -1,5 +1,5 @@
 #pragma once
-// The parts of a scene. Only for its own sources.
+// Parts of a planar scene. Only for its own sources.
 
 #include <array>
 #include <future>
@@ -17,20 +17,20 @@ namespace dmoscope::render {
 
 struct PlanarScene::Impl {
   Placement placement;
-  bool placement_current = true;  // false: what is on show stands on a device, and the placement is an older one's
+  bool placement_current = true;  // false: the positions on show are on a device, and the placement is older
   Source source = Source::Host;
   ElementPainter elements;
-  DeviceFeed device;  // after the painter, whose buffers it knows
+  DeviceFeed device;  // declared after the painter, whose buffers it knows
   std::vector<std::uint8_t> fixed;
-  std::vector<float> shades;           // one per element, see shade_of; as old as the placement
-  std::shared_ptr<const Frame> frame;  // the one on show
+  std::vector<float> shades;           // one per element, see shade_of; of the same state as the placement
+  std::shared_ptr<const Frame> frame;  // the frame on show
   std::uint64_t input_serial = 0;
   bool has_input = false;
   std::future<std::shared_ptr<const Layout>> pending;
   std::uint64_t pending_serial = 0;
   std::shared_ptr<const InputMesh> pending_input;
 
-  bool is_new = false;  // the placement: shading and selection are still another mesh's
+  bool is_new = false;  // the placement is new: shading and selection still belong to another mesh
   void adopt(std::shared_ptr<const Layout> layout) {
     device.forget_buffers();
     elements.upload_topology(*layout);
@@ -47,7 +47,7 @@ struct PlanarScene::Impl {
   void show_device(const Frame& light);
   /// Brings the placement up to date with what is on show. Throws DeviceError.
   void place_all();
-  /// Where some vertices are in the plane. Throws DeviceError.
+  /// Positions of some vertices in the plane. Throws DeviceError.
   [[nodiscard]] std::vector<Vec2<double>> points_of(std::span<const Index> vertices) const;
   [[nodiscard]] std::vector<DrawRange> visible(std::size_t batch, const Bounds2& window) const;
   struct InView {
@@ -55,7 +55,7 @@ struct PlanarScene::Impl {
     Index count = 0;
   };
   [[nodiscard]] InView in_view(const Bounds2& window) const;
-  /// Whether what is on show can be looked up here; brings it here if need be.
+  /// Whether positions on show can be looked up on the host; brings them there if need be.
   [[nodiscard]] bool is_known();
 };
 

@@ -1,4 +1,4 @@
-// Where marks of a planar mesh are.
+// Places of the marks of a planar mesh.
 #include <algorithm>
 #include <cmath>
 
@@ -20,7 +20,7 @@ std::vector<Vec3> PlanarScene::places_of(std::span<const Corner> corners) const 
   const std::vector<Vec2<double>> points = impl_->points_of(vertices);
   std::vector<Vec3> places;
   places.reserve(points.size());
-  std::size_t first = 0;  // corner of the element
+  std::size_t first = 0;  // index of the corner within the element
   for (std::size_t k = 0; k < corners.size(); ++k) {
     if (corners[k].element == kNoIndex || corners[k].element != corners[first].element) first = k;
     // An element across the seam of a mesh that wraps is marked at the end of the picture where its first corner is.

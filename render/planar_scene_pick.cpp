@@ -1,4 +1,4 @@
-// What is where in a viewport.
+// Finds elements and vertices in a viewport.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,7 +8,7 @@
 namespace dmoscope::render {
 namespace {
 
-constexpr Index kMostInView = 60'000;  // as blocks tell: few elements are looked at however big the mesh is
+constexpr Index kMostInView = 60'000;  // elements, as blocks tell: few are looked at however big the mesh is
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// The only source that sees stb's implementation.
+// PNG files. The only source with stb's implementation.
 #include <algorithm>
 #include <climits>
 #include <fstream>

@@ -19,7 +19,7 @@ Scene::Scene(double affordable) : affordable_(affordable), painter_(std::make_un
 Scene::~Scene() = default;
 
 void Scene::set_shading(std::shared_ptr<const Shading> shading) {
-  if (shading == shading_) return;  // a picture that is refined goes on
+  if (shading == shading_) return;  // a picture that is being refined goes on
   if (shading && (empty() || shading->values.size() != value_count(shading->by)))
     throw UsageError("as many values as the mesh has elements or vertices are needed");
   fill().set_shading(shading.get());

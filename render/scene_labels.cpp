@@ -1,4 +1,4 @@
-// The ids that have space in a picture.
+// Finds space for ids in a picture.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -11,13 +11,13 @@ namespace {
 
 double length_of(Vec2<double> v) { return std::hypot(v.x, v.y); }
 
-/// A place within a polygon, and how far it is from the border; 0 where it lies outside.
+/// A place within a polygon, and its distance from the border; 0 when it lies outside.
 struct LabelRoom {
   Vec2<double> point;
   double radius = 0.0;
 };
 
-/// Of a triangle the inscribed circle, else around the mean of the corners.
+/// Room within a polygon: the inscribed circle of a triangle, else a circle around the mean of the corners.
 LabelRoom room_of(std::span<const Vec2<double>> corners) {
   const std::size_t count = corners.size();
   Vec2<double> sum{0, 0};
@@ -29,7 +29,7 @@ LabelRoom room_of(std::span<const Vec2<double>> corners) {
   }
   if (!(weights > 0.0)) return {corners[0], 0.0};
   LabelRoom room{{sum.x / weights, sum.y / weights}, INFINITY};
-  double side = 0.0;  // of the first edge
+  double side = 0.0;  // length of the first edge
   for (std::size_t i = 0; i < count; ++i) {
     const Vec2<double> along = corners[(i + 1) % count] - corners[i];
     const double size = length_of(along), away = size > 0.0 ? cross(along, room.point - corners[i]) / size : 0.0;
@@ -45,7 +45,7 @@ bool holds(Vec2<double> viewport, Vec2<double> point) {
 
 }  // namespace
 
-/// Of every element the widest room that it has.
+/// Adds a label for every element in the widest room that it has.
 void Scene::add_element_labels(const Camera& camera, Vec2<double> viewport, const LabelWish& wish, std::vector<Label>& labels) const {
   const SceneView seen = view(camera, viewport);
   std::map<Index, LabelRoom> rooms;
@@ -63,7 +63,7 @@ void Scene::add_element_labels(const Camera& camera, Vec2<double> viewport, cons
   for (const auto& [element, room] : rooms) labels.push_back({room.point, element, false});
 }
 
-/// A vertex needs room up to its nearest neighbour, which has a label, too.
+/// Adds labels of vertices; each needs room up to its nearest neighbour, which has a label, too.
 void Scene::add_vertex_labels(const Camera& camera, Vec2<double> viewport, const LabelWish& wish, std::vector<Label>& labels) const {
   const auto shown = unhidden(camera, viewport);
   if (!shown) return;
@@ -93,7 +93,7 @@ std::vector<Label> Scene::labels(const Camera& camera, Vec2<double> viewport, co
   if (wish.elements) add_element_labels(camera, viewport, wish, labels);
   if (wish.vertices) add_vertex_labels(camera, viewport, wish, labels);
   if (labels.size() > wish.most) return {};
-  // Faces that are seen obliquely bring what is written in them near their corners.
+  // Ids on faces that are seen obliquely can come near each other, close to the faces' corners.
   std::vector<Label> apart;
   for (const Label& label : labels) {
     const auto covers = [&](const Label& other) {

@@ -19,7 +19,7 @@ void line(const SceneView& view, Vec3 from, Vec3 to, float width, Rgba colour, M
   if (a && b) painter.line(*a, *b, width, colour);
 }
 
-/// Colours of marks: faint where what they mark was taken away.
+/// Colours of marks: faint when what they mark was taken away.
 struct Inks {
   Inks(const Style& style, bool there) : highlight(style.highlight_colour), casing(style.casing_colour) {
     if (there) return;
@@ -29,7 +29,7 @@ struct Inks {
   Rgba highlight, casing;
 };
 
-/// All edges of an element whose corners are drawn at `points`.
+/// Draws all edges of an element whose corners are drawn at `points`.
 void outline(const ElementTable& elements, Index element, std::span<const Vec3> points, const SceneView& view, const Style& style,
              const Inks& inks, MarkPainter& painter) {
   const auto faces = faces_of(elements.kind(element));
@@ -59,7 +59,7 @@ void ring(std::span<const Vec3> points, const SceneView& view, const Style& styl
 
 }  // namespace
 
-/// Marks of elements and vertices; their places are asked for all together.
+/// Gathers marks of elements and vertices; their places are asked for all together.
 void Scene::gather_of_mesh(const SceneView& view, const Style& style, const Marks& wanted) {
   const ElementTable* table = elements();
   if (table == nullptr) return;
@@ -96,7 +96,7 @@ void Scene::gather_of_mesh(const SceneView& view, const Style& style, const Mark
 void Scene::gather(const SceneView& view, const Style& style, const Marks& wanted) {
   try {
     gather_of_mesh(view, style, wanted);
-  } catch (const DeviceError&) {  // unmarked; the next frame finds out what is the matter
+  } catch (const DeviceError&) {  // no marks; the next frame finds out what is wrong
   }
   for (const OverlayLine& l : wanted.lines) line(view, l.from, l.to, l.width * style.scale, l.colour, *painter_);
   std::vector<std::pair<double, std::size_t>> order;  // farthest first

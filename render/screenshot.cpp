@@ -11,7 +11,7 @@ namespace dmoscope::render {
 namespace {
 
 constexpr int kLargestPicture = 32768;
-constexpr int kTile = 2048;  // samples; a tile's memory stays small whatever the picture's size
+constexpr int kTile = 2048;  // samples; keeps a tile's memory small whatever the picture's size
 
 Image opaque_area(const Style& style, int width, int height) {
   return Image(width, height, style.transparent ? Rgba{0, 0, 0, 0} : Rgba{style.background.r, style.background.g, style.background.b, 255});
@@ -36,8 +36,8 @@ Vec2<double> mesh_viewport(const Shot& shot) {
 
 namespace {
 
-/// Draws a picture in tiles: `draw(target, style, tile)` the part of the mesh's viewport that `tile` is, in pixels of the picture, each of
-/// which is supersample x supersample of the target's.
+/// Draws a picture in tiles: `draw(target, style, tile)` draws the part `tile` of the mesh's viewport, in pixels of the picture. Each of
+/// these is supersample x supersample pixels of the target.
 template <class Draw>
 Rendered draw_tiles(const Shot& shot, const Style& style, const Draw& draw) {
   if (shot.width < 1 || shot.height < 1 || shot.width > kLargestPicture || shot.height > kLargestPicture) {
@@ -50,7 +50,7 @@ Rendered draw_tiles(const Shot& shot, const Style& style, const Draw& draw) {
   fine.scale *= shot.scale * static_cast<float>(shot.supersample);
   const Vec2<double> viewport = mesh_viewport(shot);
   const int width = shot.width, height = static_cast<int>(viewport.y);
-  // Whole pixels a tile, within OpenGL's limits.
+  // Side of a tile in whole pixels, within OpenGL's limits.
   const int tile = std::max(1, std::min(kTile, Framebuffer::largest_size()) / shot.supersample);
   Framebuffer target(std::min(tile, width) * shot.supersample, std::min(tile, height) * shot.supersample);
   Rendered result{opaque_area(fine, shot.width, shot.height), {}};
@@ -75,7 +75,7 @@ Rendered draw_tiles(const Shot& shot, const Style& style, const Draw& draw) {
 Rendered render_image(Scene& scene, const Camera& camera, const Style& style, const Marks& marks, const Shot& shot) {
   const auto fine_pixels = static_cast<double>(shot.supersample);
   const auto scaled = [&](Vec2<double> p) { return Vec2<double>{p.x * fine_pixels, p.y * fine_pixels}; };
-  Camera fine = camera;  // an OrbitCamera is about the whole viewport, however many pixels it has
+  Camera fine = camera;  // the same for any number of pixels: an OrbitCamera is about the whole viewport
   if (auto* planar = std::get_if<Camera2D>(&fine)) planar->units_per_pixel /= fine_pixels;
   return draw_tiles(shot, style, [&](Framebuffer& target, const Style& fine_style, const PicturePart& tile) {
     scene.draw_part(target, fine, fine_style, marks, scaled(mesh_viewport(shot)), {scaled(tile.low), scaled(tile.high)});

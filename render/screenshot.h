@@ -27,28 +27,28 @@ struct Legend {
   bool logarithmic = false;          // the bar's values are powers of ten
   bool has_categories = false;       // swatches instead of the bar
   std::vector<LegendEntry> categories;
-  std::vector<LegendEntry> beside;  // swatches beside the bar
+  std::vector<LegendEntry> beside;  // swatches of further categories
   std::string selection;            // which elements count: "120 of 5,000 elements"; may be empty
 };
 
 struct Shot {
-  int width = 1280, height = 800;  // of the picture that comes out, legend included
+  int width = 1280, height = 800;  // size of the final picture, legend included
   int supersample = 2;             // n x n samples per pixel, 1 to 8
   bool transparent = false;
   std::optional<Legend> legend;
-  float scale = 1.0F;  // of text and line widths
+  float scale = 1.0F;  // factor of text and line widths
 };
 
 struct Rendered {
   Image image;
-  std::string note;  // what could not be done (no font: no text), else empty
+  std::string note;  // anything that could not be done (no font: no text), else empty
 };
 
-/// Part of a Shot that the mesh gets: the viewport to fit a camera to.
+/// Size of the part of a Shot that shows the mesh: the viewport to fit a camera to.
 [[nodiscard]] Vec2<double> mesh_viewport(const Shot& shot);
 
-/// Draws the scene at full detail, supersampled, in tiles where OpenGL's limits ask for it. `camera` is for mesh_viewport(shot).
-/// Style::scale is multiplied by shot.scale. Throws UsageError for sizes out of range (1 to 32768), Error.
+/// Draws the scene at full detail, supersampled, in tiles if OpenGL's limits ask for it. `camera` is for mesh_viewport(shot). Style::scale
+/// is multiplied by shot.scale. Throws UsageError for sizes out of range (1 to 32768), Error.
 [[nodiscard]] Rendered render_image(Scene& scene, const Camera& camera, const Style& style, const Marks& marks, const Shot& shot);
 
 }  // namespace dmoscope::render

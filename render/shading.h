@@ -1,5 +1,5 @@
 #pragma once
-// What elements are coloured by instead of their quality, and which of them count.
+// Values that elements are coloured by instead of their quality, and the choice of those that count.
 
 #include <cstdint>
 #include <memory>
@@ -23,12 +23,12 @@ struct Shading {
   std::vector<Rgb> palette;   // of categories, at most 256; empty: values go through Style::colours
 };
 
-/// Which elements count. The default: all.
+/// Choice of the elements that count. The default: all.
 struct Selection {
   enum class Others { Fade, Hide, Outline };
   std::optional<std::pair<float, float>> quality;            // from, to; inverted elements count when `from` is 0 or less
   std::shared_ptr<const std::vector<std::uint8_t>> members;  // one per element, 0: does not count; null: all do
-  std::shared_ptr<const std::vector<std::uint8_t>> tinted;   // likewise, 1: with Style::tint over its colour; null: none
+  std::shared_ptr<const std::vector<std::uint8_t>> tinted;   // one per element, 1: drawn with Style::tint over its colour; null: none
   Others others = Others::Fade;                              // how the others are drawn; hidden ones are not picked, either
   [[nodiscard]] bool all() const noexcept { return !quality && !members; }
   friend bool operator==(const Selection&, const Selection&) = default;

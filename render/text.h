@@ -11,7 +11,7 @@ namespace dmoscope::render {
 /// The system's DejaVu Sans at any size.
 class Font {
  public:
-  /// Null when the font file is not there (package fonts-dejavu-core) or FreeType refuses it.
+  /// The font; null when the font file is not there (package fonts-dejavu-core) or FreeType refuses it.
   [[nodiscard]] static std::unique_ptr<Font> load();
   ~Font();
   Font(const Font&) = delete;

@@ -20,10 +20,10 @@ constexpr std::array<Stroke, 3> kY{{{{-0.7, 1}, {0, 0}}, {{0.7, 1}, {0, 0}}, {{0
 constexpr std::array<Stroke, 3> kZ{{{{-0.7, 1}, {0.7, 1}}, {{0.7, 1}, {-0.7, -1}}, {{-0.7, -1}, {0.7, -1}}}};
 
 constexpr double kTriadLength = 34.0, kBeyondTip = 13.0;  // pixels at scale 1
-constexpr double kTriadMargin = 58.0;                     // from the right lower corner of the picture to the middle
+constexpr double kTriadMargin = 58.0;                     // distance of the triad's middle from the right lower corner of the picture
 constexpr std::array<Vec3, 3> kAxes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 
-/// Of an axis in the view, in pixels from the triad's middle, y up: its tip, and where its letter is.
+/// Tip of an axis and the place of its letter in the view, in pixels from the triad's middle, y up.
 std::pair<Vec2<double>, Vec2<double>> tip_and_letter(const OrbitCamera& camera, const Vec3& axis, double scale) {
   const Vec2<double> on_screen{dot(axis, camera.right), dot(axis, camera.up)};
   const double size = std::hypot(on_screen.x, on_screen.y), more = size > 0.15 ? kBeyondTip / size : 0.0;
@@ -43,9 +43,9 @@ std::array<Vec2<double>, 3> triad_letters(const OrbitCamera& camera, Vec2<double
 }
 
 void gather_triad(const OrbitCamera& camera, Vec2<double> viewport, const PicturePart& part, const Style& style, MarkPainter& painter) {
-  constexpr double kLetter = 4.5;  // pixels at scale 1
+  constexpr double kLetter = 4.5;  // size of a letter, in pixels at scale 1
   const auto scale = static_cast<double>(style.scale);
-  // In pixels from the middle of the part, y up.
+  // Middle of the triad in pixels from the middle of the part, y up.
   const Vec2<double> middle{0.5 * viewport.x - kTriadMargin * scale - 0.5 * (part.low.x + part.high.x - viewport.x),
                             kTriadMargin * scale - 0.5 * viewport.y + 0.5 * (part.low.y + part.high.y - viewport.y)};
   struct Axis {
@@ -60,7 +60,7 @@ void gather_triad(const OrbitCamera& camera, Vec2<double> viewport, const Pictur
     const auto [tip, beyond] = tip_and_letter(camera, kAxes[i], scale);
     const Vec2<double> letter = middle + beyond;
     const auto place = [&](Vec2<double> p) { return letter + Vec2<double>{scale * kLetter * p.x, scale * kLetter * p.y}; };
-    // Over a mesh of any colour.
+    // A casing makes the axes readable over a mesh of any colour.
     for (const bool casing : {true, false}) {
       const float more = casing ? 3.0F : 0.0F;
       const Rgba ink = casing ? style.casing_colour : axis.colour;

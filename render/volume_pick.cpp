@@ -7,7 +7,7 @@
 namespace dmoscope::render {
 namespace {
 
-/// How far along the ray it meets the triangle (Möller and Trumbore); none where it does not.
+/// Distance along the ray to the triangle (Möller and Trumbore); none if the ray misses it.
 std::optional<double> meets(const ViewRay& ray, Vec3 a, Vec3 b, Vec3 c) {
   const Vec3 u = b - a, v = c - a, p = cross(ray.direction, v);
   const double volume = dot(u, p);
@@ -27,7 +27,7 @@ Vec3 mean_of(const SeenFaces& seen, Index element) {
   return 1.0 / static_cast<double>(corners.size()) * mean;
 }
 
-/// Whether a ray passes so near to an element's vertices' mean that it may meet the element.
+/// Whether a ray passes so near the mean of an element's vertices that it may meet the element.
 bool near_element(const SeenFaces& seen, Index element, const ViewRay& ray) {
   const Vec3 mean = mean_of(seen, element), away = cross(mean - ray.from, ray.direction);
   double square = 0.0;
@@ -38,7 +38,7 @@ bool near_element(const SeenFaces& seen, Index element, const ViewRay& ray) {
   return dot(away, away) <= square * (1.0 + 1e-9);
 }
 
-/// The nearest, in pixels, of the face's corners that are not cut away.
+/// Takes the face's corner, of those not cut away, that is nearest in pixels.
 void take_nearest(const SeenFaces& seen, const DrawnFace& corners, const Projection& projection, Vec2<double> at, double radius, Pick& pick,
                   double& depth) {
   for (std::size_t i = 0; i < corners.count; ++i) {
@@ -47,7 +47,7 @@ void take_nearest(const SeenFaces& seen, const DrawnFace& corners, const Project
     const double distance = std::hypot(place->x - at.x, place->y - at.y);
     if (distance > radius) continue;
     const double far = projection.depth(corners.points[i]);
-    // Of several vertices behind each other take the front one.
+    // The front one is taken if several vertices are behind each other.
     constexpr double kSame = 0.5;  // pixels
     const bool better =
         pick.vertex == kNoIndex || distance < pick.vertex_distance - kSame || (distance < pick.vertex_distance + kSame && far < depth);

@@ -18,7 +18,7 @@
 namespace dmoscope::render {
 namespace {
 
-// Looked through in a moment: once, and by a dozen rays.
+// Faces that can be looked through in a moment: once, and by a dozen rays.
 constexpr std::size_t kMostFaces = 300'000, kMostFacesOfRays = 100'000;
 
 FacePainter::Point point_of(Vec3 p) { return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)}; }
@@ -26,7 +26,7 @@ FacePainter::Point point_of(Vec3 p) { return {static_cast<float>(p.x), static_ca
 }  // namespace
 
 struct VolumeScene::Impl {
-  /// From where a picture of what is seen of a mesh, whose revision it is, was taken.
+  /// Viewpoint from which a picture of the visible part of a mesh was taken, with that part's revision.
   struct SeenFrom {
     OrbitCamera camera;
     Vec2<double> viewport;
@@ -44,10 +44,10 @@ struct VolumeScene::Impl {
   std::vector<std::uint8_t> used;  // vertices that are corners of elements
   bool is_surface = false;
   Bounds3 bounds;
-  Vec3 origin;  // positions on the OpenGL side are relative to it: the middle of the bounds
+  Vec3 origin;  // middle of the bounds; positions on the OpenGL side are relative to it
   ThreadPool* pool = nullptr;
   std::uint64_t uploaded_faces = 0, uploaded_cuts = 0, updates = 0;
-  std::uint64_t means_of = 0;  // the update whose means are uploaded
+  std::uint64_t means_of = 0;  // number of the update whose means are uploaded
   std::vector<FacePainter::Point> points;
   std::vector<FaceRecord> records;
 
@@ -55,19 +55,19 @@ struct VolumeScene::Impl {
   [[nodiscard]] SeenFaces seen_faces() const { return {*elements, state.positions, seen(), view, inside->visible(), {}}; }
   [[nodiscard]] SeenFaces seen_vertices();
   [[nodiscard]] const DepthMap* depth_map(const SeenFrom& from);
-  std::shared_ptr<const InputMesh> input;  // of the frame on show
-  std::uint64_t frame_serial = 0;          // likewise; 0: none
+  std::shared_ptr<const InputMesh> input;  // input of the frame on show
+  std::uint64_t frame_serial = 0;          // serial of the frame on show; 0: none
 
-  std::vector<std::uint8_t> corners_seen;  // vertices of cells that are seen; made when it is asked for
-  std::uint64_t corners_seen_of = 0;       // the faces' revision that it is of
+  std::vector<std::uint8_t> corners_seen;  // vertices of visible cells; made when asked for
+  std::uint64_t corners_seen_of = 0;       // revision of the faces that corners_seen belongs to
   struct ShownCell {
     SeenFrom from;
     Index cell;
     bool shown;
   };
-  std::optional<ShownCell> shown_cell;  // that was asked for last
+  std::optional<ShownCell> shown_cell;  // the one that was asked for last
   std::optional<SeenFrom> depths_of;
-  std::optional<DepthMap> depths;  // likewise
+  std::optional<DepthMap> depths;  // the one that was asked for last
 
   void forget();
   void upload_state();
@@ -142,7 +142,7 @@ void VolumeScene::update(const CellState& state, std::shared_ptr<const void> own
   }
   if (state.positions.size() < s.used.size()) throw UsageError("as many positions as the mesh has vertices are needed");
   s.state = state;
-  s.state.serial = ++s.updates;  // whatever the caller counts, it is another state
+  s.state.serial = ++s.updates;  // another state, whatever serial the caller counts
   s.state_owner = std::move(owner);
   s.upload_state();
   s.refresh();
@@ -220,7 +220,7 @@ std::vector<Vec3> VolumeScene::places_of(std::span<const Corner> corners) const 
   return places;
 }
 
-/// With the vertices that are seen.
+/// Visible faces, with the visible vertices.
 SeenFaces VolumeScene::Impl::seen_vertices() {
   if (std::exchange(corners_seen_of, seen().faces_revision) != seen().faces_revision) {
     corners_seen.assign(state.positions.size(), 0);
@@ -228,7 +228,7 @@ SeenFaces VolumeScene::Impl::seen_vertices() {
     for_chunks(pool, elements->size(), CellChunk::kCells, [&](std::size_t first, std::size_t last) {
       for (std::size_t e = first; e < last; ++e) {
         if (visible[e] == 0) continue;
-        // Several threads may say so of the same vertex.
+        // Several threads may set the flag of the same vertex.
         for (const Index v : elements->corners(static_cast<Index>(e))) std::atomic_ref(corners_seen[v]).store(1, std::memory_order_relaxed);
       }
     });
@@ -238,7 +238,7 @@ SeenFaces VolumeScene::Impl::seen_vertices() {
   return faces;
 }
 
-/// Null where it would take too long.
+/// Map of the depths of a view; null if it would take too long.
 const DepthMap* VolumeScene::Impl::depth_map(const SeenFrom& from) {
   if (elements == nullptr || bounds.empty() || seen().faces.size() > kMostFaces) return nullptr;
   if (depths_of != from) depths.emplace(seen_faces(), from.camera.projection(from.viewport, bounds));
@@ -337,9 +337,9 @@ class VolumeScene::VolumePass final : public Pass {
   void begin() override { scene_.painter.draw_ghost(view_, style_); }
   void draw(Index first, Index count) override { scene_.painter.draw_faces(view_, look_, first, count); }
   void draw_coarse(Index stride) override { scene_.painter.draw_coarse(view_, look_, stride); }
-  /// Darkens corners where that is wanted, and depths tell the places of pixels apart.
+  /// Darkens corners if wanted and if depths tell the places of pixels apart.
   void end(Framebuffer& target, bool whole) override {
-    constexpr double kDepths = 16'777'216.0, kStepsAPixel = 16.0;  // of 24 bits
+    constexpr double kDepths = 16'777'216.0, kStepsAPixel = 16.0;  // depth buffer of 24 bits
     scene_.painter.draw_cuts(view_, style_);
     if (whole && style_.occlusion && pixel_ * kDepths > kStepsAPixel * 2.0 * scene_.bounds.radius())
       scene_.occlusion.darken(target, projection_, OcclusionPainter::reach(whole_, style_), style_);
@@ -348,8 +348,8 @@ class VolumeScene::VolumePass final : public Pass {
  private:
   const Impl& scene_;
   const Style& style_;
-  Vec2<double> whole_;  // pixels of the picture that it may be a part of
-  double pixel_;        // units
+  Vec2<double> whole_;  // size of the whole picture, in pixels
+  double pixel_;        // size of a pixel, in units
   Projection projection_;
   SpaceView view_;
   FacePainter::Look look_;

@@ -32,23 +32,23 @@ class Window final : public Context {
   ~Window() override;
 
   void make_current() override;
-  /// For ImGui's GLFW backend. Never null.
+  /// GLFW's handle, for ImGui's GLFW backend. Never null.
   [[nodiscard]] GLFWwindow* handle() const noexcept { return handle_; }
-  /// Pixels, not screen coordinates. 0 x 0 while minimised.
+  /// Size in pixels, not screen coordinates. 0 x 0 while minimised.
   [[nodiscard]] Extent framebuffer_size() const;
   /// The monitor's scale for text and widgets: 1 ordinary, 2 HiDPI.
   [[nodiscard]] float content_scale() const;
   [[nodiscard]] bool should_close() const;
-  /// Takes back (false) or asks for (true) closing.
+  /// Asks for closing (true) or takes the request back (false).
   void set_should_close(bool close);
   void set_title(const std::string& title);
   void set_full_screen(bool full);
   [[nodiscard]] bool full_screen() const noexcept { return full_screen_; }
-  /// Shows what was drawn into the default framebuffer.
+  /// Shows the content of the default framebuffer.
   void swap();
   /// Handles pending events; waits for one at most `seconds` (0: does not wait; infinity: until one comes).
   void wait_events(double seconds);
-  /// Ends a wait_events that waits, from any thread.
+  /// Ends a waiting wait_events, from any thread.
   static void wake();
   /// Calls `hook` with the files dropped on the window, on the main thread, inside wait_events.
   void on_drop(std::function<void(std::vector<std::filesystem::path>)> hook);

@@ -13,7 +13,7 @@
 namespace dmoscope::ui {
 namespace {
 
-// Those of samples and of options are rows of their tables: generator_table(), view_options().
+// Actions that no other table has. Those of samples and of options are rows of their tables: generator_table(), view_options().
 constexpr std::array kActions{
     Action{"open", "File", "Open…", "Ctrl+O", "dialog open"},
     Action{"open-beside", "File", "Open beside…", "Ctrl+Shift+O", "dialog open-beside", Needs::Mesh},
@@ -138,14 +138,14 @@ constexpr std::array kActions{
     Action{"about", "Help", "About", "", "dialog about"},
 };
 
-/// With the actions of options below those that their rows name.
+/// All actions; those of options are inserted below the actions that their rows name.
 class ActionTable {
  public:
   ActionTable() : rows_(kActions.begin(), kActions.end()) {
     std::string_view after = "reload";
     for (const GeneratorInfo& sample : generator_table()) {
       const std::string_view id = keep(fmt::format("sample-{}", sample.name)), line = keep(fmt::format("generate {}", sample.name));
-      const bool apart = after == "reload" || sample.name == "tetrahedra";  // volumes, and others that came later
+      const bool apart = after == "reload" || sample.name == "tetrahedra";  // volumes, and planar samples that came later
       insert(after, {id, {}, keep(fmt::format("Sample: {}", sample.name)), {}, line, Needs::Nothing, apart});
       after = id;
     }
@@ -184,7 +184,7 @@ class ActionTable {
   std::string_view keep(std::string text) { return texts_.emplace_back(std::move(text)); }
 
   std::vector<Action> rows_;
-  std::deque<std::string> texts_;  // the rows point into
+  std::deque<std::string> texts_;  // texts that the rows point into
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-// Everything a person can do by menu, key, tool bar or palette, in one table.
+// One table of everything that a person can do by menu, key, tool bar or palette.
 
 #include <span>
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace dmoscope::ui {
 
-/// What must be so for an action to be possible.
+/// Condition for an action to be possible.
 enum class Needs { Nothing, Mesh, MeshAndIdle, Work, SeveralRuns, Picked, Selected, Undo, Redo, Volume, Planar, Better, Leavable, Chosen };
 
 struct Action {
@@ -26,25 +26,25 @@ struct Action {
 
 /// All actions, in the order of the menus.
 [[nodiscard]] std::span<const Action> actions();
-/// Null for an unknown id.
+/// The action of this id; null when there is none.
 [[nodiscard]] const Action* find_action(std::string_view id);
 /// The action of a key; null when it has none.
 [[nodiscard]] const Action* action_of(const KeyChord& chord);
 /// Menu names in order.
 [[nodiscard]] std::vector<std::string_view> menu_names();
 
-/// What the needs are judged by.
+/// Facts that decide whether needs are met.
 struct Situation {
   bool mesh = false, busy = false, picked = false;
   std::size_t runs = 0;
   bool selected = false;       // at least one vertex; see Selection
-  std::string undo{}, redo{};  // what they are about ("run 10"); empty: nothing
+  std::string undo{}, redo{};  // title of what they take back or repeat ("run 10"); empty: nothing
   bool volume = false;         // the mesh is one of volume elements
-  bool better = false;         // the active run does not stand at its best iteration
+  bool better = false;         // the active run is not at its best iteration
   bool leavable = false;       // the mouse does something else than picking, such as brushing
 };
 [[nodiscard]] bool enabled(const Action& action, const Situation& situation);
-/// The title, with what undo and redo are about: "Undo run 10".
+/// The title, for undo and redo with what they are about: "Undo run 10".
 [[nodiscard]] std::string title_of(const Action& action, const Situation& situation);
 
 /// Actions whose title, menu or command holds all words of `query` (case-insensitive), best first: titles that begin with it.

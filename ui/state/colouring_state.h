@@ -1,5 +1,5 @@
 #pragma once
-// How elements are coloured, which of them count, and what is written on them, as plain data.
+// Colouring of elements, choice of those that count, and labels on them, as plain data.
 
 #include <array>
 #include <optional>
@@ -12,9 +12,9 @@
 
 namespace dmoscope::ui {
 
-/// How the range of the quality's colours is chosen: the input's, rounded outwards, which stays through a run; 0 to 1; the shown qualities'
-/// own minimum and maximum; the same, but it also holds all that was seen since the input was opened; what lies between two percentiles of
-/// the input, rounded outwards; or given.
+/// Choice of the range of the quality's colours. Input: the input's, rounded outwards, which stays through a run; Fixed: 0 to 1; Auto:
+/// minimum and maximum of the shown qualities; Expanding: minimum and maximum of all qualities shown since the input was opened;
+/// Percentile: between two percentiles of the input, rounded outwards; Given: two numbers.
 enum class RangeMode { Input, Fixed, Auto, Expanding, Percentile, Given };
 struct RangeModeInfo {
   RangeMode mode;
@@ -31,7 +31,7 @@ inline constexpr std::array<RangeModeInfo, 6> kRangeModes{{
 }};
 [[nodiscard]] constexpr const RangeModeInfo& info(RangeMode mode) { return kRangeModes[static_cast<std::size_t>(mode)]; }
 
-/// What the elements' colours tell.
+/// Quantity that elements are coloured by.
 enum class ColourBy {
   Quality,
   Kind,
@@ -81,7 +81,7 @@ inline constexpr std::array<ColourByInfo, 15> kColourBys{{
          by != ColourBy::Multiplier;
 }
 
-/// One category looked at alone: `name` as in the legend, or the name or role of a group.
+/// The only category on show: `name` from the legend, or the name or role of a group.
 struct Isolation {
   ColourBy by = ColourBy::Kind;
   std::string name;
@@ -90,15 +90,15 @@ struct Isolation {
 
 struct ColouringState {
   ColourBy by = ColourBy::Quality;
-  PaneContent reference{PaneContent::Kind::Input, 0, std::nullopt};  // of ColourBy::Difference: input, a run as it stands or a mark
+  PaneContent reference{PaneContent::Kind::Input, 0, std::nullopt};  // for ColourBy::Difference: input, a run as it stands or a mark
   bool reversed = false;
   int steps = 0;                                                       // see render::ColourScale
-  std::optional<std::pair<double, double>> filter;                     // qualities that count, from and to
-  render::Selection::Others others = render::Selection::Others::Fade;  // how elements that do not count are drawn
-  int worst = 0;                                                       // only so many of the worst elements count; 0: all
+  std::optional<std::pair<double, double>> filter;                     // lowest and highest quality that counts
+  render::Selection::Others others = render::Selection::Others::Fade;  // look of elements that do not count
+  int worst = 0;                                                       // number of worst elements that count; 0: all
   std::optional<Isolation> isolated;
   bool label_vertices = false, label_elements = false;
-  std::optional<std::pair<double, double>> held_range;  // of the colours while a handle of the bar is held; set by the drawing code
+  std::optional<std::pair<double, double>> held_range;  // range while a handle of the bar is held; set by the drawing code
   friend bool operator==(const ColouringState&, const ColouringState&) = default;
 };
 

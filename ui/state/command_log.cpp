@@ -61,7 +61,7 @@ std::string clock_now() {
 
 std::string_view command_of(std::string_view line) { return line.substr(0, line.find(' ')); }
 
-/// A comment is one line, whatever an error says.
+/// Puts a text on one line, as comments need, whatever an error says.
 std::string one_line(std::string_view text) {
   std::string line(text);
   std::ranges::replace(line, '\n', ' ');
@@ -71,7 +71,7 @@ std::string one_line(std::string_view text) {
 constexpr std::array kKinds{LogLine::Kind::Info, LogLine::Kind::Warning, LogLine::Kind::Error};  // in the order of Message::Kind
 LogLine::Kind kind_of(Message::Kind kind) { return kKinds[static_cast<std::size_t>(kind)]; }
 
-// In the order of CommandEnd::Kind.
+// States of lines, in the order of CommandEnd::Kind.
 constexpr std::array kStates{LogLine::State::Done, LogLine::State::Failed, LogLine::State::Cancelled, LogLine::State::Dropped};
 constexpr std::array<const char*, 4> kReasons{"", "failed", "cancelled", "cancelled before it began"};
 LogLine::State state_of(CommandEnd::Kind kind) { return kStates[static_cast<std::size_t>(kind)]; }
@@ -133,7 +133,7 @@ void CommandLog::refuse(std::string_view what) {
 
 void CommandLog::posted(std::string_view line, std::uint64_t id) {
   const bool of_command = !current_.empty() && !steps_.empty() && !overflown_;
-  if (!of_command) {  // a shortcut, or the window by itself
+  if (!of_command) {  // sent by a shortcut, or by the window itself
     show({LogLine::Kind::Command, std::string(line), {}, LogLine::State::Pending});
     add_step({std::string(line), id, {}, {}, dropped_ + lines_.size() - 1});
     return;

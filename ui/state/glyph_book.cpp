@@ -9,8 +9,8 @@
 namespace dmoscope::ui {
 namespace {
 
-/// Stand-ins are Yi syllables, which hardly any file has; those of a file have stand-ins, too. ImGui takes no private letters from a
-/// keyboard.
+/// Range of the stand-ins: Yi syllables, which hardly any file has; a file's own ones get stand-ins, too. ImGui takes no private letters
+/// from a keyboard.
 constexpr char32_t kStandInFirst = 0xA000, kStandInLast = 0xA48C, kLastOfPlane = 0xFFFF, kLastLatin = 0xFF;
 
 bool is_stand_in(char32_t letter) { return letter >= kStandInFirst && letter <= kStandInLast; }
@@ -29,7 +29,7 @@ void append(std::string& text, char16_t letter) {
   }
 }
 
-/// UTF-8 of a letter beyond the first plane.
+/// UTF-8 of a letter beyond U+FFFF.
 std::string long_letter(char32_t letter) {
   const auto part = [letter](unsigned shift) { return static_cast<char>(0x80U | ((static_cast<unsigned>(letter) >> shift) & 0x3FU)); };
   return {static_cast<char>(0xF0U | (static_cast<unsigned>(letter) >> 18U)), part(12), part(6), part(0)};

@@ -1,5 +1,5 @@
 #pragma once
-// Letters that the interface's fonts may lack: names of files and groups have any.
+// Letters that the interface's fonts may lack: names of files and groups may have any letter.
 
 #include <cstddef>
 #include <map>
@@ -9,29 +9,29 @@
 
 namespace dmoscope::ui {
 
-/// "<U+4E2D>", and of a byte that is no UTF-8 "<0xE9>".
+/// Name of a letter, "<U+4E2D>", or of a byte that is not UTF-8, "<0xE9>".
 [[nodiscard]] std::string letter_name(char32_t letter);
 [[nodiscard]] std::string byte_name(unsigned char byte);
 
-/// Notes what letters there are in texts of others, for the fonts to be built with them. What ImGui cannot take at all (letters beyond
-/// U+FFFF, bytes that are no UTF-8) is shown by a stand-in, one each, so that it can be edited in a field and read
-/// back as it was.
+/// Notes the letters in texts from files, so that the fonts can be built with them. Each letter that ImGui cannot take at all (beyond
+/// U+FFFF, or a byte that is not UTF-8) is shown by a stand-in of its own, so that the text can be edited in a field and read back
+/// unchanged.
 class GlyphBook {
  public:
-  /// The text for ImGui.
+  /// The text as ImGui shows it.
   [[nodiscard]] std::string shown(std::string_view text);
-  /// What shown() made of a text, or a person of that, back as it was.
+  /// The reverse of shown(), also for a text that a person edited since.
   [[nodiscard]] std::string meant(std::string_view shown) const;
-  /// For a letter that is typed.
+  /// The stand-in, or the letter itself, for a letter that is typed.
   [[nodiscard]] char16_t shown_letter(char32_t letter);
 
-  /// Letters as they are written that are no Latin ones.
+  /// Letters other than Latin ones, in the form that is shown.
   [[nodiscard]] const std::set<char16_t>& letters() const noexcept { return letters_; }
   struct StandIn {
     std::string meant, name;
   };
   [[nodiscard]] const std::map<char16_t, StandIn>& stand_ins() const noexcept { return stand_ins_; }
-  /// Grows with both.
+  /// Number of letters and stand-ins noted; it only grows.
   [[nodiscard]] std::size_t size() const noexcept { return letters_.size() + stand_ins_.size(); }
 
  private:
@@ -39,7 +39,7 @@ class GlyphBook {
 
   std::set<char16_t> letters_;
   std::map<char16_t, StandIn> stand_ins_;
-  std::map<std::string, char16_t, std::less<>> known_;  // by what is meant
+  std::map<std::string, char16_t, std::less<>> known_;  // stand-in of each letter meant
 };
 
 }  // namespace dmoscope::ui

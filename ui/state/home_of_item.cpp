@@ -8,11 +8,11 @@
 namespace dmoscope::ui {
 namespace {
 
-/// How names of a tab's controls begin; the first that fits counts.
+/// Prefixes of the names of a tab's controls; the first that fits counts.
 constexpr std::array<std::pair<std::string_view, FactsTab>, 36> kHomes{
     {{"worst:", FactsTab::Worst},        {"why:", FactsTab::Worst},        {"why?", FactsTab::Worst},
      {"color-", FactsTab::Colours},      {"colormap", FactsTab::Colours},  {"reverse-colors", FactsTab::Colours},
-     {"range-menu", FactsTab::Mesh},  // in the legend
+     {"range-menu", FactsTab::Mesh},  // part of the legend
      {"range-", FactsTab::Colours},      {"occlusion", FactsTab::Colours}, {"shading", FactsTab::Colours},
      {"labels", FactsTab::Colours},      {"filter", FactsTab::Colours},    {"worst-view", FactsTab::Colours},
      {"isolate-off", FactsTab::Colours}, {"shown", FactsTab::Colours},     {"inside:", FactsTab::Inside},

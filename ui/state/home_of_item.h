@@ -1,5 +1,5 @@
 #pragma once
-// Where in the panels a control is, for scripts and the tour: which tab or fold has to be open for it.
+// Finds a control's place in the panels, for scripts and the tour: the tab or fold that must be open for it.
 
 #include <string_view>
 
@@ -7,7 +7,7 @@
 
 namespace dmoscope::ui {
 
-/// Opens the tab or fold that a control belongs to, by its name; nothing for one that is always there or that nobody knows.
+/// Opens the tab or fold that a control belongs to, by its name; does nothing for a control that is always there or not known.
 void open_home_of(std::string_view item, Panels& panels);
 
 }  // namespace dmoscope::ui

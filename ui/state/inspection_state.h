@@ -1,5 +1,5 @@
 #pragma once
-// What of a vertex's visit is looked into, as plain data.
+// State of the inspector of a vertex's visit, as plain data.
 
 #include <optional>
 #include <string>
@@ -20,28 +20,28 @@ struct CandidateName {
 
 struct InspectionState {
   bool open = false;
-  Index vertex = kNoIndex;  // that is looked into; none: `note` says why
-  std::string note;         // why there is no vertex to look into
-  int level = 1;            // whose grid is shown; 0: none
+  Index vertex = kNoIndex;  // vertex under inspection; none: `note` says why
+  std::string note;         // reason why there is no vertex to inspect
+  int level = 1;            // level whose grid is shown; 0: none
   bool all_levels = false;  // the grids of all levels at once
-  bool applied = false;     // the vertex has been sent where its visit takes it
+  bool applied = false;     // the vertex has been moved to where its visit takes it
   std::string take_back;    // the command that undoes what was applied; empty: nothing moved
-  Moment applied_from;      // where the run stood before
-  bool in_order = false;    // it is the one that the run visits next, so that applying is the run's own step
-  bool zoom = true;         // the view goes as close as a level's grid needs
-  bool field = true;        // the quality around the vertex, in the inspector
+  Moment applied_from;      // moment of the run before that
+  bool in_order = false;    // it is the vertex that the run visits next, so that applying is the run's own step
+  bool zoom = true;         // whether the view goes as close as a level's grid needs
+  bool field = true;        // whether the inspector shows the quality around the vertex
   bool field_in_view = false;
-  bool own_range = false;  // the inspector's heat maps span each level's own qualities, not the view's range
+  bool own_range = false;  // whether the inspector's heat maps span each level's own qualities instead of the view's range
   bool playing = false;
-  double level_since = -1.0;  // when playing came to what is shown, in seconds of the window; < 0: not drawn yet
-  // While a level is shown closer than the star: the camera it came from and its own. Whoever moves the camera keeps it.
+  double level_since = -1.0;  // time when playing came to this level, in seconds of the window; < 0: not drawn yet
+  // Camera before a level was shown closer than the star, and the close camera. A camera that a person moved stays.
   std::optional<std::pair<render::Camera2D, render::Camera2D>> close_up;
-  std::optional<std::pair<render::OrbitCamera, render::OrbitCamera>> space_close_up;  // likewise of a volume
-  // Of a volume: the slice of the grid that the maps show.
-  int slice_axis = 2;                    // 0 x, 1 y, 2 z: it is at right angles to it
-  std::optional<int> slice;              // from 0; none: each level's own with its chosen candidate
-  bool alone = true;                     // the mesh is but a ghost meanwhile
-  std::optional<CandidateName> hovered;  // under the mouse in the inspector
+  std::optional<std::pair<render::OrbitCamera, render::OrbitCamera>> space_close_up;  // cameras of close_up for a volume mesh
+  // Slice of a volume's grid that the maps show.
+  int slice_axis = 2;                    // axis at right angles to the slice: 0 x, 1 y, 2 z
+  std::optional<int> slice;              // number of the slice, from 0; none: for each level the one with its chosen candidate
+  bool alone = true;                     // whether the rest of the mesh is drawn faintly meanwhile
+  std::optional<CandidateName> hovered;  // candidate under the mouse in the inspector
 };
 
 }  // namespace dmoscope::ui

@@ -1,5 +1,5 @@
 #pragma once
-// Keys by name ("Ctrl+Shift+S"), as the actions table, scripts and the list of keys write them.
+// Keys by name ("Ctrl+Shift+S"), in the form that the actions table, scripts and the list of keys use.
 
 #include <optional>
 #include <string>
@@ -22,10 +22,10 @@ inline constexpr int kSpace = 32, kEscape = 256, kEnter = 257, kTab = 258, kBack
                      kLeftShift = 340, kLeftControl = 341, kLeftAlt = 342;
 }  // namespace key
 
-/// Reads "N", "Shift+C", "Ctrl+=", "Space", "F11". Nothing for a name that is no key.
+/// Key of a name such as "N", "Shift+C", "Ctrl+=", "Space" or "F11". None for a name that is no key.
 [[nodiscard]] std::optional<KeyChord> parse_key(std::string_view name);
 
-/// The name parse_key reads back.
+/// Name of a key, which parse_key reads back.
 [[nodiscard]] std::string key_name(const KeyChord& chord);
 
 }  // namespace dmoscope::ui

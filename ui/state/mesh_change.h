@@ -1,5 +1,5 @@
 #pragma once
-// What became of the mesh that is worked on, from one view of the session to the next. Plain state.
+// Changes of the active mesh from one view of the session to the next. Plain state.
 
 #include <cstdint>
 #include <filesystem>
@@ -9,15 +9,16 @@
 
 namespace dmoscope::ui {
 
-/// Nothing; another mesh in place of all that were open; the same file read again; a mesh beside those that were open; another of these.
+/// Change of the active mesh. Opened: another mesh in place of all open ones; ReadAgain: the same file read again; Beside: a mesh opened
+/// beside the others; Switched: another of the open meshes.
 enum class MeshChange { None, Opened, ReadAgain, Beside, Switched };
 
-/// Follows which meshes a session has.
+/// Follows the meshes of a session.
 class MeshWatch {
  public:
-  /// What has changed since the last call.
+  /// Change since the last call.
   [[nodiscard]] MeshChange follow(const SessionView& session);
-  /// Whether the mesh has as many vertices and elements as the one before it: its ids mean something like the same.
+  /// Whether the mesh has as many vertices and elements as the one before it, so that ids still mean something similar.
   [[nodiscard]] bool same_ids() const noexcept { return same_ids_; }
 
  private:

@@ -25,7 +25,7 @@ std::vector<PaletteEntry> palette_entries(std::string_view text, const Situation
                        enabled(*action, situation), true, title});
   }
   const std::vector<std::string> words = search_words(text);
-  // Commands that begin with what was typed before those that only speak of it.
+  // Commands that begin with the typed text come before those that only contain it.
   for (const bool begins : {true, false}) {
     for (const CommandInfo* one : commands) {
       if ((has_words && one->name == command) || one->name.starts_with(command) != begins) continue;
@@ -34,7 +34,7 @@ std::vector<PaletteEntry> palette_entries(std::string_view text, const Situation
       entries.push_back({one->usage, one->doc, complete ? one->name : one->name + " ", true, complete});
     }
   }
-  // What cannot be done now comes last, and first what is called just so.
+  // Entries that are impossible now come last, and those with exactly this name first.
   std::ranges::stable_sort(entries, {}, [&](const PaletteEntry& one) { return one.possible ? one.name == text ? 0 : 1 : 2; });
   return entries;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What the palette (Ctrl+P) offers for what was typed.
+// Entries that the palette (Ctrl+P) offers for a typed text.
 
 #include <span>
 #include <string>
@@ -15,12 +15,12 @@ struct PaletteEntry {
   std::string title, detail, command;
   bool possible = true;
   bool complete = true;  // false: the command still needs words; choosing it puts it into the line
-  std::string name{};    // of an action, without its menu
+  std::string name{};    // name of an action, without its menu
 };
 
 /// Actions, then commands of the window (`window_commands`) and of the session, that hold all words of `text`; all of them for an empty
-/// one. A command with words after it is a command to run as it stands, and comes first, but for an action that is called just so. What
-/// cannot be done now comes last.
+/// one. A command with words after it is run as it stands, and comes first, except after an action with exactly that name. Entries that are
+/// impossible now come last.
 [[nodiscard]] std::vector<PaletteEntry> palette_entries(std::string_view text, const Situation& situation,
                                                         std::span<const CommandInfo> window_commands);
 

@@ -23,7 +23,7 @@ void Panes::set_layout(PaneLayout wanted) {
   layout = wanted;
   for (Pane& pane : panes)
     if (!pane.chosen) pane.content = {};
-  if (one()) {  // always a way back to the run that commands are about
+  if (one()) {  // always leaves a way back to the run that commands are about
     panes[0].content = {};
     panes[0].chosen = false;
   }
@@ -70,7 +70,7 @@ std::size_t Panes::follow(const SessionView& session) {
   const PaneContent before = panes[focus].content;
   fill(count());
   const PaneContent& focused = panes[focus].content;
-  // Commands are about the run beside it.
+  // Commands stay about the run beside the pane of the input.
   if (focused.kind == ContentKind::Input && focused != before) return pane_of_active();
   const bool of_another = focused.kind == ContentKind::Run && !focused.iteration && focused.run != active;
   return other_run || of_another ? pane_of_active() : focus;
@@ -85,7 +85,7 @@ void Panes::fill(std::size_t visible) {
   const auto vacant = [&](Pane& pane) { return !pane.chosen && pane.content.kind != ContentKind::Run; };
   const auto is_ours = [](const Pane& pane) { return !pane.chosen && !pane.content.iteration; };
   if (visible == 2 && run_ids.size() == 1 && is_ours(panes[0]) && is_ours(panes[1])) {
-    // Before on the left, after on the right.
+    // Before is on the left, after on the right.
     panes[0].content = {ContentKind::Input, 0, std::nullopt};
     panes[1].content = {ContentKind::Run, run_ids.front(), std::nullopt};
     return;
@@ -110,7 +110,7 @@ void Panes::fill(std::size_t visible) {
   if (!has_input && !run_ids.empty() && at != end) at->content = {ContentKind::Input, 0, std::nullopt};
 }
 
-/// Whether both were filled by themselves, and show runs in the other order than that of the list.
+/// Whether both were filled automatically and show runs in the reverse order of the list.
 bool Panes::are_reversed(const Pane& left, const Pane& right) const {
   const auto is_run = [](const Pane& pane) { return !pane.chosen && pane.content.kind == ContentKind::Run && !pane.content.iteration; };
   return is_run(left) && is_run(right) && std::ranges::find(run_ids, left.content.run) > std::ranges::find(run_ids, right.content.run);
@@ -163,7 +163,7 @@ std::vector<Rect> pane_rects(PaneLayout layout, const Rect& area, float gap, dou
   float columns = layout == PaneLayout::Four ? 2 : 1, rows = columns;
   if (layout == PaneLayout::Two) columns = 2;
   const float all = columns * rows;
-  if (all > 1) {  // other ways only where they are clearly better
+  if (all > 1) {  // other arrangements only when they are clearly better
     constexpr double kClearly = 1.15;
     double best = kClearly * mesh_height(size(columns, rows));
     for (const auto& [across, down] : {std::pair{all, 1.0F}, {1.0F, all}}) {

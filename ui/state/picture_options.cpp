@@ -1,4 +1,4 @@
-// Rows of the table of options: what is seen of a mesh, and in which colours.
+// Rows of the table of options: visible parts of a mesh, and colours.
 #include "ui/state/option_rows.h"
 
 namespace dmoscope::ui {
@@ -29,7 +29,7 @@ void set_labels(ViewState& state, double value) {
   state.colouring.label_elements = (kinds & 2U) != 0;
 }
 
-/// One camera for all viewports, or one each.
+/// Gives all viewports one camera (1), or each its own (0).
 void link_cameras(ViewState& state, double value) {
   if (value == 0.0 && state.in_space) throw UsageError("all viewports of a volume mesh share one camera");
   state.link_cameras(value != 0.0);

@@ -7,7 +7,7 @@
 
 namespace dmoscope::ui {
 
-/// Of each path its last part; where several have the same, as many folders as tell them apart, behind it: "east.14   results/a".
+/// Last part of each path; if several share it, it is followed by as many folders as tell them apart: "east.14   results/a".
 [[nodiscard]] std::vector<std::string> short_names(std::span<const std::string> files);
 
 }  // namespace dmoscope::ui

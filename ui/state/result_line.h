@@ -1,5 +1,5 @@
 #pragma once
-// The newest result, as the status bar says it: what was said last, until something else succeeds.
+// The newest result for the status bar, which stays until something else succeeds.
 
 #include <optional>
 #include <string_view>
@@ -12,17 +12,17 @@ namespace dmoscope::ui {
 class ResultLine {
  public:
   void say(const Message& message);
-  /// A command of the session has ended; `line`: as it was posted. What it said itself stays; one that succeeded without a word takes the
-  /// place of what was said before it.
+  /// Notes that a command of the session has ended; `line`: as it was posted. Its own message stays; if it succeeded without one, its
+  /// success replaces the message before it.
   void ended(std::string_view line, const CommandEnd& end);
-  /// A command of the window has succeeded: an error from before is over.
+  /// Notes that a command of the window has succeeded, which removes an error from before.
   void succeeded();
-  /// None: there is nothing to say.
+  /// The newest message; none: there is nothing to say.
   [[nodiscard]] const std::optional<Message>& newest() const noexcept { return newest_; }
 
  private:
   std::optional<Message> newest_;
-  bool said_ = false;  // since a command ended
+  bool said_ = false;  // whether there was a message since a command ended
 };
 
 }  // namespace dmoscope::ui

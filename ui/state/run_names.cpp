@@ -8,7 +8,7 @@
 namespace dmoscope::ui {
 namespace {
 
-/// What a run may differ in from others by its method.
+/// Parts of a method in which runs may differ.
 using Parts = std::array<std::string, 4>;
 
 Parts parts_of(const RunView& run) {
@@ -67,7 +67,7 @@ std::vector<RunName> run_names(const SessionView& session) {
 }
 
 std::map<std::string, std::string> KnownRunNames::follow(const SessionView& session) {
-  // As long as runs and titles are the same, so are the names.
+  // Names stay the same as long as runs and titles do.
   const auto is_known = [](const RunView& run, const Known& known) {
     return run.id == known.id && run.title == known.title && run.name == known.given;
   };

@@ -17,7 +17,7 @@ std::string iteration_text(const RunView& run) {
   return fmt::format("iteration {} of {}", count(std::min(under_way, last) - from), count(last - from));
 }
 
-/// "8.21 M visits/s"
+/// A rate with its noun: "8.21 M visits/s".
 std::string per_second(std::string_view what, double value) {
   std::string text = rate(value);
   if (!text.ends_with(' ')) text += ' ';
@@ -89,14 +89,14 @@ const RunView* run_at_work(const SessionView& session) {
 std::optional<WorkDone> work_done(const RunView* run, std::string_view command, double progress) {
   if (run == nullptr || !run->pursuit) return WorkDone{std::string(command), progress, 1.0};
   const Pursuit& pursuit = *run->pursuit;
-  if (pursuit.until_converged) return std::nullopt;  // nobody knows
+  if (pursuit.until_converged) return std::nullopt;  // not known in advance
   const auto whole = static_cast<double>(std::max<std::uint64_t>(1, run->visits_per_iteration));
   const double done = static_cast<double>(run->moment.iteration - pursuit.from) + static_cast<double>(run->moment.visits) / whole;
   return WorkDone{std::string(command), done, static_cast<double>(pursuit.last - pursuit.from)};
 }
 
 void Pace::note(double now, const std::optional<WorkDone>& work) {
-  constexpr double kRemembered = 4.0;  // seconds: work gets faster and slower
+  constexpr double kRemembered = 4.0;  // seconds that are remembered: work gets faster and slower
   const bool same = work && work_ && work->whose == work_->whose && work->all == work_->all && work->done >= work_->done;
   if (!same) seen_.clear();
   const bool moved = !same || work->done > work_->done;
@@ -107,7 +107,7 @@ void Pace::note(double now, const std::optional<WorkDone>& work) {
 }
 
 std::optional<double> Pace::seconds_left() const {
-  constexpr double kLeast = 0.5;  // seconds that must have been seen
+  constexpr double kLeast = 0.5;  // seconds that must have been seen before an estimate
   if (!work_ || seen_.size() < 2) return std::nullopt;
   const double seconds = seen_.back().first - seen_.front().first, done = seen_.back().second - seen_.front().second;
   if (seconds < kLeast || !(done > 0.0)) return std::nullopt;

@@ -17,7 +17,7 @@ bool is_frame(const fs::path& path) {
   return number.find_first_not_of("0123456789") == std::string::npos;
 }
 
-/// Makes the folder; frames of an older sequence go when that was asked for, else they are a reason to refuse.
+/// Makes the folder; removes frames of an older sequence if that was asked for, else refuses because of them.
 void prepare_folder(const SequenceOptions& options) {
   std::error_code error;
   fs::create_directories(options.folder, error);
@@ -46,7 +46,7 @@ Sequence plan_sequence(const SequenceOptions& options, const SessionView& sessio
   if (to > last) throw UsageError(fmt::format("the history ends at iteration {}: {} has not been run yet", last, to));
   Sequence sequence{options, {}, 0, Sequence::Phase::Seek, run.moment};
   for (std::uint64_t iteration = options.from; iteration < to; iteration += options.every) sequence.iterations.push_back(iteration);
-  sequence.iterations.push_back(to);  // the end is what people want to see
+  sequence.iterations.push_back(to);  // the last iteration is always shown
   prepare_folder(options);
   return sequence;
 }
@@ -54,7 +54,7 @@ Sequence plan_sequence(const SequenceOptions& options, const SessionView& sessio
 std::string video_line(const fs::path& folder, double frames_per_second) {
   std::string name = folder.lexically_normal().string();
   while (name.size() > 1 && name.ends_with('/')) name.pop_back();
-  // Even numbers of pixels are what most players ask for.
+  // Most players want even numbers of pixels.
   return fmt::format("ffmpeg -framerate {:g} -i {} -vf \"pad=ceil(iw/2)*2:ceil(ih/2)*2\" -c:v libx264 -pix_fmt yuv420p {}",
                      frames_per_second, quote_word(name + "/frame-%04d.png"), quote_word(name + ".mp4"));
 }

@@ -28,17 +28,17 @@ struct Sequence {
   std::vector<std::uint64_t> iterations;
   std::size_t done = 0;
   Phase phase = Phase::Seek;
-  Moment before;  // where the run stood, to go back there
+  Moment before;  // moment of the run before the sequence, to return to
 
   [[nodiscard]] double progress() const noexcept { return static_cast<double>(done) / static_cast<double>(iterations.size()); }
-  /// "frame-0012.png" in the folder.
+  /// Path of the next picture, "frame-0012.png" in the folder.
   [[nodiscard]] std::filesystem::path next_file() const;
 };
 
-/// Plans it and makes the folder. Throws UsageError (no mesh, no such iterations, frames are there already) and OutputError.
+/// Plans a sequence and makes its folder. Throws UsageError (no mesh, no such iterations, frames exist already) and OutputError.
 [[nodiscard]] Sequence plan_sequence(const SequenceOptions& options, const SessionView& session);
 
-/// A line that makes a video of the pictures.
+/// A command line (ffmpeg) that makes a video of the pictures.
 [[nodiscard]] std::string video_line(const std::filesystem::path& folder, double frames_per_second);
 
 }  // namespace dmoscope::ui

@@ -1,5 +1,5 @@
 #pragma once
-// What of the session and the view decides which actions are possible.
+// Facts of the session and the view that decide which actions are possible.
 
 #include "core/view/view.h"
 #include "ui/state/actions.h"

@@ -1,4 +1,4 @@
-// Rows of the table of options: what is seen of steps and visits, and how time is played.
+// Rows of the table of options: display of steps and visits, and playing of time.
 #include "ui/state/option_rows.h"
 
 namespace dmoscope::ui {
@@ -8,14 +8,14 @@ using V = ViewState;
 using S = SteppingState;
 using I = InspectionState;
 
-/// What arrows and ghosts compare the mesh with. Input needs nothing but the run; what another one showed does not last.
+/// References for arrows and ghosts that are saved: Input needs nothing but the run; references from one session do not last.
 constexpr std::size_t kLastingReferences = 2;
 std::vector<OptionChoice> references(std::string_view previous, std::string_view key, std::string_view input, std::string_view input_key) {
   using option_rows::choice;
   return {choice("off"), choice("input", "", "", input, input_key), choice("previous", "", "", previous, key), choice("a"), choice("b")};
 }
 
-/// Whether it paints.
+/// Switches painting with the brush on or off.
 void switch_brush(ViewState& state, double value) {
   if (value != 0.0 && state.in_space)
     throw UsageError("the brush works on planar meshes only; select vertices of a volume mesh by their ids");

@@ -1,5 +1,5 @@
 #pragma once
-// What the view shows of stepping: who moves next, and who moved how far.
+// Display of stepping: which vertices move next, and which moved how far.
 
 #include <array>
 #include <cstdint>
@@ -13,37 +13,37 @@
 
 namespace dmoscope::ui {
 
-/// What arrows and ghosts compare the mesh with.
+/// State that arrows and ghosts compare the mesh with.
 enum class Reference {
   None,
   Input,
   Previous,  // before the last command that moved something
   A,
-  B  // what was marked on the timeline
+  B  // moments marked on the timeline
 };
 
-/// Whether what a step moved is tinted: for a moment after it, or until the next one.
+/// Whether vertices that a step moved are tinted: for a moment after it, or until the next one.
 enum class Flash { Off, On, Hold };
 
-/// What the last step did.
+/// Effect of the last step.
 struct StepNews {
-  std::string sentence;                 // empty: nothing to be said
+  std::string sentence;                 // empty: nothing to say
   std::vector<Index> moved;             // vertices
-  Index vertex = kNoIndex;              // that was visited and stayed
-  std::shared_ptr<const Frame> before;  // where they were
-  std::uint64_t messages = 0;           // how many there had been: a later one takes the sentence's place
-  std::uint64_t serial = 0;             // of the frame that it is about
-  double since = 0.0;                   // seconds of a steady clock
+  Index vertex = kNoIndex;              // vertex that was visited and stayed
+  std::shared_ptr<const Frame> before;  // positions before the step
+  std::uint64_t messages = 0;           // number of messages before it: a later one replaces the sentence
+  std::uint64_t serial = 0;             // serial of the frame that it is about
+  double since = 0.0;                   // time of the step, in seconds of a steady clock
 };
 
 struct SteppingState {
   Flash flash = Flash::Off;
   int flash_level = 0;  // how strong it is drawn now, 0 to kFlashLevels
   StepNews news;
-  bool next_class = false;             // dots on the vertices of the class that moves next
-  Reference arrows = Reference::None;  // from where each vertex was to where it is
-  double arrow_scale = 0.0;            // by which arrows are too long; 0: chosen so that the longest in view can be seen
-  Reference ghost = Reference::None;   // edges as they were
+  bool next_class = false;             // dots on the vertices of the colour class that moves next
+  Reference arrows = Reference::None;  // start of the arrows, which end at the present positions
+  double arrow_scale = 0.0;            // factor of the arrows' length; 0: chosen so that the longest in view can be seen
+  Reference ghost = Reference::None;   // state whose edges are drawn
   bool click_smooths = false;          // a click on a free vertex moves it to its best candidate
 };
 

@@ -47,7 +47,7 @@ std::optional<std::string> next_command(Playback& play, const SessionView& sessi
   }
   if (now < play.due) return std::nullopt;
   const double interval = 1.0 / play.speed;
-  play.due = std::max(play.due + interval, now);  // what could not be shown in time is not made up for
+  play.due = std::max(play.due + interval, now);  // moments that could not be shown in time are skipped
   if (play.kind == Playback::Kind::Vertex) return "step vertex";
   if (play.kind == Playback::Kind::Class) return "step class";
   if (play.kind == Playback::Kind::Iteration) return "step iteration";

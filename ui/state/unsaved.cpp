@@ -27,7 +27,7 @@ bool gives_up_session(std::string_view line) {
     const std::vector<std::string> words = split_words(line);
     return !words.empty() && std::ranges::find(kSuch, words.front()) != kSuch.end();
   } catch (const Error&) {
-    return false;  // it comes to nothing
+    return false;  // the line has no effect
   }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What of a session is in no file, and what a person is asked before it is given up.
+// Finds what of a session is not saved in a file, and the question to ask before it is given up.
 
 #include <cstddef>
 #include <string>
@@ -10,13 +10,13 @@
 
 namespace dmoscope::ui {
 
-/// The runs, by their places in the list, of which something would be lost; see SavedMarks.
+/// Indices of the runs of which something would be lost; see SavedMarks.
 [[nodiscard]] std::vector<std::size_t> unsaved_runs(const SessionView& session);
 
-/// "east.14 – dmoscope", with a dot before it while something is in no file.
+/// Title of the window: "east.14 – dmoscope", with a dot before it while something is not saved.
 [[nodiscard]] std::string window_title(const SessionView& session);
 
-/// Whether a command line ends the window, or puts another mesh in the place of the one that is open.
+/// Whether a command line closes the window, or replaces the open mesh by another one.
 [[nodiscard]] bool gives_up_session(std::string_view line);
 
 /// A command of a person that waits for an answer.
@@ -26,11 +26,11 @@ struct Leaving {
   Phase phase = Phase::Asking;
 };
 
-/// What the question says: "Quit?", and what is in no file, a sentence a line.
+/// The question before unsaved work is given up: a title, and one line for each thing that is not saved.
 struct UnsavedQuestion {
   std::string title;               // "Quit without saving?"
   std::vector<std::string> lines;  // "dmo · mean-ratio: iteration 12"
-  std::string running;             // "a run is going on …"; empty where nothing is
+  std::string running;             // "a run is going on …"; empty when there is none
 };
 [[nodiscard]] UnsavedQuestion unsaved_question(const SessionView& session, const Leaving& leaving, bool busy, const std::string& command);
 

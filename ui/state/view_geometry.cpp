@@ -19,7 +19,7 @@ render::Bounds2 box_of(const Frame& frame, std::span<const Index> vertices) {
   return box;
 }
 
-/// Perpendicular to an element of a surface, as long as twice its area.
+/// Vector perpendicular to an element of a surface, as long as twice its area.
 Vec3 area_vector(const Frame& frame, Index element) {
   const auto c = frame.input->mesh.elements.corners(element);
   Vec3 sum;
@@ -28,7 +28,7 @@ Vec3 area_vector(const Frame& frame, Index element) {
   return sum;
 }
 
-/// Where a surface looks at some elements: outward if it is closed, else as its elements are oriented.
+/// Direction in which a surface faces at some elements: outward if it is closed, else by their orientation.
 Vec3 outward(const Frame& frame, std::span<const Index> elements) {
   const Mesh& mesh = frame.input->mesh;
   Vec3 sum;
@@ -41,9 +41,9 @@ Vec3 outward(const Frame& frame, std::span<const Index> elements) {
   return volume < 0.0 ? -1.0 * sum : sum;
 }
 
-/// The share of a mesh's faces, by area, that are at its lowest end along an axis and look there.
+/// Share of a mesh's faces, by area, that are at its lowest end along an axis and face that way.
 double share_of_base(const InputMesh& input, double Vec3::*axis) {
-  constexpr double kNear = 0.01, kFlat = 0.98;  // of the extent; of the cosine
+  constexpr double kNear = 0.01, kFlat = 0.98;  // share of the extent; cosine
   const std::vector<Vec3>& at = input.mesh.positions;
   const auto [low, high] = std::ranges::minmax(at, {}, axis);
   const double below = low.*axis + kNear * (high.*axis - low.*axis);
@@ -68,7 +68,7 @@ double share_of_base(const InputMesh& input, double Vec3::*axis) {
 }  // namespace
 
 render::UpAxis guessed_up(const InputMesh& input) {
-  constexpr double kBase = 0.02;  // of the area
+  constexpr double kBase = 0.02;  // share of the area
   if (!input.in_space() || input.mesh.positions.empty() || share_of_base(input, &Vec3::z) >= kBase) return render::UpAxis::Z;
   const bool is_obj = lower_case(input.path.extension().string()) == ".obj";
   return is_obj || share_of_base(input, &Vec3::y) >= kBase ? render::UpAxis::Y : render::UpAxis::Z;
@@ -90,7 +90,7 @@ render::Bounds2 star_box(const Frame& frame, Index vertex) {
 }
 
 void look_at_picked(ViewState& state, const Frame& frame) {
-  // About a tenth of the view's side: what is picked can be read, and its neighbourhood is seen.
+  // About a tenth of the view's side: the picked element can be read, and its neighbourhood is seen.
   constexpr double kSurroundings = 6.0;
   const Picked& picked = state.picked;
   if (picked.kind == Picked::Kind::None) return;

@@ -1,5 +1,5 @@
 #pragma once
-// Where things of a frame are in the plane, and what can be shown of a mesh.
+// Positions of a frame in the plane, cameras for picked things, and metrics that a mesh allows.
 
 #include <vector>
 
@@ -9,17 +9,17 @@
 
 namespace dmoscope::ui {
 
-/// A vertex in coordinates of the mesh's plane. Throws DeviceError.
+/// Position of a vertex in coordinates of the mesh's plane. Throws DeviceError.
 [[nodiscard]] Vec2<double> plane_point(const Frame& frame, Index vertex);
 /// Box of an element, or of the star of a vertex. Throw DeviceError.
 [[nodiscard]] render::Bounds2 element_box(const Frame& frame, Index element);
 [[nodiscard]] render::Bounds2 star_box(const Frame& frame, Index vertex);
 
-/// Moves the camera to what is picked, close enough to read it. Does nothing when nothing is picked. Throws DeviceError.
+/// Moves the camera to the picked element or vertex, close enough to read it. Does nothing when nothing is picked. Throws DeviceError.
 void look_at_picked(ViewState& state, const Frame& frame);
 
-/// Which axis of a mesh in space points up: y where it stands on a flat face below in y and on none below in z, or where neither is so and
-/// its file is of a format whose meshes mostly have y up (OBJ); else z.
+/// Guess of the upright axis of a mesh in space: y if it stands on a flat face below in y and on none below in z, or if it stands on none
+/// and its file's format mostly has y up (OBJ); else z.
 [[nodiscard]] render::UpAxis guessed_up(const InputMesh& input);
 
 /// Metrics defined for every element of the mesh.

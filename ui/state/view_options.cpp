@@ -17,7 +17,7 @@ std::vector<ViewOption> all_options() {
   return all;
 }
 
-/// What a file has below `least` means none; older ones had it.
+/// Value of a number from a file: one below `least` means none, as in older files.
 double from_file(const OptionNumber& number, double value) { return value < number.least && value >= number.rest ? number.rest : value; }
 
 }  // namespace

@@ -19,7 +19,7 @@ void Panels::leave_selection() {
 
 namespace {
 
-/// The upper end of the highest bin that is not empty.
+/// Upper end of the highest bin that is not empty.
 double highest_of(const Histogram& histogram) {
   if (histogram.above > 0) return histogram.highest;
   const auto last = std::find_if(histogram.counts.rbegin(), histogram.counts.rend(), [](Index count) { return count > 0; });

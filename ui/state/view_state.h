@@ -1,5 +1,5 @@
 #pragma once
-// What the window shows, as plain data: no ImGui, no OpenGL. Commands change it, panels draw it, tests read it.
+// State of the window, as plain data: no ImGui, no OpenGL. Commands change it, panels draw it, tests read it.
 
 #include <array>
 #include <deque>
@@ -33,11 +33,11 @@
 namespace dmoscope::ui {
 
 enum class Theme { Dark, Light, Contrast };
-/// What a file that is opened is for.
+/// Role of a file that is opened.
 enum class OpenFor : std::uint8_t {
-  Alone,   // in the place of all that is open
+  Alone,   // in place of all that is open
   Beside,  // another mesh beside those that are open
-  Surface  // what the active mesh slides on
+  Surface  // surface that the active mesh slides on
 };
 enum class Dialog {
   None,
@@ -59,7 +59,7 @@ enum class Dialog {
   Compare
 };
 
-/// What a person picked.
+/// The element or vertex that a person picked.
 struct Picked {
   enum class Kind { None, Vertex, Element };
   Kind kind = Kind::None;
@@ -67,34 +67,34 @@ struct Picked {
   friend bool operator==(const Picked&, const Picked&) = default;
 };
 
-/// Of the window on the desktop, in its coordinates; 0: not known.
+/// Place of the window on the desktop, in its coordinates; 0: not known.
 struct WindowPlace {
-  int width = 0, height = 0;  // while it is not maximised
+  int width = 0, height = 0;  // size while it is not maximised
   bool maximised = false;
   friend bool operator==(const WindowPlace&, const WindowPlace&) = default;
 };
 
 enum class Side : std::uint8_t { Left, Right };
-/// What the dock of facts shows.
+/// Content of the dock of facts.
 enum class FactsTab : std::uint8_t { Mesh, Selection, Worst, Colours, Inside };
 
-/// Which panels are there. Two docks, of setup and of facts, stand in columns beside the mesh, the one above the other where they share
-/// a side. The columns give way to the mesh in a small window and then open over it.
+/// Panels of the window. Two docks, of setup and of facts, stand in columns beside the mesh, one above the other when they share a side.
+/// The columns give way to the mesh in a small window and then open over it.
 struct Panels {
   bool setup = true;  // runs, method and metric
   bool facts = true;  // mesh, selection, worst elements, colours
   Side setup_side = Side::Right, facts_side = Side::Right;
   FactsTab tab = FactsTab::Mesh;
-  FactsTab tab_before = FactsTab::Mesh;        // the one to go back to when nothing is picked any more
-  bool settings = false;                       // all parameters are unfolded
-  bool holds = false;                          // what holds the minimum is unfolded
-  bool notice = false;                         // the note about a run's end is unfolded
-  bool loops = false;                          // the list of boundary loops is unfolded
+  FactsTab tab_before = FactsTab::Mesh;        // tab to go back to when nothing is picked any more
+  bool settings = false;                       // whether all parameters are unfolded
+  bool holds = false;                          // whether the list of what holds the minimum is unfolded
+  bool notice = false;                         // whether the note about a run's end is unfolded
+  bool loops = false;                          // whether the list of boundary loops is unfolded
   bool bottom = true;                          // plots; the timeline below them is always there
-  bool plots_wait = true;                      // for the first step of a mesh, or for a plot that needs none; then they open
-  bool left_over = false, right_over = false;  // opened over the mesh where the window is too small for both
-  bool picked_over = false;                    // likewise the facts alone, of what was picked
-  /// Whether a side's docks lie over the mesh in such a window.
+  bool plots_wait = true;                      // closed until the first step of a mesh, or until a plot that needs none
+  bool left_over = false, right_over = false;  // opened over the mesh because the window is too small for both
+  bool picked_over = false;                    // only the facts of what was picked are opened so
+  /// Whether a side's docks lie over the mesh in a window that is too small for both.
   [[nodiscard]] bool over(Side side) const noexcept {
     return (side == Side::Left ? left_over : right_over) || (picked_over && has_facts(side));
   }
@@ -102,45 +102,45 @@ struct Panels {
   [[nodiscard]] bool has_setup(Side side) const noexcept { return setup && setup_side == side; }
   [[nodiscard]] bool has_facts(Side side) const noexcept { return facts && facts_side == side; }
   [[nodiscard]] bool has_column(Side side) const noexcept { return has_setup(side) || has_facts(side); }
-  /// Whether a dock belongs there, open or not.
+  /// Whether a dock belongs to that side, open or not.
   [[nodiscard]] bool uses(Side side) const noexcept { return setup_side == side || facts_side == side; }
-  /// Shows the facts of what is picked; `in_list`: from the list of the worst, which stays.
+  /// Shows the facts of what is picked; `in_list`: picked in the list of the worst, which stays.
   void show_selection(bool in_list = false);
-  /// Nothing is picked any more.
+  /// Goes back to the tab before, when nothing is picked any more.
   void leave_selection();
-  // In heights of the interface's font.
+  // Sizes of panels, in heights of the interface's font.
   double left_width = 16.0, right_width = 20.0, bottom_height = 13.0;
-  double runs_height = 4.8;  // of the list of runs: three rows
+  double runs_height = 4.8;  // height of the list of runs: three rows
 };
 
 struct ScreenshotOptions {
   std::filesystem::path path;
-  int width = 0, height = 0;  // 0: as on screen
+  int width = 0, height = 0;  // size in pixels; 0: as on screen
   int supersample = 2;
   bool transparent = false;
   bool window = false;  // the whole interface instead of the mesh
-  bool quiet = false;   // one of many: only what goes wrong is said
+  bool quiet = false;   // one of many: only failures are reported
 };
 
-/// Input that a script plays through the window's own event handling, one a frame.
+/// Input that a script sends through the window's own event handling, one a frame.
 struct SimulatedInput {
   enum class Kind { Move, Press, Release, Wheel, KeyDown, KeyUp, Text };
   Kind kind = Kind::Move;
-  float x = 0, y = 0;  // pixels; amount for Wheel in y
+  float x = 0, y = 0;  // pixels; for Wheel, the amount in y
   int button = 0;
   KeyChord chord;
   std::string text;
 };
 
-/// Wishes of commands to whoever runs the event loop; each is taken once.
+/// Requests of commands to the event loop; each is taken once.
 struct Requests {
   bool quit = false;
   bool fit = false;
-  bool fit_all = false;  // with it: the viewports under cameras of their own, too
+  bool fit_all = false;  // with `fit`: also viewports with cameras of their own
   std::optional<bool> full_screen;
   std::optional<std::pair<int, int>> size;
   std::deque<ScreenshotOptions> screenshots;
-  bool screenshot_failed = false;  // since somebody set it to false
+  bool screenshot_failed = false;  // set when one fails, until somebody resets it
   std::deque<PlotSave> plots;
   std::deque<SimulatedInput> input;
   std::optional<std::string> clipboard;
@@ -148,23 +148,23 @@ struct Requests {
 
 struct ViewState {
   // Camera and picture
-  render::Camera2D camera;  // of the active pane, and of all while they are linked
+  render::Camera2D camera;  // camera of the active pane, and of all while they are linked
   Panes panes;
-  render::OrbitCamera orbit;              // of volume meshes, in all panes
-  bool trackball = false;                 // a drag rolls them as a ball instead of turning them about the upright axis
-  ClippingView inside;                    // what is seen of them
+  render::OrbitCamera orbit;              // camera of volume meshes, in all panes
+  bool trackball = false;                 // a drag rolls volume meshes as a ball instead of turning them about the upright axis
+  ClippingView inside;                    // visible part of volume meshes
   bool in_space = false;                  // a volume or a curved surface is on show; set by follow()
-  Vec2<double> viewport{800, 600};        // pixels of a pane, set by the drawing code
-  std::pair<int, int> window_size{0, 0};  // likewise; 0: not known yet
+  Vec2<double> viewport{800, 600};        // size of a pane in pixels, set by the drawing code
+  std::pair<int, int> window_size{0, 0};  // size in pixels, set by the drawing code; 0: not known yet
   bool wireframe = true;
   bool vertices = false;
   bool worst_marker = true;
-  bool pointer_value = false;  // the element's value is shown where the pointer rests; not in scripts, whose pictures shall be the same
-  bool features = false;       // curves along which vertices slide, and what holds them
-  std::optional<std::array<Index, 2>> edge_under_mouse;  // in the inspector or a menu, to be seen in the mesh
-  bool holders = false;   // what holds the minimum: elements that hold one another, their forces, and the cluster
-  bool shading = true;    // volumes' faces by a light, too: it changes what colours tell
-  bool occlusion = true;  // volumes are darker in their corners and along their edges
+  bool pointer_value = false;  // the element's value is shown at the pointer; not in scripts, whose pictures must always be the same
+  bool features = false;       // shows curves along which vertices slide, and what holds vertices in place
+  std::optional<std::array<Index, 2>> edge_under_mouse;  // edge under the mouse in the inspector or a menu, shown in the mesh
+  bool holders = false;   // shows what holds the minimum: elements that hold one another, their forces, and the cluster
+  bool shading = true;    // lights volumes' faces, which changes colours
+  bool occlusion = true;  // darkens volumes in their corners and along their edges
   render::ColourMap colour_map = render::ColourMap::Beacon;
   RangeMode range_mode = RangeMode::Input;
   double range_low = 0.0, range_high = 1.0;                   // for RangeMode::Given
@@ -173,47 +173,47 @@ struct ViewState {
 
   // Interface
   Theme theme = Theme::Dark;
-  double scale = 1.0;          // of text and widgets
-  double monitor_scale = 1.0;  // what of that is the monitor's; 1 for scripts, so that they draw the same everywhere
+  double scale = 1.0;          // factor of text and widgets
+  double monitor_scale = 1.0;  // the monitor's part of the factor; 1 for scripts, so that they draw the same everywhere
   Panels panels;
   Dialog dialog = Dialog::None;
-  OpenFor open_for = OpenFor::Alone;  // of Dialog::Open
+  OpenFor open_for = OpenFor::Alone;  // role of the file in Dialog::Open
   PlotTab plot = PlotTab::Convergence;
   std::array<PlotView, kPlotTabs.size()> plots;
   PlotOptions plot_options;
-  KnownRunNames run_names;  // that the plots' legends had last
+  KnownRunNames run_names;  // names that the plots' legends had last
   bool full_screen = false;
   WindowPlace place;
 
-  // What would be lost
-  bool asks_unsaved = false;              // before a person gives up what is in no file; scripts are not asked
-  std::optional<Leaving> leaving;         // what waits for the answer
-  std::vector<Recoverable> recoverable;   // what windows that came to no good end left, as long as a person has not said what becomes of it
-  std::optional<Recoverable> recovering;  // of these, what the session came of
-  bool native_dialogs = true;             // the desktop's file dialogs where there are any
+  // Work that would be lost
+  bool asks_unsaved = false;              // asks before a person gives up unsaved work; scripts are not asked
+  std::optional<Leaving> leaving;         // command that waits for the answer
+  std::vector<Recoverable> recoverable;   // sessions of windows that did not end properly, until a person decides on them
+  std::optional<Recoverable> recovering;  // the one of these that the session was recovered from
+  bool native_dialogs = true;             // uses the desktop's file dialogs if there are any
 
   // Selection
   Picked picked;
-  Picked pick_on_switch;  // of another open mesh, which is about to become the active one
+  Picked pick_on_switch;  // pick in another open mesh, which is about to become the active one
   Selection selection;
   Brush brush;
   SteppingState stepping;
   InspectionState inspection;
-  std::optional<std::uint64_t> renaming_run;  // RunView::id; its name is being typed in the list
+  std::optional<std::uint64_t> renaming_run;  // RunView::id of the run whose name is being typed in the list
   bool placing_size_point = false;            // the next click in the view places the point of the size function
 
   // Time
   Timeline timeline;
-  std::optional<Sequence> sequence;  // of pictures that are being taken
-  bool watch_file = false;           // read the mesh again whenever its file is written anew
+  std::optional<Sequence> sequence;  // pictures that are being taken
+  bool watch_file = false;           // reads the mesh again whenever its file changes
 
   // Log
   std::deque<Message> log;       // newest last, at most 200
-  std::uint64_t messages = 0;    // how many there have been
-  CommandLog commands;           // and messages, all of them
-  ResultLine result;             // what the status bar says
-  std::string error_text;        // of the error dialog
-  std::string dismissed_notice;  // Notice::key of the one that a person took away
+  std::uint64_t messages = 0;    // number of all messages so far
+  CommandLog commands;           // commands and messages
+  ResultLine result;             // text of the status bar
+  std::string error_text;        // text of the error dialog
+  std::string dismissed_notice;  // Notice::key of the note that a person dismissed
 
   Tour tour;
 
@@ -222,34 +222,34 @@ struct ViewState {
 
   Requests requests;
 
-  /// Of a pane.
+  /// Camera of a pane.
   [[nodiscard]] render::Camera2D& camera_of(std::size_t pane) {
     return panes.linked || pane == panes.focus ? camera : panes.panes[pane].camera;
   }
-  /// All panes under one camera, that of the active one; or each under its own, from where it is.
+  /// Puts all panes under the camera of the active one; or gives each its own, starting from that.
   void link_cameras(bool linked);
   /// Makes a pane the active one.
   void focus_pane(std::size_t pane);
-  /// Brings panes, what differences are taken from, and the runs' names up to date with the session.
+  /// Brings panes, the reference of differences and the runs' names up to date with the session.
   void follow(const SessionView& session);
-  /// See Panes::set_layout.
+  /// Sets the arrangement of viewports, see Panes::set_layout.
   void set_layout(PaneLayout layout);
-  /// The matrix of so many runs, and where four viewports have room for them a viewport each.
+  /// Shows the matrix of so many runs, and if four viewports have room for them, each run in a viewport.
   void show_comparison(std::size_t runs);
 
   [[nodiscard]] PlotView& plot_view() { return plots[static_cast<std::size_t>(plot)]; }
 };
 
-/// The lowest and the highest quality of the shown metric, inverted elements apart; of a device-resident frame as far as its histogram
-/// tells. None where no element has one.
+/// Lowest and highest quality of the shown metric, without inverted elements; for a device-resident frame as far as its histogram tells.
+/// None if no element has a quality.
 [[nodiscard]] std::optional<std::pair<double, double>> own_range(const Frame& frame);
-/// Range of qualities that the colours span now. `own`: see own_range; `seen`: what all the frames so far had, for RangeMode::Expanding;
-/// `input`: null: not known, `own` stands in for it.
+/// Range of qualities that the colours span now. `own`: see own_range; `seen`: the range of all frames so far, for RangeMode::Expanding;
+/// `input`: null: not known, `own` is taken instead.
 [[nodiscard]] std::pair<double, double> colour_range(const ViewState& state, std::optional<std::pair<double, double>> own,
                                                      std::optional<std::pair<double, double>> seen = {},
                                                      const InputSpread* input = nullptr);
 
-/// The window has come to a monitor with another scale: what a person chose over it stays.
+/// Adapts to a monitor with another scale; the factor that a person chose on top of it stays.
 void move_to_monitor(ViewState& state, double monitor_scale);
 
 /// Adds a line to the log; an error also opens the error dialog (unless one is open, then it is appended there).

@@ -11,7 +11,7 @@ using P = PlotOptions;
 
 constexpr OptionNumber kPanelSize{.least = 6.0, .most = 60.0, .clamped = true, .unit = "EM", .rest_word = "default"};
 
-/// What runs along them is another quantity now.
+/// Shows all of the horizontal axis, because its quantity is another one now.
 void show_all_iterations(ViewState& state) {
   for (const auto& [name, tab] : kPlotTabs)
     if (over_iterations(tab)) state.plots[static_cast<std::size_t>(tab)].x_range.reset();

@@ -8,7 +8,7 @@ namespace {
 
 StrokeKind kind_of(const ImGuiIO& io) { return io.KeyCtrl ? StrokeKind::Remove : io.KeyShift ? StrokeKind::Add : StrokeKind::Select; }
 
-/// Everything under the way from where the brush last was to `at`.
+/// Selects everything under the way from the brush's last place to `at`.
 void paint_to(PanelContext& context, Vec2<double> at, double radius) {
   Brush& brush = context.state.brush;
   const Vec2<double> way = at - brush.last;

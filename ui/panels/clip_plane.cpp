@@ -1,4 +1,4 @@
-// The clip plane over a volume mesh: where it lies, and a handle in its middle that moves it along its normal.
+// The clip plane over a volume mesh: its outline, and a handle in its middle that moves it along its normal.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,11 +11,11 @@
 namespace dmoscope::ui {
 namespace {
 
-/// On the screen.
+/// The handle on the screen.
 struct Handle {
   ImVec2 middle;
-  ImVec2 arrow;        // its tip, on the side that is taken away
-  Vec2<double> along;  // pixels that a step of 1 of the plane's offset makes there; y downwards
+  ImVec2 arrow;        // tip of the arrow, on the side that is taken away
+  Vec2<double> along;  // way on the screen for a step of 1 of the plane's offset, in pixels; y downwards
 };
 
 struct PlaneDrawing {
@@ -34,7 +34,7 @@ PlaneDrawing drawing_of(const PanelContext& context, const PaneFacts& pane) {
   return {state.orbit.projection(state.viewport, pane.box), state.viewport, {pane.rect.x, pane.rect.y}};
 }
 
-/// Not where all cells give way to a search that is looked into.
+/// Whether a pane shows the plane; not while all cells give way to an inspected search.
 bool has_plane(const PanelContext& context, const PaneFacts& pane) {
   const InspectionState& inspection = context.state.inspection;
   if (pane.inspected && inspection.open && inspection.alone && !inspection.applied) return false;
@@ -48,7 +48,7 @@ std::array<Vec3, 8> corners_of(const render::Bounds3& box) {
   return corners;
 }
 
-/// Where the plane cuts the box, around its middle. Empty where it misses it.
+/// Polygon in which the plane cuts the box, around its middle. Empty if it misses the box.
 std::vector<Vec3> section(const ClipPlane& plane, const render::Bounds3& box) {
   const std::array<Vec3, 8> corners = corners_of(box);
   std::vector<Vec3> points;
@@ -89,7 +89,7 @@ std::optional<Handle> handle_of(const PanelContext& context, const PaneFacts& pa
   handle.middle = *at;
   const double x = static_cast<double>(beside->x - at->x) / step, y = static_cast<double>(beside->y - at->y) / step;  // per unit of length
   handle.along = {x / size, y / size};
-  // Seen straight from above the arrow has no direction: it points up, and so it is dragged.
+  // Seen from straight above, the arrow has no direction: it then points up and is dragged upwards.
   const double seen = std::hypot(x, y) * context.state.orbit.units_per_pixel(context.state.viewport);  // 1: seen from the side
   const double side = plane.flip ? -1.0 : 1.0;
   constexpr double kLeastSeen = 0.15;
@@ -124,7 +124,7 @@ void drag(PanelContext& context, const PaneFacts& pane, const Handle& handle) {
   grip.held = false;
   if (view == grip.before) return;
   const std::string command = clip_command(view.clip, pane.box);
-  view = grip.before;  // the command is what moves it
+  view = grip.before;  // only the command moves it
   context.send(command);
 }
 

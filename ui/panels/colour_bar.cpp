@@ -1,4 +1,4 @@
-// In the corner of the mesh: the colour bar with its handles, or the legend of categories.
+// The corner of the mesh: the colour bar with its handles, or the legend of categories.
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +12,7 @@
 namespace dmoscope::ui {
 namespace {
 
-constexpr std::size_t kMostEntries = 12;  // of a legend; what there are more is told
+constexpr std::size_t kMostEntries = 12;  // entries of a legend; the number of further ones is told
 
 struct Swatch {
   std::string text;
@@ -21,16 +21,16 @@ struct Swatch {
   float width = 0;
 };
 
-/// Where everything is; worked out twice a frame, before the mouse and for drawing.
+/// Places of all parts of the bar; worked out twice a frame, before the mouse is handled and for drawing.
 struct BarLayout {
   Rect plate;
-  std::string title, right;  // of the first line
-  std::string mode;          // at its end: how the range is chosen, which opens a menu; empty: there is none
+  std::string title, right;  // texts of the first line
+  std::string mode;          // choice of the range, at the line's end, which opens a menu; empty: there is none
   float mode_left = 0, mode_width = 0;
   bool has_bar = true;
-  float left = 0, top = 0, width = 0, bar_top = 0, bar = 0;  // of the bar
-  float histogram = 0;                                       // height of that of the qualities, above the bar; 0: there is none
-  std::vector<Swatch> swatches;                              // of the categories, or beside the bar
+  float left = 0, top = 0, width = 0, bar_top = 0, bar = 0;  // place of the bar
+  float histogram = 0;                                       // height of the histogram of qualities, above the bar; 0: there is none
+  std::vector<Swatch> swatches;                              // swatches of the categories, or beside the bar
   std::size_t entries = 0;                                   // the first so many are categories
 };
 
@@ -123,7 +123,7 @@ BarLayout lay_out(const PanelContext& context, const Rect& rect) {
   return layout;
 }
 
-/// The axis of the bar: while a handle is held it goes on from that of before, so that the handle follows the mouse.
+/// The axis of the bar. It stays while a handle is held, so that the handle follows the mouse.
 std::pair<double, double> axis(const PanelContext& context) {
   const auto range = shown_scale(context.state, context.derived);
   if (context.widgets.range_grip.held < 0) return {range.low, range.high};
@@ -131,7 +131,7 @@ std::pair<double, double> axis(const PanelContext& context) {
   return {std::min(before.first, range.low), std::max(before.second, range.high)};
 }
 
-/// To a thousandth of the range: nobody wants sixteen digits of a drag.
+/// A value rounded to a thousandth of the range: nobody wants sixteen digits of a drag.
 double rounded(double value, double span) {
   const double step = std::pow(10.0, std::floor(std::log10(span)) - 3.0);
   return std::round(value / step) * step;
@@ -159,7 +159,7 @@ void hold_handle(PanelContext& context, int end, float width) {
   }
 }
 
-/// What the range can be, one click away.
+/// Draws the menu of ranges.
 void draw_range_menu(PanelContext& context) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {context.px(10), context.px(8)});
   if (ImGui::BeginPopup("range menu")) {
@@ -213,7 +213,7 @@ void handle_bar(PanelContext& context, const BarLayout& layout) {
   handle_mode(context, layout);
 }
 
-/// The numbers at both ends, whatever they are. Returns where there is room between them.
+/// Draws the numbers at both ends, which are always there. Returns the interval between them that has room.
 std::pair<float, float> draw_ends(const PanelContext& context, const BarLayout& layout, bool logarithmic, std::pair<double, double> range) {
   const auto text = [&](double value) { return fmt::format("{:.4g}", logarithmic ? std::pow(10.0, value) : value); };
   const std::string low = text(range.first), high = text(range.second);
@@ -239,7 +239,7 @@ void draw_bar(const PanelContext& context, const BarLayout& layout) {
   const bool by_quality = !context.derived.colouring.colours;
   int first = 0;
   for (int k = 1; k <= parts; ++k) {
-    // Stretches of one colour in one piece.
+    // Stretches of one colour are drawn in one piece.
     const render::Rgb ink = scale.colour(value_at(first));
     if (k < parts && scale.colour(value_at(k)) == ink) continue;
     const float a = layout.left + static_cast<float>(first) * layout.width / static_cast<float>(parts);
@@ -249,7 +249,7 @@ void draw_bar(const PanelContext& context, const BarLayout& layout) {
   }
   const auto clamped = [&](double value) { return at(std::clamp(value, low, high)); };
   if (filter && by_quality) {
-    // What the filter leaves out is covered.
+    // The parts that the filter leaves out are covered.
     list.AddRectFilled({layout.left, top + 0.35F * layout.bar}, {clamped(filter->first), bottom}, colour(context.palette.panel, 0.85F));
     list.AddRectFilled({clamped(filter->second), top + 0.35F * layout.bar}, {layout.left + layout.width, bottom},
                        colour(context.palette.panel, 0.85F));
@@ -257,14 +257,14 @@ void draw_bar(const PanelContext& context, const BarLayout& layout) {
   const bool logarithmic = !by_quality && context.derived.colouring.colours->logarithmic;
   const int most = std::max(2, static_cast<int>(layout.width / (5 * ImGui::GetTextLineHeight())));
   std::vector<Tick> ticks = logarithmic ? log_ticks(std::pow(10.0, low), std::pow(10.0, high), most) : linear_ticks(low, high, most);
-  // One number alone, such as the 0 of a difference, would not say how far the colours reach.
+  // A single number, such as the 0 of a difference, would not say how far the colours reach.
   for (int more = most + 1; !logarithmic && ticks.size() < 2 && more <= 4 * most; ++more) ticks = linear_ticks(low, high, more);
   const auto [least, largest] = draw_ends(context, layout, logarithmic, {low, high});
   for (const Tick& tick : ticks) {
     const float x = at(logarithmic ? std::log10(tick.value) : tick.value);
     list.AddLine({x, bottom}, {x, bottom + context.px(3)}, colour(context.palette.text), 1.0F);
     const float half = ImGui::CalcTextSize(tick.label.c_str()).x / 2;
-    if (x - half < least || x + half > largest) continue;  // the ends are said already
+    if (x - half < least || x + half > largest) continue;  // the ends have their numbers already
     list.AddText({x - half, bottom + context.px(3)}, colour(context.palette.text), tick.label.c_str());
   }
   if (!by_quality) return;
@@ -285,8 +285,8 @@ void draw_bar(const PanelContext& context, const BarLayout& layout) {
   }
 }
 
-/// How many elements have which quality, above the bar in its colours. The highest bin has all of the height, none that has an element is
-/// lost to sight.
+/// Draws the histogram of qualities above the bar in its colours. The highest bin has the full height, and every bin with an element can be
+/// seen.
 void draw_histogram(const PanelContext& context, const BarLayout& layout) {
   const Histogram& histogram = context.frame()->now;
   const Index most = *std::ranges::max_element(histogram.counts);

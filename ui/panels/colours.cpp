@@ -1,4 +1,4 @@
-// Left: what the colours of the elements mean, which elements count, and what is written on them.
+// Left: meaning of the elements' colours, choice of those that count, and labels on them.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -29,7 +29,7 @@ void draw_colour_by(PanelContext& context) {
   }
 }
 
-/// What differences are taken from: the input, a run as it stands, or a mark.
+/// Draws the choice of the reference of differences: the input, a run at its present state, or a mark.
 void draw_reference(PanelContext& context) {
   using Kind = PaneContent::Kind;
   const PaneContent& now = context.state.colouring.reference;
@@ -55,7 +55,7 @@ void draw_reference(PanelContext& context) {
   entry("mark b", "mark B", now.kind == Kind::MarkB, timeline.b.frame != nullptr, "nothing is marked as B yet");
 }
 
-/// Rows that do nothing to what is coloured now are grey and say why.
+/// Rows that have no effect on the present colours: they are grey and say why.
 class GreyRows {
  public:
   GreyRows(bool grey, const char* why) : grey_(grey), why_(why) {
@@ -75,7 +75,7 @@ class GreyRows {
   const char* why_;
 };
 
-/// Categories have colours of their own but where they come in an order; a difference has two, about its middle.
+/// Whether colours come from a map. Categories have colours of their own unless they have an order; a difference has two, about its middle.
 bool goes_by_map(ColourBy by) {
   return by == ColourBy::Valence || by == ColourBy::Freedom || (!has_categories(by) && by != ColourBy::Difference);
 }

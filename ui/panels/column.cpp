@@ -10,7 +10,7 @@
 namespace dmoscope::ui {
 namespace {
 
-constexpr float kLeastFacts = 14.0F, kFactsBesideSettings = 7.0F, kLeastSetup = 12.0F;  // heights of the font
+constexpr float kLeastFacts = 14.0F, kFactsBesideSettings = 7.0F, kLeastSetup = 12.0F;  // in heights of the font
 
 struct TabInfo {
   FactsTab tab;
@@ -24,13 +24,13 @@ constexpr std::array<TabInfo, 5> kTabs{{{FactsTab::Mesh, "tab:mesh", "Mesh", "nu
                                         {FactsTab::Colours, "tab:colours", "Colours", "what the colours mean, and which elements count"},
                                         {FactsTab::Inside, "tab:inside", "Inside", "clip plane, hidden layers and hidden qualities"}}};
 
-/// One row, as high whatever is shown below it.
+/// Draws the tabs in one row of constant height.
 void draw_tabs(PanelContext& context, FactsTab shown) {
   const std::size_t number = context.state.in_space ? kTabs.size() : kTabs.size() - 1;
   const float room = ImGui::GetContentRegionAvail().x, height = std::round(2.1F * context.em());
   float words = 0;
   for (std::size_t k = 0; k < number; ++k) words += ImGui::CalcTextSize(kTabs[k].title).x;
-  const float around = std::max(context.px(2), (room - words) / static_cast<float>(number));  // of each word
+  const float around = std::max(context.px(2), (room - words) / static_cast<float>(number));  // space around each word
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImDrawList& list = *ImGui::GetWindowDrawList();
   float x = corner.x;
@@ -77,8 +77,8 @@ void draw_tab(PanelContext& context, FactsTab tab) {
   }
 }
 
-/// A part of the column that scrolls by itself. What is in it is as wide with a scroll bar as without one, so that no button moves when
-/// the bar comes.
+/// Begins a part of the column that scrolls by itself. Its contents have the same width with and without a scroll bar, so that no button
+/// moves when the bar comes.
 void begin_scrolled(const char* name, float height) {
   ImGuiStorage& storage = *ImGui::GetStateStorage();
   const ImGuiID id = ImGui::GetID(name);
@@ -95,7 +95,7 @@ void draw_facts(PanelContext& context) {
   FactsTab tab = context.state.panels.tab;
   if (tab == FactsTab::Inside && !context.state.in_space) tab = FactsTab::Mesh;
   draw_tabs(context, tab);
-  // Each tab with a place of its own to scroll.
+  // Each tab has a scroll position of its own.
   begin_scrolled(kTabs[static_cast<std::size_t>(tab)].item, 0);
   draw_tab(context, tab);
   end_scrolled(kTabs[static_cast<std::size_t>(tab)].item);
@@ -106,7 +106,7 @@ void draw_setup(PanelContext& context) {
   draw_parameters(context);
 }
 
-/// As high as its contents are, which the last frame has found, as long as the facts below keep their room.
+/// Draws the setup above the facts, as high as its contents were in the last frame if the facts keep their room.
 void draw_setup_above(PanelContext& context) {
   float& wanted = context.widgets.setup_height;
   const float room = ImGui::GetContentRegionAvail().y, em = context.em();
@@ -125,14 +125,14 @@ void draw_setup_above(PanelContext& context) {
 
 void draw_column(PanelContext& context, Side side, const Rect& rect, bool overlay) {
   if (rect.empty()) return;
-  // It comes to the front when it opens, and stays there, as the panels below never do. To focus it in every frame would take clicks and
-  // dialogs away from everything else.
+  // A column over the mesh comes to the front when it opens, and stays there, because the panels below never come to the front. Focusing it
+  // in every frame would take clicks and dialogs away from everything else.
   if (overlay) ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0F);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {context.px(12), context.px(8)});
   begin_panel(fmt::format("{}{}", side == Side::Left ? "left" : "right", overlay ? " over" : "").c_str(), rect, overlay, true);
   ImGui::PopStyleVar(overlay ? 2 : 1);
   const Panels& panels = context.state.panels;
-  const bool unfolded = side == Side::Left ? panels.left_over : panels.right_over;  // else what was picked is shown, and no more
+  const bool unfolded = side == Side::Left ? panels.left_over : panels.right_over;  // false: only the facts of the pick are shown
   const bool setup = overlay ? panels.setup_side == side && unfolded : panels.has_setup(side);
   const bool facts = overlay ? panels.facts_side == side : panels.has_facts(side);
   if (setup && facts)

@@ -1,4 +1,4 @@
-// Left, below the parameters: what the active run aims at besides its metric's minimum.
+// Left, below the parameters: the active run's aims besides the minimum of its metric.
 #include <algorithm>
 #include <array>
 
@@ -24,7 +24,7 @@ void say(PanelContext& context, Metric first, const CompositeTerms& combination)
 
 CompositeTerms with(const CompositeTerms& combination, const SizeFunction& size) { return {combination.threshold, size}; }
 
-/// In the middle of the mesh, where no point was chosen yet.
+/// Middle of the mesh: the point of a size function until one is chosen.
 Vec3 middle(const InputMesh& input) {
   Vec3 sum{};
   const Plane& plane = input.geometry.plane;
@@ -34,7 +34,7 @@ Vec3 middle(const InputMesh& input) {
 
 bool moves_jointly(const RunParameters& p) { return p.then_joint || method_info(p.method).joint; }
 
-/// To begin with: joint moves know metrics alone.
+/// Combination to begin with: joint moves know metrics alone.
 CompositeTerms usual(const PanelContext& context, const RunParameters& p) {
   CompositeTerms combination;
   const auto other = std::ranges::find_if(context.derived.metrics, [&p](Metric one) { return one != p.metric; });
@@ -64,13 +64,13 @@ void draw_point(PanelContext& context, const SizeFunction& size) {
   if (placing) {
     dim_text(context, "click to place it");
   } else {
-    // In a line of its own: coordinates are long, and half of one says nothing.
+    // Coordinates have a line of their own: they are long, and half of one says nothing.
     ImGui::TextUnformatted(fit_text(fmt::format("{:.7g}, {:.7g}", size.point.x, size.point.y), ImGui::GetContentRegionAvail().x).c_str());
     next_item_tooltip(fmt::format("{}, {}", full_number(size.point.x), full_number(size.point.y)));
   }
 }
 
-/// How well the sizes are met.
+/// Draws how well the sizes are met.
 void draw_size_course(PanelContext& context, const RunView& run) {
   const char* tip =
       "correlation of the local mean edge length with the target size over the free vertices, at the input → now: 1 when they go together";
@@ -130,7 +130,7 @@ void draw_phases(PanelContext& context, const RunView& run) {
     note_item(context, "then-joint",
               "once the minimum has converged, moves vertices together where single ones gain nothing, until nothing does");
   }
-  if (p.combination && p.combination->size() != nullptr) return;  // which the mean would undo
+  if (p.combination && p.combination->size() != nullptr) return;  // the mean phase would undo the sizes
   if (ImGui::Checkbox("then mean", &then_mean)) say_then();
   note_item(context, "then-mean", "once the minimum has converged, raises the mean quality, with the minimum as floor");
 }

@@ -23,7 +23,7 @@ void judge_by(PanelContext& context, Metric metric) {
   context.send("show " + quote_word(info(metric).name));
 }
 
-/// By which metric the curves are judged: buttons for a few, a list of more.
+/// Draws the choice of the metric that judges the curves: buttons for a few, a list for more.
 void draw_judges(PanelContext& context, const Comparison& comparison) {
   constexpr std::size_t kMostButtons = 3;
   constexpr const char* kTooltip = "judges all runs by this metric, and colours the meshes by it";
@@ -53,7 +53,7 @@ void right_text(const std::string& text, const render::Rgb& ink) {
   ImGui::TextColored(colour_vector(ink), "%s", text.c_str());
 }
 
-/// The name of a metric above its first column, over those of the others.
+/// Draws the name of a metric above its first column, over those of the others.
 void draw_metric_names(PanelContext& context, const Comparison& comparison) {
   ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
   ImGui::TableNextColumn();
@@ -88,7 +88,7 @@ void draw_head(PanelContext& context, const Comparison& comparison) {
     }
 }
 
-/// Without the method where all runs have the same one.
+/// Title of a run's row, without the method if all runs have the same one.
 std::string title_of_row(const PanelContext& context, std::size_t run) {
   const RunName name = run_name(context.session, run);
   return context.shown(name.one_method && !name.rest.empty() ? name.number + " " + name.rest : name.whole());

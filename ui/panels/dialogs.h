@@ -1,5 +1,5 @@
 #pragma once
-// The dialogs, and what each keeps between frames.
+// The dialogs, and their state between frames.
 
 #include <cstddef>
 #include <memory>
@@ -21,25 +21,25 @@ struct PanelContext;
 
 struct OpenDialog {
   std::string folder, text, error;
-  std::string mesh;  // beside which it began
+  std::string mesh;  // mesh beside which it began
   std::vector<FolderEntry> entries;
   int selected = -1;
-  std::set<std::string> marked;  // names in the folder, where several are chosen (Ctrl+click, Shift+click)
+  std::set<std::string> marked;  // names chosen in the folder, when several can be (Ctrl+click, Shift+click)
   bool all_files = false;
 };
 void draw_open_dialog(PanelContext& context);
 
-/// What every dialog that saves keeps: what was typed stays for the next time, for as long as the mesh is the same.
+/// State of every dialog that saves: typed text stays for the next time, as long as the mesh is the same.
 struct SaveRows {
   SaveTarget target;
-  std::string mesh;       // whose names are meant
-  bool browsing = false;  // in the dialog itself
-  int taken = 0;          // how often another name came from elsewhere
+  std::string mesh;       // mesh whose names are meant
+  bool browsing = false;  // whether files are browsed in the dialog itself
+  int taken = 0;          // number of times that another name came from elsewhere
   std::vector<FolderEntry> entries;
-  std::string listed, list_error;  // the folder of these
+  std::string listed, list_error;  // folder of these
 };
 
-/// The desktop's file dialog: `usable` where there is one; wanted by a dialog of ours, or instead of that for opening.
+/// The desktop's file dialog: `usable` if there is one; wanted by one of the program's dialogs, or in place of the one for opening.
 struct ChooserTurn {
   bool usable = false, open = false;
   std::optional<ChooserWish> wish;
@@ -49,7 +49,7 @@ struct ChooserTurn {
 struct ExportDialog {
   int what = 0;
   SaveRows save;
-  bool over_input = false;  // it is asked whether the mesh's own file may be written over
+  bool over_input = false;  // whether it asks if the mesh's own file may be overwritten
 };
 void draw_export_dialog(PanelContext& context);
 
@@ -75,11 +75,11 @@ void draw_find_dialog(PanelContext& context);
 struct LogDialog {
   std::string filter, script_name = "session.txt";
   bool commands = true, messages = true;
-  std::size_t seen = 0;  // lines there were in the last frame
+  std::size_t seen = 0;  // number of lines in the last frame
 };
 void draw_log_dialog(PanelContext& context);
 
-/// Of a sequence of pictures.
+/// State of the dialog for a sequence of pictures.
 struct SequenceDialog {
   std::string folder = "pictures";
   int from = 0, to = 0, every = 1, width = 0, height = 0;
@@ -87,15 +87,15 @@ struct SequenceDialog {
 };
 void draw_sequence_dialog(PanelContext& context);
 
-/// What is to be run beside the active run.
+/// Runs to be made beside the active run.
 struct CompareDialog {
-  std::set<std::string> methods, metrics;  // by their names
+  std::set<std::string> methods, metrics;  // names of the chosen ones
   bool until_converged = true;
   int iterations = 20;
 };
 void draw_compare_dialog(PanelContext& context);
 
-/// Saves a plot.
+/// State of the dialog that saves a plot.
 struct PlotDialog {
   SaveRows save;
   int width = 800, height = 450, scale = 2;
@@ -107,7 +107,7 @@ struct SaveSessionDialog {
 };
 void draw_save_session_dialog(PanelContext& context);
 
-/// What is in no file is about to be given up.
+/// Draws the question before unsaved work is given up.
 void draw_unsaved_dialog(PanelContext& context);
 
 struct RecoverDialog {
@@ -115,7 +115,7 @@ struct RecoverDialog {
 };
 void draw_recover_dialog(PanelContext& context);
 
-/// A metric by a formula and a target.
+/// State of the dialog for a metric by a formula and a target.
 struct FormulaDialog {
   std::string text, target;
   FormulaCheck check;
@@ -136,7 +136,7 @@ class TargetChoices {
   std::vector<TargetChoice> choices_;
 };
 
-/// The one that is open, if any.
+/// Draws the open dialog, if any.
 void draw_dialogs(PanelContext& context);
 
 /// Begins a modal window of the open dialog; false when it is closed. Escape closes it.

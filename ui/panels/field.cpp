@@ -12,7 +12,7 @@ namespace {
 
 constexpr render::Rgb kDarkInk{0x10, 0x12, 0x16}, kLightInk{0xff, 0xff, 0xff};
 
-/// Readable on `ground`.
+/// Ink that is readable on `ground`.
 render::Rgb ink_on(render::Rgb ground) { return render::to_oklab(ground).l > 0.55 ? kDarkInk : kLightInk; }
 
 class FieldPainter {
@@ -40,9 +40,9 @@ class FieldPainter {
   void hatch() {
     if (look_.only_valid) return;
     const ImU32 ink = colour(kInvalidCandidate, 0.55F);
-    constexpr int kEvery = 6;  // samples
+    constexpr int kEvery = 6;  // samples between strokes
     for (int start = -field_.rows; start < field_.columns; start += kEvery) {
-      int begun = -1;  // row where a stroke of the diagonal began
+      int begun = -1;  // row in which a stroke of the diagonal began
       for (int row = 0; row <= field_.rows; ++row) {
         const int column = start + row;
         const bool inside = row < field_.rows && column >= 0 && column < field_.columns && !valid(column, row);
@@ -67,7 +67,7 @@ class FieldPainter {
     }
   }
 
-  /// Each on its line, at one of its ends where no other one is.
+  /// Draws the value of each line at one of its ends that no other value covers.
   void labels() {
     const float size = 0.72F * look_.em;
     std::vector<ImVec2> taken;
@@ -110,12 +110,12 @@ class FieldPainter {
     if (valid(column, row)) return colour(look_.colours.colour(static_cast<double>(field_.quality[slot(column, row)])));
     return look_.only_valid ? colour(look_.colours.colour(look_.colours.low), 0.0F) : colour(look_.palette.raised);
   }
-  /// Of a place in samples, relative to where the vertex stood.
+  /// Point of the window for a place in samples.
   [[nodiscard]] Vec2<double> point(Vec2<double> sample) const {
     return {field_.low.x + (sample.x + 0.5) / field_.columns * (field_.high.x - field_.low.x),
             field_.low.y + (sample.y + 0.5) / field_.rows * (field_.high.y - field_.low.y)};
   }
-  /// The outermost samples stand for the border, too.
+  /// Point of the window for a sample's place; the outermost samples stand for the border, too.
   [[nodiscard]] Vec2<double> edge_point(int column, int row) const {
     const auto place = [](int k, int count) { return k == 0 ? -0.5 : k == count - 1 ? count - 0.5 : static_cast<double>(k); };
     return point({place(column, field_.columns), place(row, field_.rows)});

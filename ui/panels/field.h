@@ -1,5 +1,5 @@
 #pragma once
-// Draws the quality around an inspected vertex: as a heat map with contours, wherever it is wanted.
+// Draws the quality around an inspected vertex as a heat map with contours, in any panel.
 
 #include <functional>
 
@@ -10,20 +10,20 @@
 
 namespace dmoscope::ui {
 
-/// Where a point of the plane, relative to where the vertex stood, is on the window.
+/// Maps a point of the plane, relative to the vertex's place before its visit, to the window.
 using ToWindow = std::function<ImVec2(Vec2<double>)>;
 
 struct FieldLook {
   render::ColourScale colours;
   const Palette& palette;
   float em = 15.0F, scale = 1.0F;
-  bool only_valid = false;  // nothing where an element is inverted; else hatching
+  bool only_valid = false;  // draws nothing where an element is inverted; else hatching
 };
 
-/// Heat map, contours with their values, and the outline of the region without inverted elements.
+/// Draws the heat map, contours with their values, and the outline of the region without inverted elements.
 void draw_field(ImDrawList& list, const FieldPicture& picture, const FieldLook& look, const ToWindow& at);
 
-/// Quality and Jacobian at the sample nearest to a point; nothing outside the field.
+/// Quality and Jacobian at the sample nearest to a point; none outside the field.
 [[nodiscard]] std::optional<std::pair<double, double>> field_at(const QualityField& field, Vec2<double> point);
 
 }  // namespace dmoscope::ui

@@ -9,7 +9,7 @@ namespace {
 
 ImU32 ink_of(render::Rgba c) { return IM_COL32(c.r, c.g, c.b, c.a); }
 
-/// Lines and dots as the mesh's own drawing has them.
+/// Draws lines and dots in the style of the mesh's own drawing.
 class MarkPen {
  public:
   MarkPen(ImDrawList& list, float scale, render::Rgba casing) : list_(list), scale_(scale), casing_(ink_of(casing)) {}

@@ -1,4 +1,4 @@
-// The groups that the file carried.
+// The groups from the mesh's file.
 #include <algorithm>
 #include <span>
 
@@ -20,10 +20,10 @@ std::string tooltip_of(const GroupFacts& group) {
   return text;
 }
 
-/// What of a row there is room for, the same for all rows.
+/// Parts of a row that there is room for, the same for all rows.
 struct RowLook {
-  float room = 0;      // of the names
-  bool words = false;  // buttons with words, not with icons
+  float room = 0;      // room for the names
+  bool words = false;  // whether buttons have words instead of icons
   bool counts = false;
 };
 
@@ -46,7 +46,7 @@ RowLook look_of(const PanelContext& context, std::span<const GroupLine> lines, f
   return look;
 }
 
-/// "land b… 12" where there is no room for all of it: names of a kind differ at their end, so they are cut in their midst.
+/// Name of a group, cut in its middle if there is no room for all of it ("land b… 12"): names of a kind differ at their end.
 std::string fit_name(const GroupFacts& group, const RowLook& look) {
   const auto width = [](const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; };
   if (look.counts) return counted_name(group);
@@ -101,7 +101,7 @@ void draw_groups(PanelContext& context) {
   if (groups.empty() || context.run() == nullptr) return;
   ImGui::Dummy({0, context.px(4)});
   heading(context, "Groups");
-  constexpr std::size_t kMostShown = 40;  // beyond, a list in a panel helps nobody
+  constexpr std::size_t kMostShown = 40;  // a longer list in a panel helps nobody
   const std::size_t shown = std::min(groups.size(), kMostShown);
   const bool more = groups.size() > kMostShown;
   ImGui::BeginDisabled(context.activity.busy);

@@ -1,4 +1,4 @@
-// Right, for volume meshes: what of the mesh is seen, and from where.
+// Right, for volume meshes: the visible part of the mesh, and the direction of view.
 #include <algorithm>
 #include <utility>
 
@@ -19,8 +19,7 @@ const PaneFacts* active_pane(const PanelContext& context) {
   return nullptr;
 }
 
-/// After a slider: what it was moved to is seen at once, and becomes one command when it is let go. `show` changes the view, `line` tells
-/// the command.
+/// Ends a slider: the view follows it at once, and one command is sent when it is released. `show` changes the view, `line` is the command.
 template <class Show, class Line>
 void hold(PanelContext& context, bool changed, Show show, Line line) {
   InsideGrip& grip = context.widgets.inside_grip;
@@ -34,7 +33,7 @@ void hold(PanelContext& context, bool changed, Show show, Line line) {
   grip.held = false;
   if (view == grip.before) return;
   const std::string command = line();
-  view = grip.before;  // the command is what changes it
+  view = grip.before;  // only the command changes it
   context.send(command);
 }
 
@@ -61,7 +60,7 @@ void draw_clip(PanelContext& context, const render::Bounds3& box) {
   labelled(context, "side", "the side that is hidden");
   const bool flipped = clip.on && across && across->flip;
   if (lit_button(context, "inside:flip", "flip", flipped, "hides the other side   Shift+J")) context.send("clip flip");
-  // Rows that are grey without a plane keep their place: nothing below moves.
+  // Rows that are grey without a plane keep their place, so that nothing below moves.
   labelled(context, "place", "from the lower to the upper end of the mesh; Ctrl+click to type");
   const auto ends = span_of(clip, box);
   const double low = ends.first, high = ends.second, span = high - low;
@@ -102,7 +101,7 @@ void draw_peel(PanelContext& context) {
   context.items.record_last("inside:peel-more");
 }
 
-/// Which qualities are seen: two sliders, each off at its end.
+/// Draws the choice of visible qualities: two sliders, each off at its end.
 void draw_qualities(PanelContext& context) {
   ClippingView& view = context.state.inside;
   const MetricInfo& metric = info(context.session.shown);
@@ -132,7 +131,7 @@ void draw_qualities(PanelContext& context) {
         return view.isolate ? fmt::format("keep-quality {:.4g} {:.4g}", view.isolate->first, view.isolate->second)
                             : std::string("keep-quality off");
       });
-  // A script or a session can keep a range that the sliders do not tell.
+  // A script or a session can set a range that the sliders do not show.
   if (!view.isolate || static_cast<double>(upper) >= high) return;
   labelled(context, "kept", "cells of other qualities are hidden");
   if (ImGui::Button(fmt::format("{:.3g} to {:.3g}  ×##kept", view.isolate->first, upper).c_str())) context.send("keep-quality off");
@@ -175,7 +174,7 @@ void draw_from(PanelContext& context) {
   labelled(context, "look from", "shows the whole mesh from this side");
   const ImVec2 padding = ImGui::GetStyle().FramePadding;
   const float column = ImGui::GetCursorPosX();
-  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {context.px(3), padding.y});  // seven in a row
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {context.px(3), padding.y});  // seven buttons in a row
   for (const render::ViewPresetInfo& preset : render::view_preset_table()) {
     const std::string name(preset.name);
     const float width = ImGui::CalcTextSize(name.c_str()).x + context.px(6);
@@ -216,7 +215,7 @@ void draw_clipping(PanelContext& context) {
   draw_worst_cells(context);
   draw_looks(context);
   draw_from(context);
-  // What is isolated of the histogram takes cells away, too.
+  // Isolation in the histogram takes cells away, too.
   const ColouringState& colouring = context.state.colouring;
   const bool isolated = colouring.filter && colouring.others == render::Selection::Others::Hide;
   ImGui::BeginDisabled(context.state.inside == ClippingView{} && !isolated);

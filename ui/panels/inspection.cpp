@@ -1,4 +1,4 @@
-// Right, on top: the look into the visit of one vertex.
+// Right, on top: the inspector of one vertex's visit.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -94,7 +94,7 @@ class LevelMap {
       const double quality = level_.quality[static_cast<std::size_t>(slice_.index(place[0], place[1]))];
       const auto [a, b] = box(place);
       list_.AddRectFilled(a, b, is_valid(quality) ? colour(colours.colour(quality)) : colour(context_.palette.raised));
-      // The less is inverted the fainter: what untangling goes by.
+      // Inverted candidates are the fainter, the less inverted they are, which is what untangling goes by.
       if (!is_valid(quality))
         list_.AddRectFilled(a, b, colour(kInvalidCandidate, 0.4F - 0.4F * static_cast<float>(part_of(invalid, quality))));
       if (!is_valid(quality)) cross(a, b);
@@ -105,7 +105,7 @@ class LevelMap {
       if (hovered.level == number_ && hovered.index < static_cast<int>(level_.quality.size())) frame(hovered.index, false);
     }
   }
-  /// Under the mouse; -1: none.
+  /// Candidate under the mouse; -1: none.
   [[nodiscard]] int hovered() const {
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     const auto i = static_cast<int>(std::floor((mouse.x - low_.x) / cell_)),
@@ -114,7 +114,7 @@ class LevelMap {
   }
 
  private:
-  /// The first axis to the right, the second up.
+  /// Box of a cell: the first axis runs to the right, the second up.
   [[nodiscard]] std::pair<ImVec2, ImVec2> box(std::array<int, 2> place) const {
     const auto i = static_cast<float>(place[0]), j = static_cast<float>(level_.points - 1 - place[1]);
     return {{low_.x + i * cell_, low_.y + j * cell_}, {low_.x + (i + 1) * cell_, low_.y + (j + 1) * cell_}};
@@ -176,7 +176,7 @@ void draw_level(PanelContext& context, int number, float side) {
   ImGui::EndGroup();
 }
 
-/// Side by side, as many in a row as can be read.
+/// Draws the maps side by side, as many in a row as can be read.
 void draw_levels(PanelContext& context) {
   const auto levels = static_cast<int>(context.inspection.level_count());
   const float gap = context.px(8), room = ImGui::GetContentRegionAvail().x;
@@ -189,7 +189,7 @@ void draw_levels(PanelContext& context) {
   }
 }
 
-/// Of a volume: which slice of the grids the maps show.
+/// Draws the choice of the slice of a volume's grids that the maps show.
 void draw_slice(PanelContext& context) {
   const InspectionState& state = context.state.inspection;
   const int level = std::clamp(state.level, 1, static_cast<int>(context.inspection.level_count()));
@@ -217,7 +217,7 @@ void draw_slice(PanelContext& context) {
   note_item(context, "slice:best", "for each level the slice with the chosen candidate");
 }
 
-/// Two bars, one over the other: before and after.
+/// Draws two bars, one over the other: before and after.
 void draw_bars(const PanelContext& context, ImVec2 low, float width, const ElementChange& change, bool moved) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float line = ImGui::GetTextLineHeight(), height = moved ? 0.26F * line : 0.45F * line;
@@ -270,7 +270,7 @@ void draw_elements(PanelContext& context, const VisitSummary& trace) {
   }
 }
 
-/// Those of the shown level that lie in the slice.
+/// Draws the candidates of the shown level that lie in the slice.
 void draw_slice_candidates(const PanelContext& context, const Inspection& inspection, const ToWindow& at) {
   const InspectionState& state = context.state.inspection;
   if (state.applied || state.level < 1 || inspection.level_count() == 0) return;
@@ -287,7 +287,7 @@ void draw_slice_candidates(const PanelContext& context, const Inspection& inspec
     }
 }
 
-/// Star, grids, and the places before, after and best, over the heat map.
+/// Draws the star, grids, and the places before, after and best, over the heat map.
 void draw_field_marks(const PanelContext& context, const Inspection& inspection, const ToWindow& at) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const VisitSummary& trace = *inspection.visit();
@@ -309,7 +309,7 @@ void draw_field_marks(const PanelContext& context, const Inspection& inspection,
       rectangle(level.centre - half, level.centre + half);
     }
     step = inspection.trace->step;
-  } else {  // their shadows in the plane of the slice
+  } else {  // projections into the plane of the slice
     const StarSlice& plane = inspection.field_slice;
     for (const auto& [a, b] : inspection.edges) edge(plane.project(a), plane.project(b), 0.5F);
     for (const VolumeLevel& level : inspection.solid->levels)
@@ -385,7 +385,7 @@ void draw_inspection(PanelContext& context) {
   } else if (inspection.visit() == nullptr) {
     wrapped_text(inspection.trouble);
   } else {
-    // What is told may take more lines with the next level: the buttons stand above it.
+    // The text may take more lines with the next level, so the buttons stand above it.
     if (inspection.level_count() > 0) draw_buttons(context);
     draw_story(context, inspection);
     if (inspection.level_count() > 0) {

@@ -1,4 +1,4 @@
-// Facts of the mesh, and of what is picked.
+// Facts of the mesh, and of the picked vertex or element.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -32,7 +32,7 @@ std::string kinds_sentence(const Derived& derived) {
   return text;
 }
 
-/// A title without the remark that ADCIRC's files have behind it: "bahama_g02      ! a grid's name".
+/// A title without the remark that ADCIRC's files put behind it: "bahama_g02      ! a grid's name".
 std::string first_words(const std::string& title) {
   std::string words = title.substr(0, std::min(title.find('\n'), title.find(" !")));
   words.erase(words.find_last_not_of(" \t\r") + 1);
@@ -75,7 +75,7 @@ void empty_lines(const PanelContext& context, int count) {
   for (int i = 0; i < count; ++i) dim_text(context, " ", false);
 }
 
-/// What a command does, for those who do not know it: "Let the boundary slide".
+/// Words for a command's effect: "Let the boundary slide".
 std::string words_of(const std::string& command) {
   constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kWords{{{"boundary slide", "Let the boundary slide"},
                                                                                  {"interfaces slide", "Let interfaces slide"},
@@ -90,7 +90,7 @@ std::string words_of(const std::string& command) {
   return command;
 }
 
-/// A click does what would free the worst element. A number stands beside it only once it was tried, and below it what it gives up.
+/// Draws a switch that would free the worst element. Its gain stands beside it once it was tried, and below it what it gives up.
 void draw_switch(PanelContext& context, const RunView& run, const HeldMinimum& held) {
   std::string tried = held.trial ? "tried: " + held.trial->figures() : " ";
   tried = with_arrows(tried.substr(0, tried.find(" in ")));
@@ -114,7 +114,7 @@ void draw_switch(PanelContext& context, const RunView& run, const HeldMinimum& h
   next_item_tooltip(held.sentence());
 }
 
-/// What keeps the minimum from rising, and what would let it: four lines, whatever they say, so that nothing below moves.
+/// Draws what keeps the minimum from rising and what would let it rise, always in four lines, so that nothing below moves.
 void draw_hold(PanelContext& context, const RunView& run) {
   constexpr const char* kAbout = "what keeps the worst element as it is";
   constexpr const char* kLabel = "What holds it";
@@ -154,7 +154,7 @@ void draw_hold(PanelContext& context, const RunView& run) {
   empty_lines(context, 2);
 }
 
-/// A quality in large numerals, where on the scale of colours it is, and the smallest angle that goes with it. `item`: of the number.
+/// Draws a quality in large numerals, its place on the scale of colours, and the smallest angle. `item`: name of the number.
 void large_number(PanelContext& context, const char* item, Metric metric, double value, bool inverted, const std::optional<double>& angle) {
   ImGui::PushFont(context.fonts.large);
   ImGui::TextUnformatted(short_number(value).c_str());
@@ -175,7 +175,7 @@ void large_number(PanelContext& context, const char* item, Metric metric, double
   ImGui::SetCursorPos(back);
 }
 
-/// In the middle of the large number that begins at `top` and was drawn last.
+/// Draws a text in the middle of the large number that begins at `top` and was drawn last.
 void draw_beside_number(PanelContext& context, float top, const std::string& words, std::span<const SideButton> buttons) {
   const float bottom = ImGui::GetCursorPosY() - ImGui::GetStyle().ItemSpacing.y;
   side_buttons(context, (top + bottom - ImGui::GetTextLineHeight()) / 2, words, buttons);
@@ -193,7 +193,7 @@ void draw_minimum(PanelContext& context, Metric metric, double minimum, Index wo
   draw_beside_number(context, top, "", {&show, 1});
 }
 
-/// The quality of a picked element; of one in the list of the worst its rank, and the way to its neighbours there.
+/// Draws the quality of a picked element; for one in the list of the worst also its rank, and buttons to its neighbours there.
 void draw_own_quality(PanelContext& context, const Frame& frame, Index element) {
   const PickedFacts& facts = context.derived.facts;
   const auto row = std::ranges::find(facts.metrics, &info(frame.shown), &PickedFacts::Row::metric);
@@ -215,14 +215,14 @@ void draw_own_quality(PanelContext& context, const Frame& frame, Index element) 
                                                 {"›", "better-element", "goes to the next better one", go_to(1)}}});
 }
 
-/// The quality below which one element in a hundred lies, by the shown metric; NaN while it is not known.
+/// Quality below which one element in a hundred lies, by the shown metric; NaN while it is not known.
 double worst_percent(const PanelContext& context, Metric metric) {
   const RunView* run = context.run();
   if (run == nullptr || !run->summary || run->summary->metric != metric || run->summary->moment != context.frame()->moment) return kUnknown;
   return percentiles_of_sorted(run->summary->sorted).p1;
 }
 
-/// `run`: whose minimum it is; null: nobody's.
+/// Draws the statistics of qualities. `run`: run whose minimum it is; null: none.
 void draw_statistics(PanelContext& context, Metric metric, const Statistics& statistics, const RunView* run) {
   draw_minimum(context, metric, statistics.minimum, statistics.worst_element);
   if (metric == context.session.shown)
@@ -230,13 +230,13 @@ void draw_statistics(PanelContext& context, Metric metric, const Statistics& sta
   number_row(context, "mean", statistics.mean, "over all elements");
   const Frame& frame = *context.frame();
   if (run != nullptr || metric == frame.shown) {
-    const Index inverted = frame.shown_statistics.inverted;  // whatever the metric
+    const Index inverted = frame.shown_statistics.inverted;  // independent of the metric
     value_row(context, "inverted elements", inverted == 0 ? "none" : count(inverted), {},
               inverted == 0 ? context.palette.good : context.palette.error, "elements whose Jacobian is 0 or less, at a corner or inside");
   }
   if (run == nullptr) return;
   const HeldMinimum* held = run->held.found.get();
-  const bool rests = held != nullptr && held->brief() != "nothing";  // else it still rises
+  const bool rests = held != nullptr && held->brief() != "nothing";  // the minimum no longer rises
   const std::string aside = rests ? fit_text(std::string(held->brief()), 9 * context.em()) : std::string();
   const bool open = context.state.panels.holds;
   if (fold_row(context, "holds", "Why no better?", aside, open, "what holds the worst element, and what would raise it"))
@@ -259,7 +259,7 @@ const char* held_word(HeldOn held) {
   return kWords[static_cast<std::size_t>(held)];
 }
 
-/// Buttons that select vertices.
+/// Draws buttons that select vertices.
 void draw_vertices(PanelContext& context, const char* label, std::span<const Index> vertices) {
   dim_text(context, label, false);
   for (const Index vertex : vertices) {
@@ -271,9 +271,9 @@ void draw_vertices(PanelContext& context, const char* label, std::span<const Ind
   }
 }
 
-/// The neighbours of a vertex in the order in which they lie around it.
+/// Draws the neighbours of a vertex in the order in which they lie around it.
 void draw_ring(PanelContext& context, const Frame& frame, Index vertex) {
-  constexpr std::size_t kMost = 24;  // more are no list to read
+  constexpr std::size_t kMost = 24;  // a longer list cannot be read
   const std::vector<Index> ring = ordered_ring(frame.input->mesh, frame.input->topology, vertex);
   if (ring.empty() || ring.size() > kMost) return;
   draw_vertices(context, "Neighbours", ring);
@@ -313,7 +313,7 @@ void draw_vertex(PanelContext& context, const Frame& frame, Index vertex) {
   draw_ring(context, frame, vertex);
   number_row(context, "quality now", facts.now, "the worst element around it, by the shown metric");
   number_row(context, "at the input", facts.before);
-  if (context.state.inspection.open && context.state.inspection.vertex == vertex) return;  // whose elements are listed above
+  if (context.state.inspection.open && context.state.inspection.vertex == vertex) return;  // its elements are listed above
   action_button(context, "inspect", "Inspect its search");
   dim_text(context, fmt::format("Its elements by {}", metric_phrase(frame.shown)));
   for (const auto& [element, q, inverted, inside] : facts.star) {
@@ -338,7 +338,7 @@ void draw_vertex(PanelContext& context, const Frame& frame, Index vertex) {
   }
 }
 
-/// Every metric of one element now and at the input; – where it is not defined for its kind.
+/// Draws every metric of one element now and at the input; – if it is not defined for its kind.
 void draw_metric_table(PanelContext& context) {
   using Row = PickedFacts::Row;
   const std::vector<Row>& rows = context.derived.facts.metrics;
@@ -423,7 +423,7 @@ void draw_mesh_facts(PanelContext& context) {
 
 void draw_selection(PanelContext& context) {
   const Frame* frame = context.frame();
-  const PickedFacts& facts = context.derived.facts;  // of what was picked when this drawing began
+  const PickedFacts& facts = context.derived.facts;  // facts of the pick when this drawing began
   if (frame != nullptr && facts.picked.kind == Picked::Kind::Vertex) return draw_vertex(context, *frame, facts.picked.id);
   if (frame != nullptr && facts.picked.kind == Picked::Kind::Element) return draw_element(context, *frame, facts.picked.id);
   dim_text(context, facts.trouble.empty() ? "Click a vertex or an element (Alt: the element)."

@@ -1,4 +1,4 @@
-// Of what kind vertices and edges are where vertices slide, and what changes that: in the inspector, and in a viewport's menu.
+// Kinds of vertices and edges where vertices slide, and controls that change them: in the inspector, and in a viewport's menu.
 #include <algorithm>
 #include <limits>
 
@@ -11,7 +11,7 @@
 namespace dmoscope::ui {
 namespace {
 
-/// A small button of a vertex or an edge, lit while what it says is in force.
+/// A small button of a vertex or an edge, lit while its kind is in force.
 struct KindButton {
   const char* label;
   std::string item, command, tooltip;  // without a command a click does nothing
@@ -28,9 +28,9 @@ void draw_button(PanelContext& context, const KindButton& one) {
   note_item(context, one.item, one.tooltip);
 }
 
-/// What a click on the button of an edge does.
+/// Effect of a click on the button of an edge.
 struct EdgeTurn {
-  std::string_view command;  // empty: nothing, the file or the mesh decides
+  std::string_view command;  // empty: none, the file or the mesh decides
   std::string tooltip;
 };
 EdgeTurn turn_of(EdgeKind kind, const Kinds& kinds, EdgeEnds edge) {
@@ -103,7 +103,7 @@ void draw_edges(PanelContext& context, const InputMesh& input, const RunView& ru
   for (const EdgeRow& row : on_domain) draw_edge(context, input, run, rule, row);
 }
 
-/// Of an element, each once.
+/// Edges of an element, each once.
 std::vector<EdgeEnds> edges_of(const Frame& frame, Index element) {
   const ElementTable& elements = frame.input->mesh.elements;
   const auto corners = elements.corners(element);
@@ -117,7 +117,7 @@ std::vector<EdgeEnds> edges_of(const Frame& frame, Index element) {
   return edges;
 }
 
-/// Why a vertex cannot be made to slide by hand; empty where it can.
+/// Reason why a vertex cannot be made to slide by hand; empty if it can.
 std::string why_stays(const Domain& domain, Index vertex) {
   const HeldOn held = domain.held_on(vertex);
   const bool can_slide = held == HeldOn::Nothing || held == HeldOn::Corner || held == HeldOn::Hand;

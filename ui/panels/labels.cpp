@@ -16,7 +16,7 @@ void draw_labels(PanelContext& context, const PaneFacts& pane) {
     const ImVec2 low{std::round(rect.x + static_cast<float>(at.x) - extent.x / 2),
                      std::round(rect.y + static_cast<float>(at.y) - extent.y / 2)};
     const float pad = context.px(2);
-    // Vertices dark on light where elements are light on dark.
+    // Labels of vertices are dark on light, those of elements light on dark.
     const render::Rgb plate = label.vertex ? context.palette.text : context.palette.panel;
     const render::Rgb ink = label.vertex ? context.palette.panel : context.palette.text;
     list.AddRectFilled({low.x - pad, low.y}, {low.x + extent.x + pad, low.y + extent.y}, colour(plate, 0.88F), context.px(3));

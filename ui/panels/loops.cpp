@@ -10,7 +10,7 @@
 namespace dmoscope::ui {
 namespace {
 
-constexpr Index kMostShown = 40;  // beyond, a list in a panel helps nobody
+constexpr Index kMostShown = 40;  // a longer list in a panel helps nobody
 
 void draw_loop(PanelContext& context, const Outline& outline, Index number) {
   const BoundaryLoop& loop = outline.loops[number];
@@ -36,7 +36,7 @@ void draw_loop(PanelContext& context, const Outline& outline, Index number) {
 void draw_loops(PanelContext& context) {
   const Frame* frame = context.frame();
   if (frame == nullptr || context.run() == nullptr || frame->input->is_volume()) return;
-  const Index known = frame->input->report.boundary_loops;  // without half-edges
+  const Index known = frame->input->report.boundary_loops;  // known without half-edges
   const bool open = context.state.panels.loops;
   if (fold_row(context, "loops", "Boundary loops", known == 0 ? "none" : count(known), open,
                "closed curves of the boundary: their lengths, and buttons to select, to fix and to let slide"))

@@ -33,7 +33,7 @@ void draw_entry(PanelContext& context, const Action& action) {
   if (!action.about.empty()) next_item_tooltip(std::string(action.about));
 }
 
-/// Actions that share a menu of their own within another one, by how their ids begin.
+/// Actions that share a submenu, by the begin of their ids.
 struct Submenu {
   std::string_view prefix;
   const char* title;
@@ -55,7 +55,7 @@ void draw_submenu(PanelContext& context, const Submenu& submenu) {
   ImGui::EndMenu();
 }
 
-/// Groups of actions that are menus within a menu.
+/// Groups of actions that are submenus of a menu.
 struct Nested {
   std::string_view menu, within;
 };
@@ -69,7 +69,7 @@ constexpr std::array<Nested, 7> kNested{{{"Timeline", "Run"},
 
 bool is_nested(std::string_view menu) { return std::ranges::find(kNested, menu, &Nested::menu) != kNested.end(); }
 
-/// Planar meshes, and below a line volumes.
+/// Draws the samples: planar meshes, and below a line volumes.
 void draw_samples(PanelContext& context) {
   const bool open = ImGui::BeginMenu("Samples");
   context.items.record_last("menu:Samples");
@@ -92,7 +92,7 @@ void draw_entries(PanelContext& context, std::string_view menu) {
   const Submenu* last = nullptr;
   for (const Action& action : actions()) {
     if (action.menu != menu || action.id.starts_with("sample-")) continue;
-    if (action.id.starts_with("unfold-") && !context.widgets.narrow) continue;  // columns that stand beside the mesh are not unfolded
+    if (action.id.starts_with("unfold-") && !context.widgets.narrow) continue;  // columns beside the mesh are not unfolded
     if (const Submenu* submenu = submenu_of(action)) {
       if (submenu != last) draw_submenu(context, *submenu);
       last = submenu;
@@ -115,13 +115,13 @@ void draw_entries(PanelContext& context, std::string_view menu) {
   }
 }
 
-/// A button of the tool bar. Text first: what a button does must not be a riddle.
+/// A button of the tool bar. It has text first: a button's effect must not be a riddle.
 struct Tool {
   const char* id;
   const char* label;
-  const char* other = nullptr;  // that it also has
-  bool gap = false;             // before it
-  float least = 0;              // heights of the font, of a tool bar that has room for it
+  const char* other = nullptr;  // second id of the item
+  bool gap = false;             // whether there is a gap before it
+  float least = 0;              // least width of the tool bar that has room for it, in heights of the font
 };
 constexpr std::array<Tool, 10> kTools{{{"open", "Open…", nullptr, false, 44},
                                        {"run-pause", "▶ Run", "❚❚ Pause", true},
@@ -138,7 +138,7 @@ float width_of(const Tool& tool) { return tool.other == nullptr ? widest_button(
 
 float gap_before(const PanelContext& context, const Tool& tool) { return tool.gap ? context.px(18) : context.px(6); }
 
-/// The metric that is shown, at the right end where there is room; with its label where there is room for that, too.
+/// Draws the choice of the shown metric at the right end if there is room; with its label if there is room for that, too.
 void draw_shown_metric(PanelContext& context, const Rect& rect) {
   const float width = 12 * context.em(), label = ImGui::CalcTextSize("shown").x + context.px(8), end = context.px(12);
   ImGui::SameLine();
@@ -191,7 +191,7 @@ void draw_toolbar(PanelContext& context, const Rect& rect) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {context.px(10), (rect.h - ImGui::GetFrameHeight()) / 2});
   begin_panel("toolbar", rect);
   ImGui::PopStyleVar();
-  float end = 0;  // of the last tool
+  float end = 0;  // right end of the last tool
   for (const Tool& tool : kTools) {
     if (rect.w < tool.least * context.em()) continue;
     if (end > 0) ImGui::SameLine(0, gap_before(context, tool));

@@ -1,4 +1,4 @@
-// Over the meshes: what a person should know of the run that has come to its end.
+// Over the meshes: the note about a run that has come to its end.
 #include "ui/commands/notice.h"
 
 #include <algorithm>
@@ -11,9 +11,9 @@
 namespace dmoscope::ui {
 namespace {
 
-/// Where buttons stand that fill rows from the left, and how many rows that makes.
+/// Places of buttons that fill rows from the left, and the number of these rows.
 struct ButtonRows {
-  std::vector<ImVec2> places;  // from the upper left corner
+  std::vector<ImVec2> places;  // relative to the upper left corner
   float height = 0;
 };
 ButtonRows in_rows(const std::vector<std::string>& labels, float room, float gap) {
@@ -33,7 +33,7 @@ ButtonRows in_rows(const std::vector<std::string>& labels, float room, float gap
   return rows;
 }
 
-/// A table of the report card's figures: how wide its columns are.
+/// Widths of the columns of the report card's figures.
 struct FigureTable {
   std::vector<float> widths;
   float width = 0, row = 0, height = 0;
@@ -51,7 +51,7 @@ struct FigureTable {
   }
 };
 
-/// Numbers stand flush right; those that are worse than in the input are marked.
+/// Draws the figures flush right; those that are worse than in the input are marked.
 void draw_figures(PanelContext& context, const std::vector<FigureRow>& rows, const FigureTable& table, ImVec2 at) {
   const auto write = [&](const std::string& text, float x, float y, const render::Rgb& ink) {
     ImGui::SetCursorScreenPos({x, y});
@@ -73,7 +73,7 @@ void draw_figures(PanelContext& context, const std::vector<FigureRow>& rows, con
   }
 }
 
-/// Where the note is: beside the title of the one viewport where there is room, else below what stands under the titles.
+/// Place of the note: beside the title of the only viewport if there is room, else below everything that stands under the titles.
 Rect place(const PanelContext& context, const Rect& rect, float width, float height) {
   const float em = context.em(), margin = context.px(8);
   const bool beside = context.state.panes.one() && rect.w - width > 16 * em;
@@ -93,7 +93,7 @@ void begin_note(PanelContext& context, const Rect& box) {
   list.AddRectFilled({box.x, box.y}, {box.x + context.px(4), box.y + box.h}, colour(context.palette.warning), context.px(2));
 }
 
-/// The first sentence, in a line that unfolds what can be done about it.
+/// Draws the first sentence, in a line that unfolds the rest.
 void draw_folded(PanelContext& context, const Notice& notice, const Rect& rect) {
   const float pad = context.px(10), bar = context.px(4), icon = context.px(14), height = ImGui::GetFrameHeight();
   const float around = bar + 2 * pad + icon + context.px(6);
@@ -120,7 +120,7 @@ void draw_unfolded(PanelContext& context, Notice notice, const Rect& rect) {
   const std::string less = "Less", hide = "Hide";
   labels.push_back(less);
   labels.push_back(hide);
-  float wanted = -gap;  // no wider than what is in it
+  float wanted = -gap;  // no wider than its contents
   for (const std::string& label : labels) wanted += widest_button({label.c_str()}) + gap;
   for (const std::string& sentence : notice.sentences) wanted = std::max(wanted, ImGui::CalcTextSize(sentence.c_str()).x + 1);
   const FigureTable table(notice.figures, context.px(10));
@@ -166,7 +166,7 @@ void draw_unfolded(PanelContext& context, Notice notice, const Rect& rect) {
 void draw_notice(PanelContext& context, const Rect& rect) {
   Notice notice = notice_of(context.session);
   if (notice.empty() || notice.key == context.state.dismissed_notice) return;
-  Rect within = rect;  // of several viewports that of the run
+  Rect within = rect;  // viewport of the run, of several
   for (const PaneFacts& pane : context.panes)
     if (pane.focus && !context.state.panes.one()) within = pane.clip;
   if (within.w < 16 * context.em() || within.h < 12 * context.em()) return;

@@ -1,4 +1,4 @@
-// What a viewport among several shows: its title, its frame, and the menu that chooses it.
+// Title and frame of a viewport, and the menu that chooses its content.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -32,13 +32,13 @@ float width_of(const PanelContext& context, const TitlePiece& piece) {
   return font->CalcTextSizeA(context.em(), FLT_MAX, 0.0F, piece.text.c_str()).x;
 }
 
-/// Between a piece and the one before it.
+/// Gap between a piece and the one before it.
 float gap_before(const PanelContext& context, const TitlePiece& piece) { return context.px(piece.text.starts_with("· ") ? 5 : 9); }
 
 TitleLayout lay_out(const PanelContext& context, const PaneFacts& pane) {
   TitleLayout layout;
   layout.pieces = title_of(pane, context.session.shown);
-  if (context.state.panes.one())  // the facts have its numbers
+  if (context.state.panes.one())  // the facts show its numbers
     std::erase_if(layout.pieces, [](const TitlePiece& piece) { return piece.role == TitlePiece::Role::Dim; });
   layout.swatch = pane.of_run && pane.run() != nullptr && !pane.removed;
   const float pad = context.px(8), line = ImGui::GetTextLineHeight();
@@ -54,7 +54,7 @@ TitleLayout lay_out(const PanelContext& context, const PaneFacts& pane) {
     if (worst->rank == 0) break;
     layout.pieces.erase(worst);
   }
-  // What is left must be said: the longest of it in its middle, since names that begin alike end differently.
+  // The remaining pieces must all be there: the longest is shortened in its middle, because names that begin alike end differently.
   const auto longest = std::ranges::max_element(layout.pieces, {}, [&](const TitlePiece& piece) { return width_of(context, piece); });
   if (longest != layout.pieces.end()) {
     const std::string whole = longest->text;
@@ -83,7 +83,7 @@ void draw_why_not(const PanelContext& context, const PaneFacts& pane) {
   line("right click: choose what this viewport shows", 0.1F);
 }
 
-/// The run as it stands, which a click makes the active one; 0: none, or it is.
+/// Run that a click on the title makes the active one; 0: none, or it is already.
 std::size_t run_to_select(const PanelContext& context, const PaneFacts& pane) {
   const PaneContent& content = context.state.panes.panes[pane.number].content;
   const auto& ids = context.state.panes.run_ids;

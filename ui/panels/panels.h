@@ -1,5 +1,5 @@
 #pragma once
-// The parts of the window. Each reads the context and sends command lines; none changes the session, none calls OpenGL.
+// Parts of the window. Each reads the context and sends command lines; none changes the session, none calls OpenGL.
 
 #include "core/reference/kinds.h"
 #include "ui/panels/panel_context.h"
@@ -7,92 +7,93 @@
 
 namespace dmoscope::ui {
 
-/// How wide menus and tools are in one row.
+/// Widths of menus and tools in one row.
 [[nodiscard]] HeaderSize header_size(const PanelContext& context);
 void draw_menu(PanelContext& context, const Rect& rect);
 void draw_toolbar(PanelContext& context, const Rect& rect);
 void draw_runs(PanelContext& context);
 void draw_parameters(PanelContext& context);
-/// Of the active run, as a part of its parameters: a second phase, and a second aim.
+/// Draws the active run's second phase and second aim, as part of its parameters.
 void draw_composite(PanelContext& context, const RunView& run);
 void draw_colours(PanelContext& context);
-/// The mesh's groups; nothing of a mesh without any.
+/// Draws the mesh's groups; nothing for a mesh without any.
 void draw_groups(PanelContext& context);
-/// The boundary loops of a planar or surface mesh; and where on its loop a vertex is, with buttons that walk along it.
+/// Draws the boundary loops of a planar or surface mesh; and a vertex's place on its loop, with buttons that walk along it.
 void draw_loops(PanelContext& context);
 void draw_loop_place(PanelContext& context, const Frame& frame, Index vertex);
-/// What is seen of a volume mesh, and from where; nothing of another one.
+/// Draws the choice of the visible part of a volume mesh, and of the direction of view; nothing for other meshes.
 void draw_clipping(PanelContext& context);
-/// To be called with the mouse over the mesh: after a while its element's value is shown.
+/// Handles the mouse over the mesh: after a while its element's value is shown.
 void handle_rest(PanelContext& context, const PaneFacts& pane, Vec2<double> at);
-/// The axes' letters in a viewport, which look along them; to be called before what lies below.
+/// Handles the axes' letters in a viewport: a click looks along the axis. To be called before everything that lies below them.
 void handle_axes(PanelContext& context, const PaneFacts& pane);
-/// The clip plane in a viewport: what of it takes the mouse, to be called before whatever lies below it; and its picture.
+/// Handles the clip plane's mouse input in a viewport, to be called before everything that lies below it; and draws it.
 void handle_clip_plane(PanelContext& context, const PaneFacts& pane);
 void draw_clip_plane(const PanelContext& context, const PaneFacts& pane);
-/// A column's docks. `overlay`: over the mesh, in a small window.
+/// Draws a column's docks. `overlay`: over the mesh, in a small window.
 void draw_column(PanelContext& context, Side side, const Rect& rect, bool overlay);
-/// Facts of the mesh and its quality; of what is picked.
+/// Draws facts of the mesh and its quality; then those of the pick.
 void draw_mesh_facts(PanelContext& context);
 void draw_selection(PanelContext& context);
-/// Of a picked vertex, and of the edges of a picked element, where the run's vertices slide: their kinds, and what changes them.
+/// Draws the kinds of a picked vertex, and of the edges of a picked element, where the run's vertices slide, with controls that change
+/// them.
 void draw_vertex_kind(PanelContext& context, const Frame& frame, const RunView& run, Index vertex);
 void draw_element_edges(PanelContext& context, const Frame& frame, const RunView& run, Index element);
-/// The same as entries of a viewport's menu, for what is under the mouse; kNoIndex: nothing is. True: there are some.
+/// Draws the kinds as entries of a viewport's menu, for vertex and element under the mouse (kNoIndex: none). True if there are entries.
 bool draw_kind_entries(PanelContext& context, const Frame& frame, const RunView& run, Index vertex, EdgeEnds edge);
 /// The edge of an element that is nearest to a point.
 [[nodiscard]] EdgeEnds nearest_edge(const Frame& frame, Index element, Vec3 at);
 void draw_worst(PanelContext& context);
 void draw_inspection(PanelContext& context);
-/// The quality around the inspected vertex over the mesh, when it is wanted, and over it the marks that it covers.
+/// Draws the quality around the inspected vertex over the mesh, when it is wanted, and over it the marks that it covers.
 void draw_field_in_view(PanelContext& context, const PaneFacts& pane);
 void draw_viewports(PanelContext& context, const Rect& rect);
-/// What a viewport among several shows, in its upper left corner: what of it takes the mouse, to be called before whatever lies below it;
-/// and its picture.
+/// Handles the mouse input of a viewport's title in its upper left corner, to be called before everything that lies below it; and draws it.
 void handle_pane_title(PanelContext& context, const PaneFacts& pane);
 void draw_pane_title(PanelContext& context, const PaneFacts& pane);
-/// Entries that choose what a viewport shows.
+/// Draws the entries that choose the content of a viewport.
 void draw_pane_entries(PanelContext& context, const PaneFacts& pane);
-/// The brush under the mouse over the mesh's item, drawn last; `at`: the mouse in the viewport. True: dragging is the brush's.
+/// Handles and draws the brush under the mouse over the mesh's item, drawn last; `at`: the mouse in the viewport. True: drags belong to the
+/// brush.
 bool handle_brush(PanelContext& context, const PaneFacts& pane, Vec2<double> at);
-/// The colour bar, or the legend of categories, in the lower left corner: what of it takes the mouse, to be called before whatever lies
-/// below it; and its picture.
+/// Handles the mouse input of the colour bar, or of the legend of categories, in the lower left corner, to be called before everything that
+/// lies below it; and draws it.
 void handle_colour_bar(PanelContext& context, const Rect& rect);
 void draw_colour_bar(PanelContext& context, const Rect& rect);
-/// With the space around it.
+/// Height in pixels, with the space around it.
 [[nodiscard]] float colour_bar_height(const PanelContext& context, const Rect& rect);
-/// The ids on the mesh.
+/// Draws the ids on the mesh.
 void draw_labels(PanelContext& context, const PaneFacts& pane);
-/// Over the meshes: what is to be said of the run that has come to its end, if anything.
+/// Draws the note about a run that has come to its end over the meshes, if there is one.
 void draw_notice(PanelContext& context, const Rect& rect);
-/// The tour's card, or the offer of a tour, over all panels; last of these, since it looks for the control that it is about.
+/// Draws the tour's card, or the offer of a tour, over all panels; to be called last, because it looks for the control that it points to.
 void draw_tour(PanelContext& context, const Layout& layout);
 void draw_start_page(PanelContext& context, const Rect& rect);
-/// Where the timeline's groove lies, in pixels across the window; the plot above it, if it is over iterations, has its inside there, too.
+/// Interval of the timeline's groove, in pixels across the window; a plot over iterations above it has its inside there, too.
 struct TimelineRoom {
   float left = 0, right = 0;
-  bool labelled = true;  // with the iteration at its right
+  bool labelled = true;  // whether the iteration stands at its right
   bool below_plot = false;
 };
 [[nodiscard]] TimelineRoom timeline_room(const PanelContext& context, const Layout& layout);
 void draw_plots(PanelContext& context, const Layout& layout);
 void draw_timeline(PanelContext& context, const Layout& layout);
 void draw_status(PanelContext& context, const Rect& rect);
-/// Over the mesh: a message that the status has no room for.
+/// Draws a message over the mesh that the status bar has no room for.
 void draw_message(PanelContext& context, const Rect& viewport);
 void draw_strips(PanelContext& context, const Layout& layout);
 void draw_splitters(PanelContext& context, const Layout& layout);
 
-/// An edge that resizes what lies beside it when it is dragged; a double click gives it its usual size.
+/// An edge that resizes the panel beside it when dragged; a double click restores the usual size.
 struct SplitterEdge {
-  const char* panel;     // of the command panel-size
-  Rect rect;             // what takes the mouse
-  bool upright;          // it is dragged sideways
-  double direction;      // +1 where dragging right or down grows it, else -1
+  const char* panel;     // panel of the command panel-size
+  Rect rect;             // area that takes the mouse
+  bool upright;          // whether it is dragged sideways
+  double direction;      // +1 if dragging right or down makes the panel larger, else -1
   double Panels::*size;  // in em
   double least, most;
 };
-/// The same within a window that is being drawn.
+/// Handles and draws such an edge within a window that is being drawn.
 void splitter_grip(PanelContext& context, const SplitterEdge& edge);
 
 }  // namespace dmoscope::ui

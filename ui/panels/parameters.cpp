@@ -11,7 +11,7 @@
 namespace dmoscope::ui {
 namespace {
 
-constexpr int kLargestSeed = 1 << 30;  // that can be entered
+constexpr int kLargestSeed = 1 << 30;  // largest seed that can be entered
 
 void draw_method(PanelContext& context, const RunParameters& parameters) {
   float widest = 0;
@@ -33,7 +33,7 @@ void real(PanelContext& context, const char* item, double value) {
   if (ImGui::IsItemDeactivatedAfterEdit() && edited != value) context.send(fmt::format("{} {}", item, full_number(edited)));
 }
 
-/// What may be chosen, one of a few words.
+/// Draws a choice of one of a few words.
 void choice(PanelContext& context, const ParameterInfo& row, const std::string& now) {
   const std::string item(row.name);
   Combo combo(context, item, now);
@@ -58,7 +58,7 @@ void draw_parameter(PanelContext& context, const ParameterInfo& row, const RunPa
   }
 }
 
-/// What the run's method can be told, and nothing else.
+/// Draws the options of the run's method, and nothing else.
 void draw_options(PanelContext& context, const RunParameters& parameters, bool surface) {
   for (const ParameterInfo& row : parameter_table()) {
     const bool is_option = row.reader != nullptr || row.sliding_only || row.name == "boundary";
@@ -78,7 +78,7 @@ void draw_backend(PanelContext& context, const RunView& run) {
     if (combo.entry(name(backend), name(backend), backend == chosen)) context.send(fmt::format("backend {}", name(backend)));
 }
 
-/// Of a mesh that has any.
+/// Draws the interfaces of a mesh that has any.
 void draw_interfaces(PanelContext& context, const RunParameters& parameters) {
   if (!context.session.input || !context.session.input->interfaces.any()) return;
   labelled(context, "interfaces",
@@ -103,8 +103,7 @@ void draw_order(PanelContext& context, const RunParameters& parameters) {
   integer(context, "seed", static_cast<int>(*parameters.order.seed), 0, kLargestSeed, "order shuffle:");
 }
 
-/// In a place that is as high whatever it says, so that nothing below it moves: what a change does; of a method that promises nothing,
-/// that.
+/// Draws a note of constant height, so that nothing below it moves: the effect of a change, or that the method promises nothing.
 void draw_note(PanelContext& context, const RunView& run) {
   const bool begun = run.moment != Moment{} || run.edits > 0 || run.records.size() > 1;
   constexpr const char* kNew = "Changes start a new run.";
@@ -129,7 +128,7 @@ void draw_note(PanelContext& context, const RunView& run) {
   ImGui::SetCursorPosY(top + height + ImGui::GetStyle().ItemSpacing.y);
 }
 
-/// What elements are wished to be.
+/// Draws the choice of the elements' target.
 void draw_target(PanelContext& context, const RunView& run) {
   const std::string now = to_text(target_of(run.parameters.metric));
   const auto& choices = context.widgets.target_choices.of(run.input);
@@ -144,7 +143,7 @@ void draw_target(PanelContext& context, const RunView& run) {
   if (combo.entry("other", "another…", false)) context.state.dialog = Dialog::Formula;
 }
 
-/// "all usual" or "2 changed": of the parameters that are folded away.
+/// Summary of the parameters that are folded away: "all usual" or "2 changed".
 std::string changes_of(const RunParameters& parameters) {
   const RunParameters usual;
   std::size_t changed = 0;

@@ -24,7 +24,7 @@ float box_width(const std::vector<Choice>& choices) {
   return width + 2 * ImGui::GetStyle().FramePadding.x + ImGui::GetFrameHeight();
 }
 
-/// A combo box of commands, as wide as its widest label; its entries are the items "ITEM:LABEL".
+/// Draws a combo box of commands, as wide as its widest label; its entries are the items "ITEM:LABEL".
 void choice_box(PanelContext& context, const char* item, const std::vector<Choice>& choices) {
   ImGui::SetNextItemWidth(box_width(choices));
   const auto now = std::ranges::find(choices, true, &Choice::chosen);
@@ -69,7 +69,7 @@ void draw_choices(PanelContext& context, const char* item, const std::vector<Cho
   if (!choices.empty()) ImGui::Separator();
 }
 
-/// All that can be chosen of the plot. `item`: the name that its choices go by.
+/// Draws all choices of the plot. `item`: prefix of the choices' names.
 void draw_plot_menu(PanelContext& context, const char* item) {
   draw_choices(context, item, x_choices(context.state));
   draw_choices(context, item, along_choices(context.state));
@@ -89,7 +89,7 @@ void draw_more_menu(PanelContext& context) {
 
 void draw_plot_tabs(PanelContext& context) {
   const ViewOption& plot = view_option("plot");
-  // Narrow ones leave room for the button that has the choices.
+  // Narrow panels leave room for the button with the choices.
   const float gap = context.px(4), number = static_cast<float>(plot.at.choices.size());
   float words = widest_button({"…"}) + gap * number + context.px(8);
   for (const OptionChoice& tab : plot.at.choices) words += ImGui::CalcTextSize(std::string(tab.title).c_str()).x;

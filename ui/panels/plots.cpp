@@ -14,7 +14,7 @@ void draw_plots(PanelContext& context, const Layout& layout) {
   ImGui::PopStyleVar();
   draw_plot_tabs(context);
   draw_plot_controls(context, rect);
-  // The keyboard goes into the table, not into plots, around which it would leave a frame.
+  // The keyboard goes into the table, not into plots, because it would leave a frame around them.
   const ImGuiWindowFlags keys =
       context.state.plot == PlotTab::Runs || context.state.plot == PlotTab::Compare ? ImGuiWindowFlags_None : ImGuiWindowFlags_NoNav;
   ImGui::BeginChild("plot area", {0, std::max(1.0F, ImGui::GetContentRegionAvail().y)}, false,

@@ -1,4 +1,4 @@
-// What the pointer finds over a mesh: the value of the element where it rests, and the axes that it clicks.
+// Handles the pointer over a mesh: it shows the value of the element where it rests, and clicks on axes.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace dmoscope::ui {
 namespace {
 
 constexpr double kRest = 0.35;                  // seconds until a pointer rests
-constexpr std::size_t kMostElements = 300'000;  // beyond, finding the one under the pointer takes longer than a person waits
+constexpr std::size_t kMostElements = 300'000;  // with more, finding the one under the pointer takes longer than a person waits
 
 bool presses(const ImGuiIO& io) { return io.MouseDown[0] || io.MouseDown[1] || io.MouseDown[2]; }
 
@@ -61,7 +61,7 @@ void handle_axes(PanelContext& context, const PaneFacts& pane) {
   for (std::size_t i = 0; i < letters.size(); ++i) {
     constexpr double kAlong = 0.999;
     const char letter = static_cast<char>('x' + i);
-    const bool from_behind = dot(kAxes[i], camera.back()) > kAlong;  // it looks along the axis already
+    const bool from_behind = dot(kAxes[i], camera.back()) > kAlong;  // the camera looks along the axis already
     ImGui::SetCursorScreenPos(
         {pane.rect.x + static_cast<float>(letters[i].x) - reach, pane.rect.y + static_cast<float>(letters[i].y) - reach});
     const std::string item = fmt::format("axis:{}", letter);

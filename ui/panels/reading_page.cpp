@@ -40,7 +40,7 @@ void draw_reading_page(PanelContext& context, const Rect& rect, const BeingRead&
   context.items.record_last("reading:bar");
   const bool begun = !activity.progress_label.empty() && activity.progress_label != activity.command;
   std::string doing = begun ? fmt::format("{}, {:.0f} %", activity.progress_label, 100.0 * activity.progress) : std::string("opening");
-  constexpr double kLong = 2.0;  // seconds
+  constexpr double kLong = 2.0;  // seconds after which reading takes long
   if (activity.busy_seconds >= kLong) doing += fmt::format(" · {:.0f} s", activity.busy_seconds);
   centred_text(context, rect, doing, true);
   ImGui::Dummy({0, 0.6F * em});

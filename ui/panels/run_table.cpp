@@ -12,14 +12,14 @@
 namespace dmoscope::ui {
 namespace {
 
-constexpr std::string_view kSizes = "size_correlation";  // with the input's before it, in one column
+constexpr std::string_view kSizes = "size_correlation";  // shares a column with the input's
 
-constexpr const char* kMesh = "mesh";  // of several
+constexpr const char* kMesh = "mesh";  // shown for several meshes
 
 struct ShownColumn {
   const char* column;
-  const char* title;   // short: many have to stand side by side
-  bool large_is_best;  // the best one is set off
+  const char* title;   // short, because many stand side by side
+  bool large_is_best;  // marks the largest as the best
 };
 constexpr std::array<ShownColumn, 13> kColumns{{{"run", "run", false},
                                                 {kMesh, "mesh", false},
@@ -35,7 +35,7 @@ constexpr std::array<ShownColumn, 13> kColumns{{{"run", "run", false},
                                                 {"vertices_per_second", "vertices/s", false},
                                                 {"backend", "backend", false}}};
 
-/// That of sizes only where a run has a size function, that of meshes only where there are several.
+/// Columns to be shown: that of sizes only if a run has a size function, that of meshes only if there are several.
 std::vector<ShownColumn> shown_columns(const std::vector<RunRow>& rows) {
   std::vector<ShownColumn> shown(kColumns.begin(), kColumns.end());
   if (!has_values(rows, run_column(kSizes))) std::erase_if(shown, [](const ShownColumn& one) { return one.column == kSizes; });
@@ -43,7 +43,7 @@ std::vector<ShownColumn> shown_columns(const std::vector<RunRow>& rows) {
   return shown;
 }
 
-/// Up, then down, then as they were made; numbers begin with the largest.
+/// Next order of a column: ascending, then descending, then by making; numbers begin with the largest.
 std::string next_sort(const PlotOptions& options, const RunColumn& column) {
   const bool first_way = !column.is_word();
   if (options.sorted_by != column.name) return fmt::format("sort-runs {} {}", column.name, first_way ? "descending" : "ascending");
@@ -69,7 +69,7 @@ void draw_head(PanelContext& context, const std::vector<ShownColumn>& columns) {
   }
 }
 
-/// The largest value of a column among the rows; NaN where there are not two different ones.
+/// The largest value of a column among the rows; NaN unless there are two different ones.
 double best_of(const std::vector<RunRow>& rows, const RunColumn& column) {
   double best = RunRow::kUnknown, least = RunRow::kUnknown;
   for (const RunRow& row : rows) {
@@ -93,7 +93,7 @@ void draw_number(PanelContext& context, const RunRow& row, const RunColumn& colu
   if (std::isfinite(value)) next_item_tooltip(full_number(value));
 }
 
-/// What all runs began with, above them whatever they are sorted by.
+/// Draws the inputs' values above all runs, however these are sorted.
 void draw_inputs(PanelContext& context, const std::vector<ShownColumn>& columns) {
   for (const RunRow& row : input_rows(context.session)) {
     ImGui::TableNextRow();

@@ -1,4 +1,4 @@
-// The runs, in a list that scrolls by itself and keeps its height, so that what is below it never moves.
+// The runs, in a list that scrolls by itself and keeps its height, so that nothing below it moves.
 #include <algorithm>
 #include <utility>
 
@@ -15,7 +15,7 @@
 namespace dmoscope::ui {
 namespace {
 
-/// Of the run's moment: in the midst of an iteration, and after edits, its last record is of another one.
+/// Statistics of the run's present moment: within an iteration, and after edits, its last record is of another one.
 const Statistics* statistics_of(const PanelContext& context, std::size_t k) {
   const RunView& run = context.session.runs[k];
   const Frame* frame = context.frame();
@@ -27,7 +27,7 @@ const Statistics* statistics_of(const PanelContext& context, std::size_t k) {
   return &run.records.back().statistics;
 }
 
-/// The minimum, by the run's own metric.
+/// Text of the minimum, by the run's own metric.
 std::string minimum_of(const PanelContext& context, std::size_t k) {
   const Statistics* statistics = statistics_of(context, k);
   return statistics == nullptr ? std::string() : short_number(statistics->minimum);
@@ -66,7 +66,7 @@ void draw_run_menu(PanelContext& context, std::size_t k) {
   ImGui::EndPopup();
 }
 
-/// In place of the title. Enter, or a click elsewhere, takes the name; Escape leaves it as it was.
+/// Draws a field for the name in place of the title. Enter, or a click elsewhere, takes the name; Escape leaves it as it was.
 void draw_name_field(PanelContext& context, std::size_t k, float width) {
   RunListState& list = context.widgets.run_list;
   const RunView& run = context.session.runs[k];
@@ -102,7 +102,7 @@ void draw_row_buttons(PanelContext& context, std::size_t k, ImVec2 corner, float
   ImGui::EndDisabled();
 }
 
-/// The whole title; or the short one of legends where there is no room for it, and of several meshes, which it names.
+/// The whole title; or the short one of legends if there is no room for it, or if there are several meshes, which it names.
 std::string title_within(const PanelContext& context, std::size_t k, float room) {
   std::string title = run_title(context.session, k);
   const bool fits = ImGui::CalcTextSize(title.c_str()).x <= room && !context.session.several_meshes();
@@ -203,7 +203,7 @@ void draw_runs(PanelContext& context) {
       "run-list", {ImGui::GetWindowPos().x, ImGui::GetWindowPos().y, ImGui::GetWindowPos().x + width, ImGui::GetWindowPos().y + height});
   state.over = 0;
   if (runs.empty()) dim_text(context, "no runs yet: open a mesh");
-  // The bar of the list has its place whether or not it is there: no button moves when it comes.
+  // The list's scroll bar always has its place, so that no button moves when it appears.
   const float row_width = width - ImGui::GetStyle().ScrollbarSize;
   const std::uint64_t active = context.run() == nullptr ? 0 : context.run()->id;
   const bool other = std::exchange(state.active, active) != active;

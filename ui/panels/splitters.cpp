@@ -1,4 +1,4 @@
-// The edges of the panels: dragged they resize, by their chevrons panels are folded and come back.
+// Edges of the panels: dragging resizes panels, and chevrons fold and unfold them.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -11,7 +11,7 @@
 namespace dmoscope::ui {
 namespace {
 
-/// A window of its own above the panels whose edge it lies on, without any look.
+/// Begins a window of its own above the panels whose edge it lies on, without any look.
 void begin_edge(const char* name, const Rect& rect) {
   ImGui::SetNextWindowPos({rect.x, rect.y});
   ImGui::SetNextWindowSize({rect.w, rect.h});
@@ -25,7 +25,7 @@ void begin_edge(const char* name, const Rect& rect) {
   ImGui::PopStyleVar(2);
 }
 
-/// A tab over the mesh, in the middle of an edge that can be folded; true when it is clicked.
+/// Draws a tab over the mesh, in the middle of an edge that can be folded; true when it is clicked.
 bool fold_tab(PanelContext& context, const char* name, Icon icon, const char* tooltip, const Rect& rect) {
   begin_edge(fmt::format("{} tab", name).c_str(), rect);
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -36,7 +36,7 @@ bool fold_tab(PanelContext& context, const char* name, Icon icon, const char* to
   return clicked;
 }
 
-/// Folds all docks of a side, or opens them.
+/// Draws the tab that folds all docks of a side, or opens them.
 void draw_column_tab(PanelContext& context, Side side, const Rect& rect) {
   const Panels& panels = context.state.panels;
   const bool open = panels.has_column(side), points_left = open == (side == Side::Left);

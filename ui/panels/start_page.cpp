@@ -1,4 +1,4 @@
-// Centre, while nothing is loaded.
+// Centre of the window while nothing is loaded.
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +9,7 @@
 namespace dmoscope::ui {
 namespace {
 
-/// Of a sample's card: the side of its square picture, and how wide it is.
+/// Size of a sample's card: side of its square picture, and its width.
 struct CardSize {
   float side, width;
 };
@@ -26,9 +26,9 @@ void draw_card(PanelContext& context, const Thumbnail& sample, const CardSize& s
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float inner = side - 2 * pad, left = at.x + (width - inner) / 2;
   const ImU32 edge = IM_COL32(0, 0, 0, 110);
-  constexpr std::size_t kMostEdged = 800;  // with more elements the edges would hide the colours
+  constexpr std::size_t kMostEdged = 800;  // elements; with more the edges would hide the colours
   const bool edges = sample.polygons.size() <= kMostEdged && side > 4.0F * context.em();
-  // The soft rim of a filled polygon sticks out of sharp corners, too; the edges are soft enough.
+  // The soft rim of a filled polygon would stick out of sharp corners, and the edges are soft enough.
   const ImDrawListFlags flags = list.Flags;
   if (edges) list.Flags &= ~ImDrawListFlags_AntiAliasedFill;
   for (const Thumbnail::Polygon& polygon : sample.polygons) {
@@ -38,7 +38,7 @@ void draw_card(PanelContext& context, const Thumbnail& sample, const CardSize& s
       corners[k] = {left + corner[0] * inner, at.y + pad + corner[1] * inner};
     }
     list.AddConvexPolyFilled(corners, polygon.count, colour(polygon.colour));
-    // Edge by edge: the joints of a polyline stick out of sharp corners.
+    // The edges are drawn one by one, because the joints of a polyline stick out of sharp corners.
     for (int k = 0; edges && k < polygon.count; ++k) list.AddLine(corners[k], corners[(k + 1) % polygon.count], edge, 1.0F);
   }
   list.Flags = flags;
@@ -75,8 +75,8 @@ void draw_start_page(PanelContext& context, const Rect& rect) {
     context.widgets.thumbnails = make_thumbnails(context.state.colour_map, context.widgets.sample_pictures);
   const auto& samples = context.widgets.thumbnails;
   const float em = context.em(), gap = context.px(10);
-  // Cards in one row, or in two and more where there is no room, as large as the space allows: a low window gets small pictures.
-  float least = 5.5F * em;  // each name whole
+  // Cards fill one row, or more if there is no room, and are as large as the space allows: a low window gets small pictures.
+  float least = 5.5F * em;  // large enough for each name
   for (const Thumbnail& sample : samples) least = std::max(least, ImGui::CalcTextSize(sample.name.c_str()).x + context.px(4));
   const float room = rect.w - 4 * em, most = std::max(1.0F, std::floor((room + gap) / (least + gap)));
   const auto total = static_cast<float>(samples.size());

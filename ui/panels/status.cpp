@@ -1,4 +1,4 @@
-// Status bar, and the strips that stand for folded panels.
+// Status bar, and the strips in place of folded panels.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -11,7 +11,7 @@
 namespace dmoscope::ui {
 namespace {
 
-/// Of the last iteration; of one that goes on the progress says it.
+/// Speed of the last iteration; the progress tells that of the one at work.
 std::string speed_sentence(const PanelContext& context) {
   const RunView* run = context.run();
   if (run == nullptr) return {};
@@ -23,7 +23,7 @@ std::string speed_sentence(const PanelContext& context) {
   return {};
 }
 
-/// In line with the text beside it, which ImGui's own bar would put lower.
+/// Draws a progress bar in line with the text beside it; ImGui's own bar would be lower.
 void draw_bar(const PanelContext& context, float fraction) {
   const ImVec2 at = ImGui::GetCursorScreenPos(),
                size{std::min(8 * context.em(), 0.25F * ImGui::GetWindowWidth()), ImGui::GetTextLineHeight()};
@@ -36,7 +36,7 @@ void draw_bar(const PanelContext& context, float fraction) {
   ImGui::Dummy(size);
 }
 
-/// Of pictures that are being taken; not in the pictures themselves.
+/// Draws the progress of pictures that are being taken; not in the pictures themselves.
 void draw_sequence_progress(PanelContext& context, const Sequence& sequence) {
   if (sequence.phase == Sequence::Phase::Clean) return;
   draw_bar(context, static_cast<float>(sequence.progress()));
@@ -47,7 +47,7 @@ void draw_sequence_progress(PanelContext& context, const Sequence& sequence) {
   context.items.record_last("cancel");
 }
 
-/// Of a run's iterations where they go, of other work how much is done.
+/// Texts of a run's progress, or for other work how much is done.
 std::vector<std::string> progress_said(const PanelContext& context, const RunView* run) {
   const Activity& activity = context.activity;
   if (run != nullptr) return progress_parts(*run, activity.seconds_left);
@@ -57,7 +57,7 @@ std::vector<std::string> progress_said(const PanelContext& context, const RunVie
   return parts;
 }
 
-/// As many of the parts as there is room for, the first at least.
+/// As many of the parts as there is room for, at least the first one.
 std::string fit_parts(const std::vector<std::string>& parts, float room) {
   std::string text;
   for (const std::string& part : parts) {
@@ -68,13 +68,13 @@ std::string fit_parts(const std::vector<std::string>& parts, float room) {
   return text;
 }
 
-/// Shorter work comes and goes before it could be read.
+/// Whether work has taken long enough to be shown: shorter work would disappear before it could be read.
 bool shows_work(const PanelContext& context) {
   constexpr double kShowAfter = 0.2;
   return !context.state.sequence && context.activity.busy && context.activity.busy_seconds >= kShowAfter;
 }
 
-/// Before all that changes its width meanwhile, so that it stays under the pointer.
+/// Draws Cancel before everything that changes its width meanwhile, so that it stays under the pointer.
 void draw_cancel(PanelContext& context) {
   if (ImGui::SmallButton("Cancel")) context.send("cancel");
   context.items.record_last("cancel");
@@ -87,7 +87,7 @@ void draw_progress(PanelContext& context) {
   const auto fraction = static_cast<float>(context.activity.progress);
   const RunView* run = run_at_work(context.session);
   const bool endless = run != nullptr && run->pursuit->until_converged;
-  if (!endless) {  // a bar towards the most iterations there may be would say nothing
+  if (!endless) {  // a bar towards the greatest possible number of iterations would say nothing
     draw_bar(context, fraction);
     ImGui::SameLine();
   }
@@ -108,7 +108,7 @@ void strip(PanelContext& context, const char* side_name, const Rect& rect, const
   end_panel();
 }
 
-/// The newest thing that was said, which the sentence of a step is, too.
+/// The newest message, or the sentence of a step.
 std::optional<Message> newest_message(const PanelContext& context) {
   const StepNews& news = context.state.stepping.news;
   if (!news.sentence.empty() && news.messages == context.state.messages) return Message{Message::Kind::Info, news.sentence, 0};
@@ -125,7 +125,7 @@ render::Rgb ink_of(const PanelContext& context, const Message& message) {
                                                   : context.palette.text;
 }
 
-/// `room`: up to what stands at the right end.
+/// Draws the newest message. `room`: up to the right end's texts.
 void draw_newest(PanelContext& context, float room) {
   const auto message = newest_message(context);
   if (!message) return;
@@ -143,7 +143,7 @@ void draw_newest(PanelContext& context, float room) {
   context.items.record_last("status-message");
 }
 
-/// "2 CPU threads", or the way from a device to the screen; how fast it is stands in the tooltip.
+/// Draws "2 CPU threads", or the way from a device to the screen; the speed stands in the tooltip.
 void draw_backend(PanelContext& context, const std::string& backend) {
   const Activity& activity = context.activity;
   dim_text(context, backend, false);
@@ -178,7 +178,7 @@ void draw_status(PanelContext& context, const Rect& rect) {
   } else {
     const auto message = newest_message(context);
     const float whole = message ? ImGui::CalcTextSize(first_line(context, *message).c_str()).x : 0.0F;
-    const bool both = context.px(24) + whole <= end;  // else the message needs all the room
+    const bool both = context.px(24) + whole <= end;  // otherwise the message needs all the room
     draw_newest(context, both ? whole : rect.w - context.px(24));
     if (both) {
       ImGui::SameLine(end);
@@ -191,7 +191,7 @@ void draw_status(PanelContext& context, const Rect& rect) {
 void draw_message(PanelContext& context, const Rect& viewport) {
   const auto message = newest_message(context);
   if (!message || !context.widgets.message_is_cut || viewport.h < 8 * context.em()) return;
-  // Other news is in the facts, too, and in the tooltip; of whole iterations the facts have all that counts, but for how a run ended.
+  // Other news is in the facts and the tooltip, too; the facts tell all that counts of whole iterations, except how a run ended.
   const RunView* run = context.run();
   const bool within = run != nullptr && run->moment.visits > 0;
   const bool ended = run != nullptr && has_converged(*run);
@@ -200,7 +200,7 @@ void draw_message(PanelContext& context, const Rect& viewport) {
   if (message->kind == Message::Kind::Info && !is_step) return;
   const std::string text = first_line(context, *message);
   const float pad = context.px(10), axes = context.state.in_space ? 6 * context.em() : 0.0F;
-  const float legend = 19 * context.em();  // and what is beside it
+  const float legend = 19 * context.em();  // width of the legend and the things beside it
   const bool beside = viewport.w - legend - axes > 24 * context.em();
   const float most = std::min(viewport.w - 4 * pad - axes - (beside ? legend : 0.0F), 60 * context.em());
   const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, most - 2 * pad);

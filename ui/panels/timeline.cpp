@@ -1,4 +1,4 @@
-// The timeline: any iteration of the history, played or dragged to, with the marks A and B; below a plot it lies along that one's axis.
+// The timeline: any iteration of the history, played or dragged to, with the marks A and B; below a plot it lies along the plot's axis.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -27,13 +27,13 @@ std::string label_of(const PanelContext& context) {
   return last == 0 ? "iteration " + count(now) : fmt::format("iteration {} of {}", count(now), count(last));
 }
 
-/// Of its longest text, so that the groove keeps its length.
+/// Width of the longest label, so that the groove keeps its length.
 float label_width(const PanelContext& context) {
   const std::string most = count(std::max<std::uint64_t>(last_of(context), 999));
   return ImGui::CalcTextSize(fmt::format("iteration {0} of {0}", most).c_str()).x;
 }
 
-/// What stands to the left of the groove.
+/// Width of everything to the left of the groove.
 float buttons_width(const PanelContext& context) {
   const float around = 2 * context.px(7);
   float width = 3 * context.px(4);
@@ -41,7 +41,7 @@ float buttons_width(const PanelContext& context) {
   return width;
 }
 
-/// Where the iterations of the run at hand lie in the groove.
+/// Places of the active run's iterations in the groove.
 struct Groove {
   Axis axis;                   // from `x` to pixels
   std::vector<double> course;  // x of every record
@@ -72,7 +72,7 @@ Groove groove_of(const PanelContext& context, const RunView& run, const Timeline
   return groove;
 }
 
-/// Ticks with their letters where the marks of this run lie.
+/// Draws ticks with their letters at the marks of this run.
 void draw_marks(const PanelContext& context, const Groove& groove, float top, float bottom) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const Timeline& timeline = context.state.timeline;
@@ -101,7 +101,7 @@ void draw_groove(const PanelContext& context, const Groove& groove, const Timeli
 
 void draw_slider(PanelContext& context, const Rect& rect, const TimelineRoom& room) {
   const RunView* run = context.run();
-  const float reach = context.px(8);  // so that the knob can be taken at the ends
+  const float reach = context.px(8);  // room to take the knob at the ends
   ImGui::SetCursorScreenPos({room.left - reach, rect.y});
   ImGui::BeginDisabled(last_of(context) == 0 || context.activity.busy);
   ImGui::PushAllowKeyboardFocus(false);  // its keys are those of the buttons
@@ -114,7 +114,7 @@ void draw_slider(PanelContext& context, const Rect& rect, const TimelineRoom& ro
   const bool held = ImGui::IsItemActive();
   draw_groove(context, groove, room, *run, held || ImGui::IsItemHovered());
   if (!held) return;
-  // While it is held every new value is a request; the session is asked only when it is idle, so they do not pile up.
+  // While it is held, every new value is a request; the session is asked only when it is idle, so that requests do not pile up.
   const double at = groove.axis.value(static_cast<double>(std::clamp(ImGui::GetIO().MousePos.x, room.left, room.right)));
   const std::uint64_t wanted = iteration_at(*run, groove.by_seconds, at);
   if (wanted != run->moment.iteration && !context.activity.busy) context.send(fmt::format("seek {}", wanted));

@@ -1,4 +1,4 @@
-// The tour's card, and the frame around the control that it is about.
+// The tour's card, and the frame around the control that it points to.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -26,7 +26,7 @@ Card measure(const PanelContext& context, std::string title, std::string text, c
 
 bool overlaps(const Rect& a, const Items::Box& b) { return a.x < b[2] && b[0] < a.x + a.w && a.y < b[3] && b[1] < a.y + a.h; }
 
-/// In a corner of `within` that leaves the control free, the lower right one before others.
+/// Place of the card in a corner of `within` that leaves the control free, the lower right one before others.
 Rect place(const PanelContext& context, const Card& card, const Rect& within, const std::optional<Items::Box>& control) {
   const float gap = context.px(18);  // beside the tabs that fold the panels
   const float left = within.x + gap, right = within.x + within.w - gap - card.width;

@@ -1,4 +1,4 @@
-// Centre: the meshes, what is written over them, and the mouse.
+// Centre: the meshes, the text over them, and the mouse.
 #include <algorithm>
 #include <cmath>
 
@@ -22,7 +22,7 @@ Vec2<double> mouse_in(const Rect& rect) {
   return {static_cast<double>(mouse.x - rect.x), static_cast<double>(mouse.y - rect.y)};
 }
 
-/// What is shown of stepping and selecting, below the title.
+/// Draws a note on stepping and selecting, below the title.
 void draw_note(const PanelContext& context, const PaneFacts& pane) {
   if (pane.stepping_note.empty() || !context.state.panes.one()) return;
   const float pad = context.px(8), line = ImGui::GetTextLineHeight();
@@ -32,14 +32,14 @@ void draw_note(const PanelContext& context, const PaneFacts& pane) {
   ImGui::GetWindowDrawList()->AddText({at.x + pad, at.y + pad / 2}, colour(context.palette.dim), note.c_str());
 }
 
-/// Which level is seen, at the upper left corner of its grid or as near to it as can be read.
+/// Draws the name of the visible level at the upper left corner of its grid, or as near to it as can be read.
 void draw_level_label(PanelContext& context, const PaneFacts& pane) {
   const Rect& rect = pane.rect;
   const InspectionState& state = context.state.inspection;
   const std::string label = state.open ? level_label(state, context.inspection) : std::string();
   if (label.empty()) return;
   const Inspection& inspection = context.inspection;
-  Vec2<double> pixel;  // of a volume the upper left corner
+  Vec2<double> pixel;  // for a volume the upper left corner
   if (inspection.trace && !inspection.grid) {
     Vec2<double> corner{inspection.box.low.x, inspection.box.high.y};
     if (!state.applied && !state.all_levels && state.level >= 1 && !inspection.trace->levels.empty()) {
@@ -58,8 +58,8 @@ void draw_level_label(PanelContext& context, const PaneFacts& pane) {
   ImGui::GetWindowDrawList()->AddText({x + pad, y + pad / 2}, colour(context.palette.text), label.c_str());
 }
 
-/// The candidate under the mouse, in words; the inspector marks it, too. Of a volume it is one of the slice that the maps show, and only
-/// where none of these is there of the others.
+/// Tells the candidate under the mouse in words; the inspector marks it, too. In a volume, candidates of the slice that the maps show go
+/// before others.
 void read_candidate(PanelContext& context, const PaneFacts& pane) {
   InspectionState& state = context.state.inspection;
   const Inspection& inspection = context.inspection;
@@ -83,7 +83,7 @@ void read_candidate(PanelContext& context, const PaneFacts& pane) {
   if (state.hovered && !ImGui::IsAnyMouseDown()) next_item_tooltip(candidate_text(inspection, state.level, state.hovered->index));
 }
 
-/// Of a mesh that is not the active one: first it becomes that.
+/// Picks on a mesh that is not the active one, which it first becomes.
 void pick_on_other_mesh(PanelContext& context, const PaneFacts& pane, Index vertex, Index element) {
   const auto run = std::ranges::find(context.session.runs, pane.session->input, &RunView::input);
   if (run == context.session.runs.end()) return;
@@ -101,9 +101,9 @@ void pick_at(PanelContext& context, const PaneFacts& pane, Vec2<double> pixel) {
   ViewState& state = context.state;
   if (state.placing_size_point) {
     state.placing_size_point = false;
-    if (pane.in_space()) return;  // in a plane alone a pixel is a point
+    if (pane.in_space()) return;  // only in a plane is a pixel a point
     const Vec2<double> there =
-        state.camera.to_pixel(pane.camera.to_plane(pixel, state.viewport), state.viewport);  // as the active one has it
+        state.camera.to_pixel(pane.camera.to_plane(pixel, state.viewport), state.viewport);  // in the active pane's pixels
     context.send(size_point_command(state, *context.session.input, there));
     return;
   }
@@ -121,7 +121,7 @@ void pick_at(PanelContext& context, const PaneFacts& pane, Vec2<double> pixel) {
   }
 }
 
-/// "Copy quality 0.8123": all its digits.
+/// Draws an entry that copies a value with all its digits: "Copy quality 0.8123".
 void copy_entry(PanelContext& context, const std::string& what, const std::string& shown, const std::string& full) {
   if (ImGui::MenuItem(fmt::format("Copy {} {}", what, shown).c_str())) context.send("copy " + quote_word(full));
   context.items.record_last("copy:" + what);
@@ -133,7 +133,7 @@ void draw_vertex_entries(PanelContext& context, Index vertex) {
     context.send(fmt::format("inspect vertex {}", vertex));
   const PickedFacts& facts = context.widgets.vertex_under_menu;
   copy_entry(context, "vertex id", fmt::format("{}", vertex), fmt::format("{}", vertex));
-  if (facts.picked.kind == Picked::Kind::None) return;  // a device that tells nothing
+  if (facts.picked.kind == Picked::Kind::None) return;  // the device cannot be read
   const Vec3 at = facts.at;
   const std::string height = context.state.in_space ? fmt::format(", {:.6g}", at.z) : "";
   copy_entry(context, "vertex coordinates", fmt::format("{:.6g}, {:.6g}{}", at.x, at.y, height),
@@ -186,7 +186,7 @@ void draw_context_menu(PanelContext& context) {
   ImGui::EndPopup();
 }
 
-/// The edge that is nearest to the mouse, of the element below it.
+/// The edge nearest to the mouse, of the element below it.
 EdgeEnds edge_at(const PanelContext& context, const PaneFacts& pane, Index element, Vec2<double> pixel) {
   const Frame& frame = *pane.frame();
   if (frame.input->in_space()) {
@@ -211,7 +211,7 @@ void open_menu(PanelContext& context, const PaneFacts& pane, Vec2<double> at) {
   ImGui::OpenPopup("viewport menu");
 }
 
-/// A drag: a mesh in space turns, with another button than the left one or Shift it moves, as a planar one always does.
+/// Drags a mesh: one in space turns, or moves with Shift or another button than the left one; a planar one always moves.
 void drag_mesh(PanelContext& context, const PaneFacts& pane, Vec2<double> at, Vec2<double> move, bool moves) {
   ViewState& state = context.state;
   if (!pane.in_space()) return state.camera_of(pane.number).pan(move);
@@ -230,7 +230,7 @@ void zoom_mesh(PanelContext& context, const PaneFacts& pane, Vec2<double> at, do
   state.camera_of(pane.number).zoom_at(at, state.viewport, factor);
 }
 
-/// A double click: what is there in space is what the mesh turns about from now on; all else shows the whole mesh.
+/// Handles a double click: a point of a mesh in space becomes the one that it turns about; everything else shows the whole mesh.
 void fit_or_orbit(PanelContext& context, const PaneFacts& pane, Vec2<double> at) {
   if (const auto point = context.point_at(pane.number, at))
     return context.send(fmt::format("orbit-about {} {} {}", point->x, point->y, point->z));
@@ -260,7 +260,7 @@ void handle_mouse(PanelContext& context, const PaneFacts& pane) {
     if (move.x != 0 || move.y != 0) context.widgets.moved_at = context.now;
   }
   if (painting) {
-    // Neither a pick nor a fit.
+    // A drag is neither a pick nor a fit.
   } else if (hovered && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
     fit_or_orbit(context, pane, at);
   } else if (hovered && ImGui::IsMouseReleased(ImGuiMouseButton_Left) && ImGui::IsItemDeactivated() && !dragged) {
@@ -269,7 +269,7 @@ void handle_mouse(PanelContext& context, const PaneFacts& pane) {
   if (hovered && ImGui::IsMouseReleased(ImGuiMouseButton_Right) && !dragged) open_menu(context, pane, at);
 }
 
-/// The handle between two viewports that lie over each other.
+/// Handles and draws the handle between two viewports that lie over each other.
 void handle_split(PanelContext& context) {
   const Rect& rect = context.panes[0].rect;
   const float x = rect.x + context.panes[0].clip.w, reach = context.px(6);
@@ -295,7 +295,7 @@ void draw_split(const PanelContext& context) {
   }
 }
 
-/// The picture, and what of the viewport takes the mouse.
+/// Draws the picture and handles the viewport's mouse input.
 void handle_pane(PanelContext& context, const PaneFacts& pane) {
   const Rect &rect = pane.rect, &clip = pane.clip;
   if (clip.empty()) return;
@@ -325,7 +325,7 @@ void handle_pane(PanelContext& context, const PaneFacts& pane) {
   ImGui::PopClipRect();
 }
 
-/// What is written over the picture.
+/// Draws everything over the picture.
 void draw_pane(PanelContext& context, const PaneFacts& pane) {
   const Rect& clip = pane.clip;
   if (clip.empty()) return;

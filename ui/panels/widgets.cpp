@@ -91,12 +91,12 @@ void pair_field(PanelContext& context, const char* item, double first, double se
 }
 
 namespace {
-/// What it does, and its key.
+/// Tooltip of an option: its effect, and its key.
 std::string option_tip(const ViewOption& option) {
   return std::string(option.doc) + (option.doc.empty() || option.entry.key.empty() ? "" : fmt::format("   {}", option.entry.key));
 }
 
-/// A field for a whole number. Its buttons go over what lies between none and the least.
+/// Draws a field for a whole number. Its buttons skip the numbers between none and the least.
 void whole_number(PanelContext& context, const ViewOption& option) {
   const auto [least, most, rest] = std::array{option.at.number.least, option.at.number.most, option.at.number.rest};
   const int now = static_cast<int>(option.now(context.state));
@@ -277,7 +277,7 @@ void labelled(const PanelContext& context, const char* name, const char* tooltip
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
   const float beside_label = ImGui::GetCursorPosX() + ImGui::CalcTextSize(label.c_str()).x + ImGui::GetStyle().ItemSpacing.x;
-  // One column for all but the longest labels.
+  // All but the longest labels have one column.
   const float usual = ImGui::GetCursorPosX() + ImGui::CalcTextSize("Grid points").x + ImGui::GetStyle().ItemSpacing.x;
   const float at = std::max({ImGui::GetWindowContentRegionMax().x * 0.32F, usual, beside_label});
   const bool below = wanted > 0 && at + wanted > ImGui::GetWindowContentRegionMax().x;
@@ -289,7 +289,7 @@ void labelled(const PanelContext& context, const char* name, const char* tooltip
     ImGui::SameLine();
     ImGui::SetCursorPosX(at);
   }
-  // The field answers as its label does; not while somebody types into it.
+  // The field has the same tooltip as its label, except while somebody types into it.
   const float height = ImGui::GetFrameHeight() + (below ? ImGui::GetTextLineHeightWithSpacing() : 0.0F);
   const bool over = ImGui::IsMouseHoveringRect(corner, {corner.x + width, corner.y + height});
   if (over && ImGui::IsWindowHovered() && !ImGui::IsAnyItemActive()) {
@@ -299,7 +299,7 @@ void labelled(const PanelContext& context, const char* name, const char* tooltip
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
   }
-  ImGui::SetNextItemWidth(-1);  // last: the tooltip's window would take it
+  ImGui::SetNextItemWidth(-1);  // last, because the tooltip's window would take it
 }
 
 float combo_width(float widest) { return widest + ImGui::GetFrameHeight() + 2 * ImGui::GetStyle().FramePadding.x; }
@@ -311,7 +311,7 @@ float metric_combo_width(const PanelContext& context) {
   return combo_width(widest);
 }
 
-/// Of InputInt, the part that is typed into.
+/// ImGui's id of the text field of an InputInt.
 unsigned field_of(const std::string& label) {
   ImGui::PushID(label.c_str());
   const unsigned id = ImGui::GetID("");
@@ -321,7 +321,7 @@ unsigned field_of(const std::string& label) {
 
 void integer(PanelContext& context, const char* item, int value, int least, int most, const char* command) {
   int edited = value;
-  // Narrow gaps: digits need the room.
+  // Gaps are narrow, because digits need the room.
   ImGui::PushStyleVar(ImGuiStyleVar_ItemInnerSpacing, {context.px(2), context.px(4)});
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {context.px(5), context.px(4)});
   const std::string label = fmt::format("##{}", item);
@@ -372,7 +372,7 @@ std::string fit_text(const std::string& text, float width) {
   if (ImGui::CalcTextSize(text.c_str()).x <= width) return text;
   std::string cut = text;
   while (!cut.empty()) {
-    // Whole characters only: bytes 10xxxxxx continue one.
+    // Only whole characters are cut off: bytes 10xxxxxx continue one.
     while (!cut.empty() && (static_cast<unsigned char>(cut.back()) & 0xc0U) == 0x80U) cut.pop_back();
     if (!cut.empty()) cut.pop_back();
     if (ImGui::CalcTextSize((cut + "…").c_str()).x <= width) break;

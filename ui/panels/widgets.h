@@ -1,5 +1,5 @@
 #pragma once
-// What panels are made of.
+// Widgets of panels.
 
 #include <initializer_list>
 #include <optional>
@@ -11,47 +11,47 @@
 
 namespace dmoscope::ui {
 
-/// `overlay`: above the other panels. `scrolls`: with a scroll bar where the contents need one.
+/// Begins a panel. `overlay`: above the other panels. `scrolls`: with a scroll bar if the contents need one.
 void begin_panel(const char* name, const Rect& rect, bool overlay = false, bool scrolls = false);
 void end_panel();
 void heading(const PanelContext& context, const char* text);
 void dim_text(const PanelContext& context, const std::string& text, bool wrap = true);
-/// The last item: its full text under the mouse, and on the clipboard by a click.
+/// Makes the last item show its full text under the mouse, and copy it to the clipboard by a click.
 void copied_by_click(const PanelContext& context, const std::string& text);
-/// "label            value", value right-aligned with its full precision as tooltip.
+/// Draws a row "label            value", value right-aligned with its full precision as tooltip.
 void value_row(const PanelContext& context, const char* label, const std::string& text, const std::string& full = {},
                std::optional<render::Rgb> ink = {}, const char* tooltip = nullptr);
 void number_row(const PanelContext& context, const char* label, double value, const char* tooltip = nullptr);
 void metric_tooltip(const PanelContext& context, const MetricInfo& metric);
-/// A row that unfolds what stands below it; `aside` at its right end. True when it is clicked.
+/// Draws a row that unfolds the rows below it; `aside` at its right end. True when it is clicked.
 bool fold_row(PanelContext& context, const char* item, const char* title, const std::string& aside, bool open, const char* tooltip);
-/// `primary`: in the accent's colour, as the one that most people want.
+/// Draws a button. `primary`: in the accent's colour, as the one that most people want.
 bool button(const PanelContext& context, const char* label, bool primary, float width = 0);
-/// A button that is lit while what it does is in force.
+/// Draws a button that is lit while its effect is in force.
 bool lit_button(PanelContext& context, const std::string& item, const std::string& label, bool lit, const std::string& tooltip,
                 bool small = false);
-/// Small buttons at the right end of a line, after some words. One without a command is disabled.
+/// A small button at the right end of a line, after some words. One without a command is disabled.
 struct SideButton {
   const char* label;
   std::string item, tooltip, command;
 };
 [[nodiscard]] float width_of(const PanelContext& context, std::span<const SideButton> buttons);
 void side_buttons(PanelContext& context, float y, const std::string& words, std::span<const SideButton> buttons);
-/// A button for an action, with tooltip and key; records the item under the action's id.
-/// `width`: in pixels, for labels that change; 0: as the label needs.
+/// Draws a button for an action, with tooltip and key; records the item under the action's id. `width`: in pixels, for labels that change;
+/// 0: that of the label.
 bool action_button(PanelContext& context, std::string_view id, const char* label, bool primary = false, float width = 0);
-/// The same as an entry of a menu.
+/// Draws an action as an entry of a menu, with its key.
 void action_entry(PanelContext& context, std::string_view id);
-/// Beside the last item where a button with this label has room, else below it.
+/// Continues beside the last item if a button with this label has room there, else below it.
 void beside_or_below(const char* label, float gap = -1.0F);
-/// Of a button whose label is one of these: what stands beside it stays where it is.
+/// Width of a button whose label is one of these, so that everything beside it stays in place.
 [[nodiscard]] float widest_button(std::initializer_list<const char*> labels);
 void next_item_tooltip(const std::string& text);
-/// The name of the last item for scripts, and what is said under the mouse.
+/// Gives the last item a name for scripts, and a tooltip.
 void note_item(PanelContext& context, std::string_view item, const std::string& tooltip);
-/// Text in as many lines as it needs; `ink`: in another colour than the panel's.
+/// Draws text in as many lines as it needs; `ink`: in another colour than the panel's.
 void wrapped_text(const std::string& text, std::optional<render::Rgb> ink = {});
-/// A label before a field that fills the rest of the row.
+/// Draws a label before a field that fills the rest of the row.
 void row_label(const PanelContext& context, const char* text, float width_em);
 /// A drop-down list; its entries are the items "ITEM:WORD".
 class Combo {
@@ -61,7 +61,7 @@ class Combo {
   Combo(const Combo&) = delete;
   Combo& operator=(const Combo&) = delete;
   [[nodiscard]] bool open() const noexcept { return open_; }
-  /// Whether it is clicked.
+  /// Draws an entry. True when it is clicked.
   bool entry(std::string_view word, std::string_view title, bool chosen, const std::string& tooltip = {}, bool possible = true);
 
  private:
@@ -69,31 +69,31 @@ class Combo {
   std::string item_;
   bool open_;
 };
-/// Two numbers that are sent as "COMMAND FIRST SECOND" once they were edited.
+/// Draws two numbers that are sent as "COMMAND FIRST SECOND" once they were edited.
 void pair_field(PanelContext& context, const char* item, double first, double second, const char* command);
-/// A box that switches an option of the view, see view_options(). `item`: its name; empty: the command.
+/// Draws a box that switches an option of the view, see view_options(). `item`: its name; empty: the command.
 void option_box(PanelContext& context, const char* label, std::string_view command, std::string_view item = {});
-/// A row with the option's label and its box, a list of its words, or a field for its number, a whole one.
+/// Draws a row with the option's label and its box, a list of its words, or a field for its number.
 void option_row(PanelContext& context, std::string_view command, std::string_view item = {});
-/// Such rows of all options that are in this part of a panel.
+/// Draws such rows for all options in this part of a panel.
 void option_rows(PanelContext& context, std::string_view panel);
-/// Closes the open dialog.
+/// Draws a button that closes the open dialog.
 void close_button(PanelContext& context, const char* label);
-/// Text on a plate in the panel's colour is readable on any mesh.
+/// Draws a plate in the panel's colour, on which text is readable over any mesh.
 void draw_plate(const PanelContext& context, ImVec2 low, ImVec2 high);
-/// A row "label [widget]" whose widget, drawn next, fills the right part; where it wants more pixels than there are, a line of its own.
-/// The tooltip is of the whole row.
+/// Draws the label of a row "label [widget]"; the widget, drawn next, fills the right part, or a line of its own if it wants more pixels
+/// than there are. The tooltip belongs to the whole row.
 void labelled(const PanelContext& context, const char* label, const char* tooltip, float wanted = 0);
-/// What a combo box wants whose widest entry is so wide.
+/// Width that a combo box needs for its widest entry.
 [[nodiscard]] float combo_width(float widest);
 [[nodiscard]] float metric_combo_width(const PanelContext& context);
-/// An integer that is sent as "COMMAND value" once editing is done; as one word where the command ends with ':'.
+/// Draws an integer field that is sent as "COMMAND value" once editing is done; as one word if the command ends with ':'.
 void integer(PanelContext& context, const char* item, int value, int least, int most, const char* command);
-/// Metric chooser that sends "COMMAND name".
+/// Draws a choice of metrics that sends "COMMAND name".
 void metric_combo(PanelContext& context, const char* item, Metric current, const char* command);
 /// Text cut with "…" so that it is at most `width` pixels wide.
 [[nodiscard]] std::string fit_text(const std::string& text, float width);
-/// As many whole clauses of a sentence as fit; where none does, as fit_text.
+/// As many whole clauses of a sentence as fit; if none does, the result of fit_text.
 [[nodiscard]] std::string fit_clauses(const std::string& text, float width);
 
 }  // namespace dmoscope::ui

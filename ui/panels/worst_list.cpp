@@ -1,4 +1,4 @@
-// The worst elements, each with a way to the search of its worst corner.
+// The worst elements, each with a button for the search of its worst corner.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -10,7 +10,7 @@
 namespace dmoscope::ui {
 namespace {
 
-/// At the right end of a row of the worst list: leads to the search of its worst free corner, or says that there is none.
+/// Draws the right end of a row of the worst list, a button that leads to the search of its worst free corner, or says that there is none.
 void draw_why(PanelContext& context, const Frame& frame, Index element, int row, ImVec2 at, float right) {
   const RunView* run = context.run();
   const auto corners = frame.input->mesh.elements.corners(element);
@@ -37,14 +37,14 @@ std::string inside_words(Vec3 at) {
   return fmt::format("\ninverted only inside, where the diamond is: at ({:.8g}, {:.8g}, {:.8g})", at.x, at.y, at.z);
 }
 
-/// Of the qualities in the list; nearly always that of usual ones, so that nothing moves from step to step.
+/// Greatest width of the qualities in the list; nearly always that of usual ones, so that nothing moves from step to step.
 float widest_number(const Frame& frame) {
   float widest = ImGui::CalcTextSize("0.003610").x;
   for (const RankedElement& ranked : frame.worst) widest = std::max(widest, ImGui::CalcTextSize(short_number(ranked.quality).c_str()).x);
   return widest;
 }
 
-/// "element 1234", or as much of that as there is room for.
+/// As much of "element 1234" as there is room for.
 std::string id_text(Index element, float room) {
   std::string text = fmt::format("element {}", element);
   return ImGui::CalcTextSize(text.c_str()).x <= room ? text : fmt::to_string(element);
@@ -61,7 +61,7 @@ void draw_worst(PanelContext& context) {
   dim_text(context, metric_phrase(frame->shown), false);
   const float number_width = widest_number(*frame);
   const float gap = context.px(7), why_width = std::max(ImGui::CalcTextSize("fixed").x, ImGui::CalcTextSize("why?").x);
-  // Their ranks stand before the ids where there is room for both.
+  // Ranks stand before the ids if there is room for both.
   const float beside_id = number_width + context.px(4) + why_width + 3 * gap;
   const float ids = ImGui::CalcTextSize(count(frame->element_count()).c_str()).x, ranks = ImGui::CalcTextSize("000").x;
   const bool ranked_rows = ranks + context.px(10) + ids + beside_id <= ImGui::GetContentRegionAvail().x;
@@ -77,7 +77,7 @@ void draw_worst(PanelContext& context) {
       if (ImGui::Selectable("##worst", selected, ImGuiSelectableFlags_AllowItemOverlap))
         context.send(fmt::format("goto element {}", ranked.element));
       const float number_left = at.x + width - number_width - context.px(4), why_left = number_left - why_width - 2 * gap;
-      if (ImGui::IsItemVisible())  // as far as a click goes there
+      if (ImGui::IsItemVisible())  // only as far as a click reaches
         context.items.record(fmt::format("worst:{}", k), {at.x, ImGui::GetItemRectMin().y, why_left, ImGui::GetItemRectMax().y});
       next_item_tooltip(full_number(ranked.quality) + (ranked.inside ? inside_words(in_file(frame->input->mesh, *ranked.inside)) : "") +
                         "\nclick to go there");

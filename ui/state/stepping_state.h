@@ -38,7 +38,7 @@ struct StepNews {
 
 struct SteppingState {
   Flash flash = Flash::Off;
-  int flash_level = 0;  // how strong it is drawn now, 0 to kFlashLevels
+  int flash_level = 0;  // present strength of the tint, 0 to kFlashLevels
   StepNews news;
   bool next_class = false;             // dots on the vertices of the colour class that moves next
   Reference arrows = Reference::None;  // start of the arrows, which end at the present positions

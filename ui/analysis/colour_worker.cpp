@@ -6,8 +6,8 @@
 namespace dmoscope::ui {
 namespace {
 
-constexpr Index kBigMesh = 100'000;   // elements whose colours take long enough to be felt
-constexpr Index kBigSurface = 1'000;  // the same of colours that take long
+constexpr Index kBigMesh = 100'000;   // elements; the colours of larger meshes take long enough to be felt
+constexpr Index kBigSurface = 1'000;  // elements, for colours that take long
 
 }  // namespace
 
@@ -23,7 +23,7 @@ void ColourWorker::update(const ViewState& state, const SessionView& session, st
   const bool possible = frame != nullptr && by != ColourBy::Quality && !(frame->device && needs_positions(by)) &&
                         (by != ColourBy::Difference || has_reference);
   if (!possible) {
-    colours_.reset();  // what is pending ends soon, and then is dropped here
+    colours_.reset();  // pending work ends soon, and is dropped here
     key_.reset();
     return;
   }

@@ -1,5 +1,5 @@
 #pragma once
-// Whether the elements of two meshes are the same ones, so that element by element they can be compared. No ImGui.
+// Tells whether two meshes have the same elements, so that they can be compared element by element. No ImGui.
 
 #include <memory>
 
@@ -10,7 +10,7 @@ namespace dmoscope::ui {
 /// Whether both meshes have the same elements with the same corners, wherever their vertices are.
 [[nodiscard]] bool same_elements(const InputMesh& a, const InputMesh& b);
 
-/// Remembers the answer for the two meshes that were asked about last.
+/// Remembers the answer for the latest two meshes.
 class Comparable {
  public:
   [[nodiscard]] bool operator()(const std::shared_ptr<const InputMesh>& a, const std::shared_ptr<const InputMesh>& b);

@@ -24,7 +24,7 @@ void add_metric(Comparison::Row& row, const JudgedBy* by) {
     row.cells.push_back({value, false});
 }
 
-/// Marks the largest values of a column, where there are two that look different.
+/// Marks the largest values of a column if there are two that look different.
 void mark_best(Comparison& comparison, std::size_t column) {
   double best = -INFINITY, least = INFINITY;
   for (const Comparison::Row& row : comparison.rows) {
@@ -75,7 +75,7 @@ Comparison compare_runs(const SessionView& session) {
     if (std::ranges::find(comparison.metrics, metric) == comparison.metrics.end()) comparison.metrics.push_back(metric);
   };
   for (const RunView& run : session.runs) add(run.parameters.metric);
-  add(session.shown);  // last: what is shown changes by a click, and nothing shall move then
+  add(session.shown);  // last, because the shown metric changes by a click, and nothing must move then
   const auto mesh = std::ranges::find(session.meshes, session.input, &InputView::input);
   if (mesh != session.meshes.end()) {
     comparison.rows.emplace_back();

@@ -6,12 +6,12 @@
 namespace dmoscope::ui {
 namespace {
 
-/// One cell: its corners counter-clockwise from the lower left one, their values above or below the level.
+/// One cell: its corners counter-clockwise from the lower left one, and their values relative to the level.
 struct Cell {
   std::array<Vec2<double>, 4> corner;
   std::array<double, 4> above;  // value - level
 
-  /// Where side `k`, from corner k to the next, crosses the level.
+  /// Point where side `k`, from corner k to the next, crosses the level.
   [[nodiscard]] Vec2<double> crossing(std::size_t k) const {
     const std::size_t next = (k + 1) % 4;
     const double t = above[k] / (above[k] - above[next]);
@@ -27,7 +27,8 @@ void march(const Cell& cell, std::vector<ContourPiece>& pieces) {
   }
   if (count == 2) pieces.push_back({cell.crossing(sides[0]), cell.crossing(sides[1])});
   if (count < 4) return;
-  // A saddle: corners 0 and 2 are alike. Those that the middle is unlike are cut off, each by a piece of its own.
+  // This is a saddle: corners 0 and 2 are on the same side of the level. The two corners that the middle is unlike are cut off, each by a
+  // piece of its own.
   const double middle = (cell.above[0] + cell.above[1] + cell.above[2] + cell.above[3]) / 4.0;
   const bool even_together = (middle > 0.0) == (cell.above[0] > 0.0);
   for (const std::size_t cut_off : even_together ? std::array<std::size_t, 2>{1, 3} : std::array<std::size_t, 2>{0, 2})

@@ -26,7 +26,7 @@ bool is_named(const Group& group, std::string_view name) {
   return group.name == name || group.role == name || category_of(group, true) == name;
 }
 
-/// Elements with a corner among the vertices.
+/// Marks elements with a corner among the vertices.
 void mark_around(const Mesh& mesh, const std::vector<std::uint8_t>& vertices, std::vector<std::uint8_t>& elements) {
   for (Index e = 0; e < mesh.elements.size(); ++e) {
     const auto corners = mesh.elements.corners(e);
@@ -36,7 +36,7 @@ void mark_around(const Mesh& mesh, const std::vector<std::uint8_t>& vertices, st
 
 std::vector<std::uint8_t> members_of_group(const Mesh& mesh, const std::string& name) {
   std::vector<std::uint8_t> elements(mesh.elements.size(), 0), vertices(mesh.positions.size(), 0);
-  bool exact = false;  // a group of that name goes before the role of that name
+  bool exact = false;  // a group of that name has priority over the role of that name
   for (const Group& group : mesh.groups) exact = exact || group.name == name;
   for (const Group& group : mesh.groups) {
     if (exact ? group.name != name : !is_named(group, name)) continue;

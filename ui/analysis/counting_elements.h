@@ -1,5 +1,5 @@
 #pragma once
-// Which elements count: those of one category looked at alone, and the worst few. No ImGui, no OpenGL.
+// Elements that count: those of the only category on show, and the worst few. No ImGui, no OpenGL.
 
 #include <cstdint>
 #include <memory>
@@ -12,11 +12,11 @@
 
 namespace dmoscope::ui {
 
-/// Whether `isolation` names something of this mesh; else why not.
+/// Reason why `isolation` names nothing of this mesh; none if it does.
 [[nodiscard]] std::optional<std::string> why_unknown(const Isolation& isolation, const InputMesh& input);
 
-/// `run`: whose colour classes and fixed vertices count; null: none. Of a vertex' own category (valence, colour class, boundary) the
-/// elements around it are members. Null: all elements count.
+/// Marks of the elements that count, one per element; null: all do. `run`: run whose colour classes and fixed vertices are taken; null:
+/// none. In a category of vertices (valence, colour class, boundary) the elements around them are members.
 [[nodiscard]] std::shared_ptr<const std::vector<std::uint8_t>> members_of(const ColouringState& state, const Frame& frame,
                                                                           const RunView* run);
 

@@ -18,7 +18,7 @@ namespace {
 
 using render::in_quality_range;
 
-/// Sorting more than this many qualities would be felt; an even sample of them draws the same curve.
+/// Greatest number of qualities to be sorted without a delay; an even sample of more draws the same curve.
 constexpr Index kMostSorted = 65536;
 
 void refresh_input(Derived& derived, const Frame& frame) {
@@ -38,7 +38,7 @@ void refresh_input(Derived& derived, const Frame& frame) {
   for (const ElementKind kind : frame.input->mesh.elements.kinds()) ++derived.kinds[static_cast<std::size_t>(kind)];
 }
 
-/// Which groups stay because somebody said so.
+/// Finds the groups that stay because the user said so.
 void refresh_fixed_groups(Derived& derived, const Frame& frame, std::span<const Index> fixed) {
   derived.groups_fixed_by.assign(fixed.begin(), fixed.end());
   derived.groups_fixed.assign(frame.input->mesh.groups.size(), false);
@@ -52,7 +52,7 @@ void refresh_fixed_groups(Derived& derived, const Frame& frame, std::span<const 
   }
 }
 
-/// Elements that have a quality.
+/// Number of elements that have a quality.
 Index counted_elements(const Histogram& histogram) {
   return std::accumulate(histogram.counts.begin(), histogram.counts.end(), histogram.below + histogram.above);
 }
@@ -62,7 +62,7 @@ void widen(std::map<Metric, std::pair<double, double>>& seen, Metric metric, std
   if (!added) at->second = {std::min(at->second.first, range.first), std::max(at->second.second, range.second)};
 }
 
-/// One look at all elements: how many lie outside the colours' range, and how many count.
+/// Counts the elements outside the colours' range and those that count, in one pass.
 void count_elements(Derived& derived, const ViewState& state, const Frame& frame) {
   derived.outside_low = derived.outside_high = 0;
   derived.undefined = frame.device && counted_elements(frame.now) < frame.element_count();
@@ -85,7 +85,7 @@ void count_elements(Derived& derived, const ViewState& state, const Frame& frame
   if (!selection.all() && !frame.device) derived.colouring.counting = counting;
 }
 
-/// The range of all frames on show; each is looked at once.
+/// Finds the range of all frames on show; looks at each once.
 bool refresh_own(ColourFacts& facts, std::span<const std::shared_ptr<const Frame>> frames, const Frame& active) {
   std::vector<std::pair<std::uint64_t, std::optional<std::pair<double, double>>>> owns;
   const auto add = [&](const Frame& frame) {
@@ -106,7 +106,7 @@ bool refresh_own(ColourFacts& facts, std::span<const std::shared_ptr<const Frame
   return true;
 }
 
-/// How the inputs on show are spread, all meshes together, so that colours say the same in all viewports.
+/// Distribution of the qualities of all inputs on show together, so that colours mean the same in all viewports.
 std::shared_ptr<const InputSpread> spread_of_inputs(std::span<const std::shared_ptr<const Frame>> frames, const Frame& active) {
   std::vector<std::shared_ptr<const InputSpread>> spreads{active.input_spread};
   for (const auto& frame : frames)
@@ -140,7 +140,7 @@ void for_sample(const Frame& frame, Visit visit) {
   for (Index e = 0; e < size; e += step) visit(e);
 }
 
-/// A curve through the edges of the bins; those below lie at the lower edge, but the worst at its value.
+/// Sorted qualities by a histogram, through the edges of its bins; elements below lie at the lower edge, but the worst at its value.
 std::vector<double> sorted_by_histogram(const Frame& frame) {
   constexpr int kPoints = 512;
   const Histogram& histogram = frame.now;
@@ -148,7 +148,7 @@ std::vector<double> sorted_by_histogram(const Frame& frame) {
   const double all = counted_elements(histogram);
   std::vector<double> curve;
   std::size_t bin = 0;
-  double before = histogram.below;  // elements before the bin
+  double before = histogram.below;  // number of elements before the bin
   for (int k = 0; k < kPoints && all > 0; ++k) {
     const double rank = all * (k + 0.5) / kPoints;
     while (bin < Histogram::kBins && before + histogram.counts[bin] <= rank) before += histogram.counts[bin++];
@@ -240,7 +240,7 @@ render::ColourScale shown_scale(const ViewState& state, const Derived& derived) 
   const ColourFacts& facts = derived.colouring;
   if (facts.colours) {
     std::tie(scale.low, scale.high) = facts.values_range.value_or(facts.colours->range);
-    // Of quality the low is what is sought, of other values the high.
+    // Maps show low values of quality brightly; of other values the high ones are sought.
     if (render::low_is_bright(scale.map)) scale.reversed = !scale.reversed;
   }
   if (facts.colours && facts.colours->centred) {

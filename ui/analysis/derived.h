@@ -17,44 +17,44 @@
 
 namespace dmoscope::ui {
 
-/// Values worked out once a frame serial, not once a drawing.
+/// Values derived from a frame, worked out once a frame serial.
 struct Derived {
   std::uint64_t input_serial = 0, frame_serial = 0;
   std::vector<Metric> metrics;          // defined for every element
   std::vector<std::string> mesh_facts;  // sentences of the report
-  std::string interfaces;               // what stays where the active run's interfaces are fixed; empty for nothing
-  std::string free_interfaces;          // what may move where they are free
+  std::string interfaces;               // sentence on what stays while the active run's interfaces are fixed; empty for nothing
+  std::string free_interfaces;          // sentence on what may move while they are free
   std::vector<GroupLine> groups;
-  std::vector<bool> groups_fixed;      // one of each: whether all its vertices are among groups_fixed_by
-  std::vector<Index> groups_fixed_by;  // what the active run's user has fixed
+  std::vector<bool> groups_fixed;      // for each group whether all its vertices are among groups_fixed_by
+  std::vector<Index> groups_fixed_by;  // vertices that the active run's user has fixed
   std::array<std::size_t, kElementKindCount> kinds{};
-  std::vector<double> sorted_now, sorted_before;  // a sample of the shown quality, ascending; filled when its plot is open. Of a light
-                                                  // frame, now: as far as the histogram tells
+  std::vector<double> sorted_now, sorted_before;  // samples of the shown quality, ascending; filled when their plot is open. sorted_now of
+                                                  // a light frame is from its histogram
   std::pair<std::uint64_t, Metric> sorted_before_key{0, Metric::MeanRatio};  // input_serial and metric of sorted_before
   std::size_t outside_low = 0,
               outside_high = 0;           // elements outside the colours' range, inverted ones not counted; 0 for a device-resident frame
   bool undefined = false;                 // some element's shown quality is NaN
-  std::optional<AngleSpan> worst_angles;  // of the worst element by the shown metric, unless it is inverted
-  PickedFacts facts;                      // of what is picked
-  std::pair<std::uint64_t, Picked> facts_key;  // frame serial and what was picked when they were read
-  std::pair<double, double> range{0.0, 1.0};   // of the colours of quality
+  std::optional<AngleSpan> worst_angles;  // angles of the worst element by the shown metric, unless it is inverted
+  PickedFacts facts;                      // facts of the pick
+  std::pair<std::uint64_t, Picked> facts_key;  // frame serial and pick for which they were read
+  std::pair<double, double> range{0.0, 1.0};   // range of the colours of quality
   ColourFacts colouring;
 };
 
 /// Brings `derived` up to date with the session's frame and the view's colour range, plot and selection; cheap when nothing changed.
-/// `frames`: all on show, over which colours range; none: the session's alone.
+/// `frames`: all on show, for the range of colours; none: only the session's.
 void refresh(Derived& derived, const ViewState& state, const SessionView& session,
              std::span<const std::shared_ptr<const Frame>> frames = {});
-/// Which elements count, of one frame.
+/// Finds which elements of one frame count.
 void refresh_members(ColourFacts& facts, const ViewState& state, const SessionView& session);
 
-/// How a quality becomes a colour now: in the mesh, the bar, legends and heat maps alike.
+/// Scale from quality to colour, the same in the mesh, the bar, legends and heat maps.
 [[nodiscard]] render::ColourScale colour_scale(const ViewState& state, const Derived& derived);
-/// The same for what the elements are coloured by now, where those are no categories.
+/// Scale of the values that the elements are coloured by now, unless these are categories.
 [[nodiscard]] render::ColourScale shown_scale(const ViewState& state, const Derived& derived);
-/// Which elements count now.
+/// Selection of the elements that count now.
 [[nodiscard]] render::Selection selection_of(const ViewState& state, const Derived& derived);
-/// What a picture tells about its colours.
+/// Legend of a picture's colours.
 [[nodiscard]] render::Legend legend_of(const ViewState& state, const Derived& derived, const Frame& frame);
 
 }  // namespace dmoscope::ui

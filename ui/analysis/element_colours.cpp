@@ -20,7 +20,7 @@ namespace {
 
 using By = render::Shading::By;
 
-/// What a function below has found; the shading is moved to its place in the end.
+/// Results of the functions below; the shading is moved to its place in the end.
 struct Work {
   const ColourRequest& request;
   const Mesh& mesh;
@@ -32,7 +32,7 @@ struct Work {
     shading.values.assign(size, -1.0F);
     out.counted = counted;
   }
-  /// A category without an order.
+  /// Adds a category without an order.
   void add_category(std::string name) { out.categories.push_back({std::move(name), category_colour(out.categories.size()), 0}); }
   void put(Index id, std::size_t category) {
     shading.values[id] = static_cast<float>(category);
@@ -114,14 +114,14 @@ void by_inverted(Work& work) {
 
 /// Of one or several elements.
 struct Edges {
-  Plane plane{};  // which says how far two positions are apart
+  Plane plane{};  // measures how far two positions are apart
   double sum = 0.0;
   std::size_t count = 0;
   void add(Vec3 a, Vec3 b) {
     sum += length(plane.difference(b, a));
     ++count;
   }
-  /// Each edge of a volume element twice, as it is one of two faces.
+  /// Adds each edge of a volume element twice, once for each of its two faces.
   void add_element(const ElementTable& elements, std::span<const Vec3> at, Index element) {
     const auto corners = elements.corners(element);
     const auto faces = faces_of(elements.kind(element));
@@ -206,7 +206,7 @@ void by_size(Work& work) {
   work.out.title = work.request.frame->input->is_volume() ? "volume / mean volume" : "area / mean area";
 }
 
-/// Of every vertex the logarithm (of 10) of its mean edge, over the size that is wanted where it stands if there is one.
+/// Decimal logarithm of each vertex's mean edge length, divided by the wanted size at its place if there is one.
 std::vector<double> edge_logarithms(const Frame& frame, const SizeField* size) {
   const PlanarView mesh = frame.input->planar_view();
   std::vector<double> logarithms(frame.vertex_count());
@@ -224,7 +224,7 @@ void find_log_range(Work& work) {
   work.out.logarithmic = true;
 }
 
-/// Colours each element by the mean of what its corners have.
+/// Colours each element by the mean of its corners' values.
 void by_corners(Work& work, std::span<const double> values) {
   work.shading.values.resize(work.mesh.elements.size());
   for (Index e = 0; e < work.mesh.elements.size(); ++e) {
@@ -237,7 +237,7 @@ void by_corners(Work& work, std::span<const double> values) {
   find_log_range(work);
 }
 
-/// Each volume element by its own edges.
+/// Colours each volume element by its own edges.
 void by_own_edges(Work& work) {
   work.shading.values.resize(work.mesh.elements.size());
   for (Index e = 0; e < work.mesh.elements.size(); ++e) {
@@ -275,11 +275,11 @@ void by_size_over_target(Work& work) {
     for (double& value : values) value -= sum / static_cast<double>(count);
   by_corners(work, values);
   const double widest = std::max(std::abs(work.out.range.first), std::abs(work.out.range.second));
-  work.out.range = {-widest, widest};  // so that 1 is in the middle
+  work.out.range = {-widest, widest};  // so that ratio 1 is in the middle
   work.out.centred = true;
 }
 
-/// "run 2, iteration 10", "input"
+/// Name of a frame: "run 2, iteration 10", "input".
 std::string name_of(const Frame& frame) {
   if (frame.run == Frame::kNoRun) return "input";
   std::string name = fmt::format("run {}, iteration {}", frame.run + 1, frame.moment.iteration);
@@ -301,7 +301,7 @@ void by_difference(Work& work) {
   work.shading.values.resize(frame.quality.size());
   double most = 0.0;
   for (Index e = 0; e < frame.quality.size(); ++e) {
-    // In float, as both are shown: what did not change has no difference.
+    // Both are rounded to float, as they are shown, so that unchanged elements have no difference.
     const float before =
         same_metric ? reference.quality[e] : static_cast<float>(element_quality(context, reference.positions, frame.shown, e));
     const float difference = frame.quality[e] - before;
@@ -311,7 +311,7 @@ void by_difference(Work& work) {
     if (std::isfinite(difference)) most = std::max(most, std::abs(static_cast<double>(difference)));
   }
   constexpr double kLeast = 0.01;
-  if (most == 0.0) most = kLeast;  // all is the same, which must not widen the range of the viewports beside it
+  if (most == 0.0) most = kLeast;  // all differences are 0, which must not widen the range of the viewports beside it
   work.out.range = {-most, most};
   work.out.diverging = work.out.centred = true;
   const std::string metric(info(frame.shown).title);
@@ -350,7 +350,7 @@ ElementColours colour_elements(const ColourRequest& request) {
     at->second(work);
   if (work.out.common_title.empty()) work.out.common_title = work.out.title;
   for (const Category& category : work.out.categories) work.shading.palette.push_back(category.colour);
-  // A palette that is not empty tells the values are categories.
+  // A palette that is not empty means that the values are categories.
   if (has_categories(request.by) && work.shading.palette.empty()) work.shading.palette.push_back({});
   work.out.shading = std::make_shared<const render::Shading>(std::move(work.shading));
   return std::move(work.out);

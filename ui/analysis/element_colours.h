@@ -1,5 +1,5 @@
 #pragma once
-// Works out what elements are coloured by instead of their quality, and which of them count. No ImGui, no OpenGL.
+// Works out values to colour elements by instead of their quality, and which of them count. No ImGui, no OpenGL.
 
 #include <cstdint>
 #include <memory>
@@ -18,25 +18,25 @@ namespace dmoscope::ui {
 struct Category {
   std::string name;
   render::Rgb colour;
-  std::size_t count = 0;  // elements or vertices
+  std::size_t count = 0;  // number of elements or vertices
 };
 
-/// What the elements of one frame are coloured by.
+/// Values or categories that the elements of one frame are coloured by.
 struct ElementColours {
   ColourBy by = ColourBy::Quality;
   std::uint64_t input_serial = 0;
   std::shared_ptr<const render::Shading> shading;
   std::string title;                      // "area / mean area"
-  std::string common_title;               // the same for all frames on show together
-  std::string counted;                    // what the categories count: "elements", "vertices"
+  std::string common_title;               // title for all frames on show together
+  std::string counted;                    // things that the categories count: "elements", "vertices"
   std::vector<Category> categories;       // empty: values
-  std::pair<double, double> range{0, 1};  // of the values
+  std::pair<double, double> range{0, 1};  // range of the values
   bool logarithmic = false;               // the values are powers of ten
-  bool centred = false;                   // 0 is the middle of the range, which a map with a middle shows
-  bool has_values = true;                 // any element; else `note` says why none has
+  bool centred = false;                   // 0 is the middle of the range, and of the map
+  bool has_values = true;                 // some element has a value; otherwise `note` says why none has
   bool diverging = false;                 // the values are differences
-  std::size_t better = 0, worse = 0;      // of differences: elements above and below 0
-  std::string note;                       // what is to be known about it, may be empty
+  std::size_t better = 0, worse = 0;      // for differences: elements above and below 0
+  std::string note;                       // remark for the user; may be empty
   std::vector<Category> beside;           // elements without a value, such as those inside
 };
 
@@ -44,33 +44,33 @@ struct ColourRequest {
   ColourBy by = ColourBy::Kind;
   std::shared_ptr<const Frame> frame;
   std::shared_ptr<const Colouring> classes;            // for ColourBy::Class
-  render::ColourMap map = render::ColourMap::Viridis;  // of ordered categories
+  render::ColourMap map = render::ColourMap::Viridis;  // map of ordered categories
   bool reversed = false;
   std::shared_ptr<const SizeField> size{};     // for ColourBy::SizeOverTarget; null: the run has none
-  std::shared_ptr<const Frame> reference{};    // for ColourBy::Difference: whole
+  std::shared_ptr<const Frame> reference{};    // for ColourBy::Difference: the reference as a whole frame
   bool comparable = true;                      // the reference has the same elements
   std::shared_ptr<const Domain> domain{};      // for ColourBy::Deviation, Tilt and Freedom; null: nothing slides
   SharedVector<std::uint8_t> fixed{};          // for ColourBy::Freedom; see Run::fixed
-  std::shared_ptr<const JointCluster> hold{};  // for ColourBy::Multiplier: what holds the minimum; null: not known
+  std::shared_ptr<const JointCluster> hold{};  // for ColourBy::Multiplier: the joint move that holds the minimum; null: not known
 };
 
-/// Whether it depends on where the vertices are, so that it is worked out for every frame, and cannot be for a light one.
+/// Whether colours depend on positions: then they are worked out for every frame, but not for a light one.
 [[nodiscard]] constexpr bool needs_positions(ColourBy by) {
   return by == ColourBy::Displacement || by == ColourBy::Size || by == ColourBy::EdgeLength || by == ColourBy::SizeOverTarget ||
          by == ColourBy::Difference || by == ColourBy::Deviation || by == ColourBy::Tilt;
 }
 
-/// Whether it takes so long that even a small mesh is not to wait for it.
+/// Whether colours take so long that even a small mesh must not wait for them.
 [[nodiscard]] constexpr bool takes_long(ColourBy by) { return by == ColourBy::Deviation || by == ColourBy::Tilt; }
 
-/// Why the elements of a mesh cannot be coloured so; none where they can.
+/// Reason why the elements of a mesh cannot be coloured so; none if they can.
 [[nodiscard]] std::optional<std::string> why_not_drawn(ColourBy by, const InputMesh& input);
 
 /// Whether colours would be the same all over a mesh that has just been opened, or cannot be drawn at all.
 [[nodiscard]] bool tells_nothing(ColourBy by, const Frame& opened);
 
-/// Takes some 20 ms a million elements, on any thread; what takes_long() some 5 s a million faces, by many threads. `by` must not be
-/// ColourBy::Quality.
+/// Colours of the elements of a frame. Takes some 20 ms a million elements, on any thread; kinds that takes_long() names some 5 s a million
+/// faces, by many threads. `by` must not be ColourBy::Quality.
 [[nodiscard]] ElementColours colour_elements(const ColourRequest& request);
 
 /// A colour-blind safe colour for the k-th of some things without an order (Okabe and Ito 2008; lighter, then darker ones from the eighth

@@ -31,7 +31,7 @@ void read_vertex(PickedFacts& facts, const Frame& frame, Index vertex) {
   }
 }
 
-/// Of corners in order.
+/// Least and greatest angle between corners in order.
 AngleSpan angles_between(std::span<const Vec3> places, const Plane& plane) {
   AngleSpan span{180.0, 0.0};
   const std::size_t n = places.size();
@@ -71,7 +71,7 @@ std::optional<AngleSpan> angles_of(const Frame& frame, Index element) {
   if (frame.positions.empty() || element >= elements.size() || info(elements.kind(element)).dimension != 2) return std::nullopt;
   std::vector<Vec3> places;
   const auto corners = elements.corners(element);
-  for (std::size_t i = 0; i < corners.size(); ++i)  // one with a corner twice has a corner less
+  for (std::size_t i = 0; i < corners.size(); ++i)  // a corner that appears twice counts once
     if (corners[i] != corners[(i + 1) % corners.size()]) places.push_back(frame.positions[corners[i]]);
   if (places.size() < 3) return std::nullopt;
   return angles_between(places, frame.input->geometry.plane);

@@ -11,10 +11,10 @@ namespace dmoscope::ui {
 
 namespace {
 
-/// The reference element of a kind, and where its last corner goes.
+/// The reference element of a kind, and the place of its last corner.
 struct ReferenceElement {
   ElementKind kind;
-  std::vector<Vec3> corners;  // without the last
+  std::vector<Vec3> corners;  // corners without the last
   double low_x, low_y, high_x, high_y;
 };
 

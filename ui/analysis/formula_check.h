@@ -1,5 +1,5 @@
 #pragma once
-// What there is to say of a formula while it is typed, and a picture of it.
+// Remarks on a formula while it is typed, and a picture of it.
 
 #include <optional>
 #include <string>
@@ -10,26 +10,27 @@
 
 namespace dmoscope::ui {
 
-/// The metric over the last corner of a reference element, whose others stand still: at the middles of columns x rows equal cells.
+/// The metric as a function of the last corner of a reference element, whose other corners are fixed: at the middles of columns x rows
+/// equal cells.
 struct FormulaPicture {
   ElementKind kind = ElementKind::Triangle;
-  double low_x = 0, low_y = 0, high_x = 0, high_y = 0;  // of a tetrahedron: x, and z above the middle of its base
+  double low_x = 0, low_y = 0, high_x = 0, high_y = 0;  // bounds of the picture; of a tetrahedron: x, and z above the middle of its base
   int columns = 0, rows = 0;
   std::vector<float> values{};                       // row by row from below
-  std::vector<std::pair<double, double>> corners{};  // those that stand still
+  std::vector<std::pair<double, double>> corners{};  // the fixed corners
   double greatest = 0.0;
 };
 
 struct FormulaCheck {
-  std::string text{};                      // what it is about
-  std::optional<FormulaPlace> place{};     // where it is wrong
-  std::string error{};                     // and what is; empty: nothing
-  std::string name{}, kinds{}, summary{};  // of one that is right: of its metric, "triangles and ...", its facts
+  std::string text{};                      // text of the formula
+  std::optional<FormulaPlace> place{};     // place of the error
+  std::string error{};                     // message of the error; empty: none
+  std::string name{}, kinds{}, summary{};  // for a correct formula: name of its metric, "triangles and ...", its facts
   std::vector<std::string> warnings{};
-  std::optional<FormulaPicture> picture{};  // of triangles, quadrilaterals or tetrahedra, the first that it is for
+  std::optional<FormulaPicture> picture{};  // for triangles, quadrilaterals or tetrahedra, the first of these that the formula allows
 };
 
-/// Never throws.
+/// Examines a formula. Never throws.
 [[nodiscard]] FormulaCheck check_formula(const std::string& text);
 
 }  // namespace dmoscope::ui

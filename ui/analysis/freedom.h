@@ -1,5 +1,5 @@
 #pragma once
-// How free an element's vertices are to move: what the colours and the filter by freedom are about. No ImGui, no OpenGL.
+// Freedom of elements' vertices to move, for the colours and the filter by freedom. No ImGui, no OpenGL.
 
 #include <array>
 #include <cstdint>
@@ -12,10 +12,11 @@
 
 namespace dmoscope::ui {
 
-/// By the least free of an element's vertices, from none to all of the ways that there are; the first: none of them moves.
+/// Names of an element's freedom, by the least free of its vertices, from no direction to all; the first means that none of the vertices
+/// moves.
 inline constexpr std::array<std::string_view, 5> kFreedoms{"all fixed", "some fixed", "some on a curve", "some on the surface", "all free"};
 
-/// Of every element an index into these. `fixed`: see Run::fixed; `domain`: null, where nothing slides.
+/// Index into kFreedoms for every element. `fixed`: see Run::fixed; `domain`: null if nothing slides.
 [[nodiscard]] std::vector<std::uint8_t> freedom_of_elements(const Mesh& mesh, std::span<const std::uint8_t> fixed, const Domain* domain);
 
 }  // namespace dmoscope::ui

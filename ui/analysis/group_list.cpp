@@ -22,7 +22,7 @@ std::vector<GroupLine> group_lines(const Mesh& mesh) {
   for (std::size_t g = 0; g < facts.size(); ++g) {
     const Group& group = mesh.groups[g];
     GroupLine line{std::move(facts[g]), fmt::format("{}:{}", members_of(group), group.name), std::nullopt};
-    if (group.of_elements() == of_elements) {  // as the mesh is coloured by group: by elements where there are groups of such
+    if (group.of_elements() == of_elements) {  // matches the mesh coloured by group: by elements if there are groups of elements
       const std::string category = category_of(group, many);
       const auto at = std::ranges::find(categories, category);
       line.colour = category_colour(static_cast<std::size_t>(at - categories.begin()));

@@ -1,5 +1,5 @@
 #pragma once
-// The groups of a mesh as the window lists them.
+// Groups of a mesh in the form that the window lists them.
 
 #include <cstddef>
 #include <optional>
@@ -11,17 +11,18 @@
 
 namespace dmoscope::ui {
 
-/// With more groups than this, those of one role and code are one category of colours (hundreds of islands).
+/// Greatest number of groups with categories of their own; with more, those of one role and code share a category of colours (hundreds of
+/// islands).
 inline constexpr std::size_t kMostGroupCategories = 8;
 /// The category that a group belongs to; `many`: there are more than kMostGroupCategories groups.
 [[nodiscard]] std::string category_of(const Group& group, bool many);
 
 struct GroupLine {
   GroupFacts facts;
-  std::string word;                   // by which `fix` knows it, "elements:steel"
-  std::optional<render::Rgb> colour;  // in the mesh coloured by group; none: it is not coloured
+  std::string word;                   // name that `fix` takes, "elements:steel"
+  std::optional<render::Rgb> colour;  // its colour in the mesh coloured by group; none: it is not coloured
 };
-/// One for each of the mesh's groups, in their order.
+/// One line for each of the mesh's groups, in their order.
 [[nodiscard]] std::vector<GroupLine> group_lines(const Mesh& mesh);
 
 }  // namespace dmoscope::ui

@@ -1,14 +1,14 @@
 #pragma once
-// What elements are coloured by that hold one another at the minimum. Part of colour_elements().
+// Colours of elements that hold one another at the minimum. Part of colour_elements().
 
 #include "ui/analysis/element_colours.h"
 
 namespace dmoscope::ui {
 
-/// For ColourBy::Multiplier.
+/// Colours elements for ColourBy::Multiplier.
 void colour_by_multiplier(const ColourRequest& request, ElementColours& colours, render::Shading& shading);
 
-/// The elements at the vertices of a cluster, ascending.
+/// Elements at the vertices of a cluster, ascending.
 [[nodiscard]] std::vector<Index> elements_of(const JointCluster& cluster, const InputMesh& input);
 
 }  // namespace dmoscope::ui

@@ -17,8 +17,8 @@
 namespace dmoscope::ui {
 namespace {
 
-constexpr int kFieldSamples = 96;  // per axis
-constexpr int kFieldLines = 9;     // about so many contours
+constexpr int kFieldSamples = 96;  // samples of the field per axis
+constexpr int kFieldLines = 9;     // approximate number of contours
 
 const RunView* active_run(const SessionView& session) {
   return session.active < session.runs.size() ? &session.runs[session.active] : nullptr;
@@ -34,7 +34,8 @@ Inspection::Key key_of(const SessionView& session, Index vertex) {
           run->parameters.metric, run->parameters.search, run->parameters.method};
 }
 
-/// What visits of the frame are part of: it may be a mark, and the run stand elsewhere. Throws UsageError when that is not known any more.
+/// The sweep that visits of the frame belong to; the frame may be a mark, and the run at another moment. Throws UsageError when it is no
+/// longer known.
 Sweep sweep_of(const RunView& run, const Moment& shown, const InputMesh& input) {
   if (shown == run.moment) return run.sweep;
   if (shown.iteration >= run.records.size())
@@ -42,11 +43,11 @@ Sweep sweep_of(const RunView& run, const Moment& shown, const InputMesh& input) 
   return sweep_after(run.records.whole(), shown.iteration, {run.phases.mean_since, run.parameters.mean}, input.has_strays);
 }
 
-/// What the run's smoother is made from, but for the order of its visits.
+/// Task of the run's smoother, except for the order of its visits.
 SmoothingTask task_of(const RunView& run, const Frame& frame) {
   const RunParameters& p = run.parameters;
   SmoothingTask task;
-  task.method = method_info(p.method).searches_grid ? std::string_view(p.method) : "dmo";  // else it is what dmo would do
+  task.method = method_info(p.method).searches_grid ? std::string_view(p.method) : "dmo";  // other methods show what dmo would do
   task.input = frame.input;
   task.metric = p.metric;
   task.search = p.search;
@@ -61,7 +62,7 @@ SmoothingTask task_of(const RunView& run, const Frame& frame) {
   return task;
 }
 
-/// Of the star, each once.
+/// Edges of the star, each once.
 std::vector<std::array<Index, 2>> edges_of(const InputMesh& input, Index vertex) {
   std::vector<std::array<Index, 2>> edges;
   for (const Incidence& incidence : input.topology.star(vertex)) {
@@ -87,7 +88,7 @@ std::vector<std::array<Index, 2>> edges_of(const InputMesh& input, Index vertex)
   return edges;
 }
 
-/// Edges and corners of the star, relative to the vertex.
+/// Gathers edges and corners of the star, relative to the vertex.
 void gather_star(Inspection& inspection, const Frame& frame, Index vertex) {
   const InputMesh& input = *frame.input;
   const Vec3 origin = frame.positions[vertex];
@@ -106,7 +107,7 @@ void gather_star(Inspection& inspection, const Frame& frame, Index vertex) {
   for (const Index corner : corners) inspection.box.include(away(corner));
 }
 
-/// Round values between the least and the greatest quality of the valid region.
+/// Adds lines at round values between the least and the greatest quality of the valid region.
 void add_lines(FieldPicture& picture) {
   const QualityField& field = picture.field;
   std::vector<float> valid = field.quality;
@@ -126,7 +127,7 @@ void add_lines(FieldPicture& picture) {
   }
 }
 
-/// Of the star and the grids.
+/// Box of the star and the grids.
 render::Bounds2 box_of(const Inspection& inspection) {
   render::Bounds2 box{{inspection.box.low.x, inspection.box.low.y}, {inspection.box.high.x, inspection.box.high.y}};
   for (const TracedLevel& level : inspection.trace->levels) {
@@ -148,7 +149,7 @@ render::Bounds2 box_in(const StarSlice& slice, const Inspection& inspection) {
 }
 double along(int axis, Vec3 p) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
 
-/// Of the star's box and the first grid's, with a margin. The vertex may stand elsewhere by now.
+/// Samples the field over the box of the star and the first grid, with a margin. The vertex may have moved since.
 void sample_field(Inspection& inspection, const SessionView& session) {
   const Frame& frame = *session.frame;
   const bool volume = inspection.solid.has_value();
@@ -180,7 +181,7 @@ void sample_field(Inspection& inspection, const SessionView& session) {
   inspection.field = std::move(picture);
 }
 
-/// The move that was applied is what the frame shows, or has not come yet, and nothing else of the star has moved.
+/// Whether the frame shows the applied move, or the move is still to come, and nothing else of the star has moved.
 bool still_applied(const Inspection& inspection, const SessionView& session, bool busy) {
   const Frame& frame = *session.frame;
   Inspection::Key key = key_of(session, inspection.key.vertex);
@@ -203,7 +204,7 @@ std::optional<std::pair<double, double>> range_of(const LevelValues& level, bool
   return range;
 }
 
-/// All but the wishes of how things are shown.
+/// Resets everything except the choices of display.
 void forget(InspectionState& state) {
   InspectionState closed;
   closed.zoom = state.zoom;
@@ -324,7 +325,7 @@ Index worst_free_corner(const SessionView& session, Index element) {
   if (run == nullptr || session.frame == nullptr) throw UsageError("no mesh is open");
   const Frame& frame = *session.frame;
   Index worst = kNoIndex;
-  std::pair<double, double> value{};  // quality now, and minus the quality after the visit: the least is wanted
+  std::pair<double, double> value{};  // quality now, and minus the quality after the visit: the least pair is the worst
   for (const Index corner : frame.input->mesh.elements.corners(element)) {
     if (!is_free(*run, corner)) continue;
     if (frame.device) return corner;

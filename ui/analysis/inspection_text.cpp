@@ -66,7 +66,7 @@ std::string stuck_sentence(const Inspection& inspection) {
   if (trace.combined) return text;
   if (const Index limit = limiting_element(trace, false); limit != kNoIndex) text += fmt::format(" Element {} limits it.", count(limit));
   if (inspection.optimum) {
-    constexpr double kNothing = 1e-6;  // a gap that no one would see
+    constexpr double kNothing = 1e-6;  // a gap too small to be seen
     text += inspection.optimum->quality - trace.before.quality < kNothing
                 ? " No place is better for this vertex: only its neighbours can change that."
                 : " The best position lies between the candidates.";

@@ -1,5 +1,5 @@
 #pragma once
-// The metrics that a person may choose besides the built-in ones.
+// Metrics that a person may choose besides the built-in ones.
 
 #include <string>
 #include <vector>
@@ -8,11 +8,11 @@
 
 namespace dmoscope::ui {
 
-/// Formulas with names of their own, those of the session's runs and the one that is shown; where the active run has a target, metrics
-/// against it. All are defined for the active mesh.
+/// Formulas with names of their own, those of the session's runs and the one that is shown; if the active run has a target, metrics against
+/// it. All are defined for the active mesh.
 [[nodiscard]] std::vector<Metric> further_metrics(const SessionView& session);
 
-/// Targets that fit a mesh, as they are written, with what a list calls them.
+/// A target that fits a mesh, as it is written, with its name in lists.
 struct TargetChoice {
   std::string text, title, doc;
 };

@@ -5,7 +5,7 @@
 namespace dmoscope::ui {
 
 const Outline* OutlineSource::of(const std::shared_ptr<const InputMesh>& input) {
-  constexpr Index kBig = 50'000;  // elements whose half-edges take long enough to be felt
+  constexpr Index kBig = 50'000;  // elements; half-edges of larger meshes take long enough to be felt
   if (pending_.valid()) {
     if (pending_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return nullptr;
     outline_ = pending_.get();

@@ -1,5 +1,5 @@
 #pragma once
-// The boundary loops of the mesh that is open, found once somebody asks for them; of a large mesh on a thread of their own. No ImGui.
+// Boundary loops of the open mesh, found on demand; for a large mesh on a thread of their own. No ImGui.
 
 #include <future>
 #include <memory>
@@ -11,13 +11,13 @@ namespace dmoscope::ui {
 
 class OutlineSource {
  public:
-  /// Null while they are being found.
+  /// Outline of a mesh; null while it is being found.
   [[nodiscard]] const Outline* of(const std::shared_ptr<const InputMesh>& input);
-  /// Nothing is being found.
+  /// Whether nothing is being found.
   [[nodiscard]] bool settled() const noexcept { return !pending_.valid(); }
 
  private:
-  std::shared_ptr<const InputMesh> input_;  // whose they are
+  std::shared_ptr<const InputMesh> input_;  // mesh that they belong to
   std::shared_ptr<const Outline> outline_;
   std::future<std::shared_ptr<const Outline>> pending_;
 };

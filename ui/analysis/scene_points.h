@@ -1,5 +1,5 @@
 #pragma once
-// A mesh's positions where its scene has them, in a plane or in space.
+// Maps a mesh's positions to its scene, in a plane or in space.
 
 #include <optional>
 
@@ -9,9 +9,9 @@
 
 namespace dmoscope::ui {
 
-/// From the positions of a mesh to the points of its scene.
+/// Maps positions of a mesh to points of its scene.
 struct ScenePoints {
-  std::optional<Plane> plane{};  // of a planar mesh; none: the points are the positions
+  std::optional<Plane> plane{};  // for a planar mesh; none: the points are the positions
 
   [[nodiscard]] static ScenePoints of(const InputMesh& input) {
     return {input.in_space() ? std::nullopt : std::optional(input.geometry.plane)};
@@ -22,7 +22,7 @@ struct ScenePoints {
     return plane && plane->period > 0.0 ? at(other) + way(position, other) : at(position);
   }
   [[nodiscard]] Vec3 way(Vec3 to, Vec3 from) const { return plane ? render::in_scene(plane->offset(to, from)) : to - from; }
-  /// Of a vector of the mesh's space.
+  /// Direction in the scene of a vector of the mesh's space.
   [[nodiscard]] Vec3 along(Vec3 vector) const { return plane ? render::in_scene(plane->project(vector)) : vector; }
 };
 

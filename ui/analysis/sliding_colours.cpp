@@ -15,7 +15,7 @@
 namespace dmoscope::ui {
 namespace {
 
-constexpr std::size_t kWorthThreads = 20'000;  // faces
+constexpr std::size_t kWorthThreads = 20'000;  // faces; fewer are not worth several threads
 
 void by_freedom(const ColourRequest& request, ElementColours& colours, render::Shading& shading) {
   const Mesh& mesh = request.frame->input->mesh;
@@ -65,7 +65,7 @@ void by_fit(const ColourRequest& request, ElementColours& colours, render::Shadi
   }
   if (inside > 0) colours.beside.push_back({frame.input->is_surface() ? "beside it" : "inside", render::kUndefinedColour, inside});
   const double size = frame.input->geometry.size;
-  const double least = tilt ? 1.0 : 1e-6 * size;  // less is no range to spread colours over
+  const double least = tilt ? 1.0 : 1e-6 * size;  // smallest range that colours are spread over
   colours.range = {0.0, std::max(most, least)};
   const std::string from = frame.input->surface ? frame.input->surface->mesh.name : tilt ? "the input's surface" : "the input";
   colours.common_title = tilt ? fmt::format("tilt from {}, degrees", from) : fmt::format("deviation from {}", from);

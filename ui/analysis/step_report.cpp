@@ -16,7 +16,7 @@ constexpr double kForever = std::numeric_limits<double>::infinity();
 
 bool same_place(const Vec3& a, const Vec3& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
-/// How long the edges of a vertex are, about.
+/// Approximate length of a vertex's edges.
 double edge_of(const Frame& frame, Index vertex) {
   double sum = 0.0;
   std::size_t count = 0;
@@ -35,7 +35,7 @@ float worst_around(const Frame& frame, Index vertex) {
   return worst;
 }
 
-/// "minimum 0.312 → 0.498", "minimum unchanged 0.312"
+/// Change of a value: "minimum 0.312 → 0.498", "minimum unchanged 0.312".
 std::string course(const char* what, double before, double after) {
   const std::string from = short_number(before), to = short_number(after);
   return from == to ? fmt::format("{} unchanged {}", what, to) : fmt::format("{} {} → {}", what, from, to);
@@ -65,7 +65,7 @@ std::uint64_t visits_between(const Moment& before, const Moment& after, std::uin
   return (after.iteration - before.iteration) * each + after.visits - before.visits;
 }
 
-/// "iteration 3", "class 2 of 7", "12 visits"
+/// Name of a step: "iteration 3", "class 2 of 7", "12 visits".
 std::string step_name(const Moment& before, const Moment& after, const RunView& run) {
   if (after.edits > before.edits && after.iteration == before.iteration && after.visits == before.visits) return "edit";
   const std::uint64_t visits = visits_between(before, after, run.visits_per_iteration);
@@ -83,14 +83,14 @@ std::string step_name(const Moment& before, const Moment& after, const RunView& 
   return counted(visits, "visit", "visits");
 }
 
-/// Who was visited where one was, and stayed.
+/// The vertex that a step visited and that stayed, if the step was a single visit.
 std::optional<Index> visited(const Moment& before, const Moment& after, const RunView& run) {
   if (!run.colouring || after.edits != before.edits || visits_between(before, after, run.visits_per_iteration) != 1) return std::nullopt;
   const std::uint64_t at = (after.visits == 0 ? run.visits_per_iteration : after.visits) - 1;
   return at < run.colouring->order.size() ? std::optional(run.colouring->order[at]) : std::nullopt;
 }
 
-/// How strong the flash is now. Returns when it will be another.
+/// Sets the present strength of the flash. Returns when it will change.
 double fade(SteppingState& stepping, double now) {
   constexpr double kFading = 0.7;  // seconds
   const StepNews& news = stepping.news;
@@ -156,7 +156,7 @@ double StepWatch::follow(ViewState& state, const SessionView& session, bool busy
     const bool ended = same_run && outcome_ != run.last_outcome && has_converged(run);
     if (!same_run || ended || rest_->moment != frame->moment) {
       auto news = same_run ? report_step(*rest_, *frame, run) : std::nullopt;
-      // What the step itself has said goes before what is found out here, but for why it ended, which is told shorter.
+      // The step's own message comes before the sentence found here, except that the reason for its end is told shorter.
       const auto& said = state.result.newest();
       const bool spoken = messages_ != state.messages && !(ended && said && said->kind == Message::Kind::Info);
       stepping.news = news ? std::move(*news) : StepNews{};

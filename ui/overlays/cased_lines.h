@@ -1,5 +1,5 @@
 #pragma once
-// Lines under a broader casing.
+// Lines over broader casings.
 
 #include <utility>
 #include <vector>
@@ -13,7 +13,8 @@ struct Inks {
   render::Rgba ink, casing;
 };
 
-/// All casings come first, so that none covers a line: the lines themselves are added at the end of this object's life.
+/// Adds casings at once and collects the lines, so that no casing covers a line: the lines themselves are added at the end of this object's
+/// life.
 class CasedLines {
  public:
   CasedLines(render::Marks& marks, Inks inks) : marks_(marks), inks_(inks) {}

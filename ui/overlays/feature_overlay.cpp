@@ -21,7 +21,7 @@ class FeatureOverlay final : public Overlay {
   }
 
  private:
-  /// Where vertices of the run on show slide, where that is wanted; null: none does.
+  /// Domain of the run on show if its vertices slide and this is to be shown; else null.
   [[nodiscard]] static const Domain* domain_of(const OverlayInput& in) {
     return in.state.features && in.run() != nullptr ? in.run()->domain.get() : nullptr;
   }

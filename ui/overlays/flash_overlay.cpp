@@ -13,8 +13,8 @@ Inks flash_inks(const ViewState& state) {
   return {solid(colours.text, 255 * level / kFlashLevels), solid(colours.background, 230 * level / kFlashLevels)};
 }
 
-/// The one vertex that a step visited, whether something hides it or not: a ring, and an arrow from where it was. Steps of more are seen
-/// by the tint of their elements alone.
+/// Marks the only vertex that a step visited, even if something hides it: with a ring, and an arrow from its old place. Steps of several
+/// vertices only tint their elements.
 class FlashOverlay final : public Overlay {
  public:
   [[nodiscard]] bool wanted(const OverlayInput& in) const override {

@@ -18,12 +18,12 @@ constexpr double kLongestForce = 44.0, kShortestForce = 5.0, kForcesApart = 14.0
 constexpr float kRim = 1.5F, kRimCasing = 3.5F, kActiveCasing = 5.0F, kThinnest = 1.5F, kThickest = 3.5F;
 constexpr std::size_t kMostHolders = 2000;
 
-/// The longer the more it holds.
+/// Width of the lines of an element: the more it holds, the wider.
 float width_of(const JointCluster& cluster, const JointCluster::Active& one) {
   return kThinnest + (kThickest - kThinnest) * static_cast<float>(std::sqrt(one.multiplier / cluster.active.front().multiplier));
 }
 
-/// Of a flat element across its longest edge, about.
+/// Approximate thickness of a flat element, across its longest edge.
 double thickness(const ScenePoints& points, const InputMesh& input, std::span<const Vec3> positions, Index element) {
   const auto corners = input.mesh.elements.corners(element);
   double longest = 0.0;
@@ -43,7 +43,7 @@ double longest_force(const JointCluster& cluster) {
   return most;
 }
 
-/// Edges that one element of the cluster alone has.
+/// Edges that belong to only one element of the cluster.
 std::vector<std::array<Index, 2>> rim_of(const JointCluster& cluster, const InputMesh& input) {
   std::map<std::array<Index, 2>, int> count;
   for (const Index e : elements_of(cluster, input)) {
@@ -74,7 +74,7 @@ void add_forces(render::Marks& marks, const MarkView& view, const JointCluster& 
   }
 }
 
-/// The rim of the cluster, the elements that hold one another, and their forces; nothing hides them. A cluster of a volume has no rim.
+/// Adds the rim of the cluster, the elements that hold one another, and their forces; nothing hides them. A cluster of a volume has no rim.
 void add_holders(render::Marks& marks, const MarkView& view, const JointCluster& cluster, const InputMesh& input,
                  std::span<const Vec3> positions, Inks inks) {
   {
@@ -86,7 +86,7 @@ void add_holders(render::Marks& marks, const MarkView& view, const JointCluster&
     if (rim.size() <= kMostMarks)
       for (const auto& [a, b] : rim) add(a, b, kRim, kRimCasing);
     for (const JointCluster::Active& one : holders(cluster).first(std::min(kMostHolders, holders(cluster).size()))) {
-      if (input.is_volume()) {  // between so many edges no width could be told
+      if (input.is_volume()) {  // no width could be seen between so many edges
         marks.elements.push_back(one.element);
       } else if (thickness(view.points, input, positions, one.element) >= view.units(kThinnestElement)) {
         for_edges(input.mesh.elements, one.element, [&](Index a, Index b) { add(a, b, width_of(cluster, one), kActiveCasing); });

@@ -12,13 +12,13 @@ using render::DotShape;
 
 render::Rgba opaque(render::Rgb colour) { return {colour.r, colour.g, colour.b, 255}; }
 
-/// Points are relative to where the vertex stood.
+/// Draws marks at points relative to the vertex's place before the visit.
 class Pen {
  public:
   Pen(render::Marks& marks, Vec3 origin, const InspectionLook& of_visit)
       : look(of_visit), marks_(marks), lines_(marks, {of_visit.ink, of_visit.casing}), origin_(origin) {}
   void line(Vec3 from, Vec3 to, float width) { lines_.add(origin_ + from, origin_ + to, width, width + 2.0F); }
-  /// Of the star of a volume: behind all else, and faint.
+  /// Draws an edge of a volume's star: behind everything else, and faint.
   void ghost(Vec3 from, Vec3 to) {
     render::Rgba ink = look.ink;
     ink.a = 110;
@@ -42,19 +42,19 @@ class Visit {
   virtual ~Visit() = default;
   [[nodiscard]] int levels() const { return static_cast<int>(inspection_.level_count()); }
   [[nodiscard]] const LevelValues& level(int number) const { return inspection_.level(number); }
-  /// Between candidates, in pixels at scale 1.
+  /// Distance between candidates, in pixels at scale 1.
   [[nodiscard]] virtual double spacing(int number, const InspectionLook& look) const {
     return least_spacing(flat(number)) / look.units_per_pixel / look.scale;
   }
   [[nodiscard]] Vec3 at(int number, int index) const { return candidate_at(inspection_, number, index); }
-  /// The best so far of a level that has none.
+  /// Place after a level that has no better candidate.
   [[nodiscard]] virtual Vec3 without_best(int number, Vec3 /*reached*/) const { return render::in_scene(flat(number).centre); }
   [[nodiscard]] virtual Vec3 step() const { return render::in_scene(inspection_.trace->step); }
-  /// The grid's outline.
+  /// Draws the grid's outline.
   virtual void box(Pen& pen, int number, float width) const { outline(pen, number, width, render::in_scene); }
-  /// How much larger or smaller than others a candidate is drawn.
+  /// Factor of the size in which a candidate is drawn.
   [[nodiscard]] virtual float size_of(int /*number*/, int /*index*/) const { return 1.0F; }
-  /// Of a valid candidate.
+  /// Shape of the dot of a valid candidate.
   [[nodiscard]] virtual DotShape shape_of(int /*number*/, int /*index*/) const { return DotShape::Round; }
 
  protected:
@@ -71,7 +71,7 @@ class Visit {
 class InVolume final : public Visit {
  public:
   InVolume(const Inspection& inspection, const InspectionState& state) : Visit(inspection), state_(state) {}
-  /// Other than in a plane all of a grid's slices lie over each other: dots are smaller, that more of them is seen.
+  /// Spacing for the size of dots: a grid's slices lie over each other, so dots are smaller than in a plane, and more of them can be seen.
   [[nodiscard]] double spacing(int number, const InspectionLook& look) const override {
     constexpr double kShare = 0.6;
     const VolumeLevel& one = solid(number);
@@ -89,7 +89,7 @@ class InVolume final : public Visit {
       for (const int bit : {1, 2, 4})
         if ((bits & bit) == 0) pen.line(corner(bits), corner(bits | bit), width);
   }
-  /// Those of the slice that the maps show stand out.
+  /// Factor that makes candidates of the slice in the maps stand out.
   [[nodiscard]] float size_of(int number, int index) const override {
     constexpr float kElsewhere = 0.62F;
     return shown_slice(state_, inspection_, number).place(index) ? 1.0F : kElsewhere;
@@ -100,7 +100,7 @@ class InVolume final : public Visit {
   const InspectionState& state_;
 };
 
-/// Candidates lie on the surface; crosses lie on none that counts, squares deviate too far.
+/// Visit of a vertex on a surface. Candidates lie on it; crosses mark those that do not count, squares those that deviate too far.
 class OnSurface final : public Visit {
  public:
   using Visit::Visit;
@@ -115,7 +115,7 @@ class OnSurface final : public Visit {
   }
 };
 
-/// Dots for valid candidates, the larger the better; small crosses for others.
+/// Draws dots for valid candidates, the larger the better, and small crosses for others.
 void draw_candidates(Pen& pen, const Visit& visit, int number) {
   const LevelValues& level = visit.level(number);
   const auto valid = valid_range(level), invalid = invalid_range(level);
@@ -140,7 +140,7 @@ void draw_visit(render::Marks& marks, Vec3 origin, const InspectionState& state,
     if (!state.applied) {
       for (const auto& [a, b] : inspection.edges) inspection.solid ? pen.ghost(a, b) : pen.line(a, b, 1.6F);
     }
-    Vec3 reached{};  // the best so far
+    Vec3 reached{};  // best place so far
     for (int number = first; number <= last; ++number) {
       visit.box(pen, number, 2.0F);
       const auto& best = visit.level(number).best;

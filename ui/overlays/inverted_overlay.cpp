@@ -9,7 +9,7 @@ namespace {
 
 class InvertedOverlay final : public Overlay {
  public:
-  /// In space a diamond would lie over what hides the element.
+  /// Diamonds are for planar meshes: in space they would lie over what hides the element.
   [[nodiscard]] bool wanted(const OverlayInput& in) const override {
     return !in.input().in_space() && !in.searching && in.frame().shown_statistics.inverted > 0;
   }
@@ -20,7 +20,7 @@ class InvertedOverlay final : public Overlay {
   }
 
  private:
-  std::vector<Index> inverted_;  // elements of the frame of this serial
+  std::vector<Index> inverted_;  // inverted elements of the frame with this serial
   std::uint64_t inverted_of_ = 0;
 };
 

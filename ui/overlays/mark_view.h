@@ -1,5 +1,5 @@
 #pragma once
-// A mesh as overlays see it: in a plane or in space alike.
+// A mesh as overlays see it, alike in a plane and in space.
 
 #include <optional>
 #include <span>
@@ -11,32 +11,32 @@
 
 namespace dmoscope::ui {
 
-/// More dots or arrows than this would hide the mesh, and cost too much.
+/// Greatest number of dots or arrows: more would hide the mesh, and cost too much.
 inline constexpr std::size_t kMostMarks = 20'000;
 
 /// The picture that marks are made for.
 struct MarkView {
   render::SceneView view;
-  double scale = 1.0;                          // of the interface
-  ScenePoints points{};                        // of the mesh
-  std::optional<render::Unhidden> unhidden{};  // in space; none: nothing hides anything
+  double scale = 1.0;                          // scale of the interface
+  ScenePoints points{};                        // points of the mesh
+  std::optional<render::Unhidden> unhidden{};  // visible part in space; none: nothing hides anything
 
   [[nodiscard]] double units(double pixels_at_scale_one) const { return pixels_at_scale_one * scale * view.units_per_pixel(); }
   [[nodiscard]] double pixels(Vec3 a, Vec3 b) const { return view.pixels(a, b) / scale; }  // at scale 1
   /// Whether something else covers a vertex, or one of the two ends of an edge.
   [[nodiscard]] bool hides(Index vertex) const;
   [[nodiscard]] bool hides(const EdgeEnds& edge) const;
-  /// Whether a vertex, and some of an edge by its ends, is in the picture and nothing covers it.
+  /// Whether a vertex, or part of an edge given by its ends, is in the picture and nothing covers it.
   [[nodiscard]] bool sees(Index vertex, std::span<const Vec3> positions) const;
   [[nodiscard]] bool sees(const EdgeEnds& edge, std::span<const Vec3> positions) const;
 };
 
-/// Which places of a picture are taken, where marks are to keep apart.
+/// Taken places of a picture in which marks must keep apart.
 class PlacesTaken {
  public:
-  /// `apart`: pixels at scale 1.
+  /// `apart`: least distance in pixels at scale 1.
   PlacesTaken(const MarkView& seen, double apart);
-  /// False where another one came first, or behind the eye.
+  /// Takes a place. False if another mark came first, or the point is behind the eye.
   [[nodiscard]] bool take(Vec3 point);
 
  private:
@@ -47,7 +47,7 @@ class PlacesTaken {
   std::vector<bool> taken_;
 };
 
-/// Calls visit(a, b) for every edge of an element once: vertices.
+/// Calls visit(a, b) once for every edge of an element, with its vertices.
 template <class Visit>
 void for_edges(const ElementTable& elements, Index element, Visit&& visit) {
   const auto faces = faces_of(elements.kind(element));

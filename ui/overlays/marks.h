@@ -8,26 +8,26 @@
 
 namespace dmoscope::ui {
 
-/// Curves and feature edges along which vertices slide as lines, what is held as squares; as far as they are seen.
+/// Adds curves and feature edges along which vertices slide as lines, and held vertices as squares, as far as they are seen.
 void add_features(render::Marks& marks, const MarkView& view, const Domain& domain, std::span<const Vec3> positions, Inks inks);
 
-/// What holds the minimum of the frame on show; null: not known, or not wanted.
+/// The joint move that holds the minimum of the frame on show; null: not known, or not wanted.
 [[nodiscard]] std::shared_ptr<const JointCluster> hold_of(const OverlayInput& in);
 
-/// Ascending; of so many that marks would be a carpet an even choice. None of a frame that lives on a device.
+/// Inverted elements, ascending; if they are too many for marks, an even choice of them. None of a frame that is on a device.
 [[nodiscard]] std::vector<Index> inverted_elements(const Frame& frame);
-/// Diamonds where `elements` are smaller than these in the picture, no two in one place, so that what is around stays to be seen.
+/// Adds diamonds for those of `elements` that are smaller in the picture, no two in one place, so that the surroundings stay visible.
 void add_inverted(render::Marks& marks, const MarkView& view, const Frame& frame, std::span<const Index> elements);
-/// A diamond at a point of the scene.
+/// Adds a diamond at a point of the scene.
 void add_diamond(render::Marks& marks, Vec3 at, float diameter, const render::Style& style);
-/// Of the frame's worst elements all that only their inside inverts, at their place.
+/// Adds marks for those of the frame's worst elements that are inverted only inside, at the place of the least Jacobian.
 void add_inverted_inside(render::Marks& marks, const MarkView& view, const Frame& frame, const render::Style& style);
 
-/// The element that is picked, or those around the vertex that is.
+/// The picked element, or those around the picked vertex.
 [[nodiscard]] std::vector<Index> picked_elements(const OverlayInput& in);
-/// For each element that has a target by `metric` an ellipse of the target's shape and direction, as large as the element, with its longer
-/// axis, in space the three of an ellipsoid; and, thinner, that of the element as it stands. None of curved surfaces, or where the frame is
-/// not on the host.
+/// Adds for each element that has a target by `metric` an ellipse of the target's shape and direction, as large as the element, with its
+/// longer axis (in space the three ellipses of an ellipsoid); and, thinner, the ellipse of the element itself. None for curved surfaces, or
+/// if the frame is not on the host.
 void add_targets(render::Marks& marks, const ScenePoints& points, const Frame& frame, Metric metric, std::span<const Index> elements);
 
 }  // namespace dmoscope::ui

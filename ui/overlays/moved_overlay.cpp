@@ -1,4 +1,4 @@
-// How vertices have moved, and who moves next.
+// Marks of how vertices have moved, and of those that move next.
 #include <array>
 #include <tuple>
 
@@ -69,8 +69,8 @@ class ArrowOverlay final : public Overlay {
  private:
   Displacements moved_;
   std::tuple<const Vec3*, const Vec3*, std::uint64_t, std::uint64_t> moved_of_;
-  double factor_ = 1.0;  // of the arrows drawn last
-  ArrowsAdded added_;    // likewise
+  double factor_ = 1.0;  // factor of the arrows drawn last
+  ArrowsAdded added_;    // counts of the arrows drawn last
 };
 
 class NextClassOverlay final : public Overlay {

@@ -6,7 +6,7 @@
 namespace dmoscope::ui {
 namespace {
 
-/// How far the other corners of the vertex's first element are: how large elements are here.
+/// Distance to the other corners of the vertex's first element, a measure of the size of elements there.
 double edge_at(const ScenePoints& points, const InputMesh& input, std::span<const Vec3> positions, Index vertex) {
   const auto star = input.topology.star(vertex);
   if (star.empty()) return 0.0;
@@ -89,7 +89,7 @@ ArrowsAdded add_arrows(render::Marks& marks, const MarkView& view, const Displac
   CasedLines lines(marks, inks);
   moved.for_each([&](const Displacements::One& one) {
     const Vec3 way = factor * one.way, tip = one.from + way;
-    // All that follow are no more than twice as long as this one.
+    // All ways that follow are at most twice as long as this one.
     if (2.0 * view.view.most_pixels(length(way)) < kLeast * view.scale) return false;
     if (view.hides(one.vertex) || view.pixels(one.from, tip) < kLeast || !view.view.meets(one.from, tip)) return true;
     if (added.drawn == kMostMarks || !taken.take(one.from)) {

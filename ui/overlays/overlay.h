@@ -1,5 +1,5 @@
 #pragma once
-// What is drawn over a mesh besides its elements: each source has one overlay, or a few that belong together, with marks and words.
+// Marks and notes over a mesh, besides its elements: each source has one overlay, or a few that belong together.
 
 #include <memory>
 #include <optional>
@@ -18,33 +18,33 @@
 
 namespace dmoscope::ui {
 
-/// What all viewports have in common.
+/// State that all viewports have in common.
 struct Scenery {
   const ViewState& state;
   const Derived& derived;
   const Inspection& inspection;
-  const InputMesh* active = nullptr;  // that picks and selections are of
+  const InputMesh* active = nullptr;  // mesh that picks and selections belong to
 };
 
-/// What overlays know of the mesh of a viewport.
+/// Facts that overlays know of the mesh of a viewport.
 struct OverlayInput {
   const ViewState& state;
-  const SessionView& session;               // whose frame is on the host
+  const SessionView& session;               // session whose frame is on the host
   std::shared_ptr<const Frame> previous{};  // the frame before the last command that moved something
   const Scenery* scenery = nullptr;         // null for those that need none
-  const render::Scene* scene = nullptr;     // likewise
-  render::Camera camera{};                  // that it is seen by
-  bool inspecting = false;                  // a visit is looked into here
-  bool searching = false;                   // and not yet done
+  const render::Scene* scene = nullptr;     // null for overlays that need none
+  render::Camera camera{};                  // camera of the viewport
+  bool inspecting = false;                  // whether a visit is inspected here
+  bool searching = false;                   // whether its search is not yet done
   [[nodiscard]] const Frame& frame() const { return *session.frame; }
   [[nodiscard]] const InputMesh& input() const { return *frame().input; }
   [[nodiscard]] const RunView* run() const { return frame().run < session.runs.size() ? &session.runs[frame().run] : nullptr; }
   /// Whether it is the active mesh, or one whose ids mean the same.
   [[nodiscard]] bool is_active_mesh() const;
-  /// Nothing on another mesh than the one that the pick is of.
+  /// The pick, if it belongs to this mesh; else nothing.
   [[nodiscard]] Picked picked() const;
   [[nodiscard]] bool marks_worst() const { return state.worst_marker && !frame().worst.empty() && !inspecting; }
-  /// Of the run; lines of overlays are in it.
+  /// Colours of the run, for the overlay's lines.
   [[nodiscard]] Inks inks(int casing_alpha) const;
   [[nodiscard]] std::optional<std::span<const Vec3>> positions_of(Reference reference) const;
 };
@@ -52,31 +52,31 @@ struct OverlayInput {
 class Overlay {
  public:
   virtual ~Overlay() = default;
-  /// Whether there is anything to be drawn.
+  /// Whether there is anything to draw.
   [[nodiscard]] virtual bool wanted(const OverlayInput& in) const = 0;
   virtual void make(const OverlayInput& in, const MarkView& view, render::Marks& marks) = 0;
-  /// Whether it marks what nothing hides, which takes a moment to be found in space.
+  /// Whether it marks only what nothing hides, which takes a moment to find in space.
   [[nodiscard]] virtual bool needs_unhidden() const { return true; }
-  /// What is shown, in words for the mesh's title; empty for nothing. Asked after make(), and where nothing is made.
+  /// Note about the marks for the mesh's title; empty for none. Asked after make(), or without it if there is nothing to make.
   [[nodiscard]] virtual std::string note(const OverlayInput& /*in*/) const { return {}; }
 };
 using OverlayPointer = std::unique_ptr<Overlay>;
 
 [[nodiscard]] inline render::Rgba solid(render::Rgb c, int alpha = 255) { return {c.r, c.g, c.b, static_cast<std::uint8_t>(alpha)}; }
 
-// Each in a source of its own.
-[[nodiscard]] OverlayPointer picked_overlay();      // what is picked, and its elements
-[[nodiscard]] OverlayPointer worst_overlay();       // the worst element, and those that only their inside inverts
+// All overlays, each in a source of its own.
+[[nodiscard]] OverlayPointer picked_overlay();      // the picked element or vertex, and its elements
+[[nodiscard]] OverlayPointer worst_overlay();       // the worst element, and those that are inverted only inside
 [[nodiscard]] OverlayPointer inverted_overlay();    // inverted elements that are too small to be seen
-[[nodiscard]] OverlayPointer ghost_overlay();       // edges as they were
-[[nodiscard]] OverlayPointer arrow_overlay();       // from where vertices were to where they are
-[[nodiscard]] OverlayPointer feature_overlay();     // curves along which vertices slide, and the edge that is pointed at
+[[nodiscard]] OverlayPointer ghost_overlay();       // edges at their old places
+[[nodiscard]] OverlayPointer arrow_overlay();       // arrows from the old to the present places of vertices
+[[nodiscard]] OverlayPointer feature_overlay();     // curves along which vertices slide, and the edge under the mouse
 [[nodiscard]] OverlayPointer next_class_overlay();  // vertices that move next
-[[nodiscard]] OverlayPointer flash_overlay();       // the vertex of a step of one, for a moment
-[[nodiscard]] OverlayPointer holder_overlay();      // what holds the minimum
+[[nodiscard]] OverlayPointer flash_overlay();       // the vertex of a step of a single visit, for a moment
+[[nodiscard]] OverlayPointer holder_overlay();      // elements and forces that hold the minimum
 [[nodiscard]] OverlayPointer selection_overlay();   // selected vertices
 [[nodiscard]] OverlayPointer inspection_overlay();  // the search of a vertex
-[[nodiscard]] OverlayPointer target_overlay();      // what picked elements are wished to be
+[[nodiscard]] OverlayPointer target_overlay();      // targets of picked elements
 [[nodiscard]] OverlayPointer size_point_overlay();  // the point of a size function
 
 }  // namespace dmoscope::ui

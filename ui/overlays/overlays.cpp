@@ -20,7 +20,7 @@ bool same_positions(const Frame& a, const Frame& b) {
          std::memcmp(a.positions.data(), b.positions.data(), a.positions.size() * sizeof(Vec3)) == 0;
 }
 
-/// All numbers that a view depends on.
+/// All numbers of the camera that a view depends on, as a text.
 std::string text_of(const render::Camera& camera) {
   if (const auto* plane = std::get_if<render::Camera2D>(&camera))
     return fmt::format("{} {} {}", plane->centre.x, plane->centre.y, plane->units_per_pixel);
@@ -106,7 +106,7 @@ render::Marks Overlays::marks(const Scenery& scenery, const SessionView& session
   OverlayInput in{scenery.state, session, previous_, &scenery, &scene, camera};
   in.inspecting = inspected && inspection.open;
   in.searching = in.inspecting && scenery.inspection.visit() != nullptr && !inspection.applied;
-  const bool alone = in.searching && scenery.inspection.solid;  // all cells give way to the search, and what it is of stays plain
+  const bool alone = in.searching && scenery.inspection.solid;  // all cells give way to the search, and its mesh stays plain
   marks.faint_where_taken_away = !alone;
   MarkView view{scene.view(camera, viewport), scenery.state.scale, ScenePoints::of(*frame->input)};
   for (const OverlayPointer& overlay : of_moment_)
@@ -133,7 +133,7 @@ std::string Overlays::note(const ViewState& state, const SessionView& session) c
   const OverlayInput in{state, session, previous_};
   std::string text;
   const auto add = [&text](const std::string& part) { text += (text.empty() || part.empty() ? "" : " · ") + part; };
-  // Last drawn, first said.
+  // Notes are in the reverse order of drawing.
   for (auto overlay = steady_.rbegin(); overlay != steady_.rend(); ++overlay)
     if (!too_much_ || !(*overlay)->needs_unhidden()) add((*overlay)->note(in));
   if (s.click_smooths) add("a click moves a vertex");

@@ -1,4 +1,4 @@
-// What is picked, selected or the worst, and points that a person has set.
+// Marks of the picked, selected and worst elements and vertices, and of points that a person has set.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -45,7 +45,7 @@ class SelectionOverlay final : public Overlay {
     const auto selection = shown(in.state);
     if (view.points.plane) {
       add_dots(marks, view, in.input(), in.frame().positions, selection.vertices(), solid(palette(in.state.theme).text), 8.0);
-    } else if (selection.vertices().size() <= kMostMarks) {  // nothing hides them: they are faint where they were taken away
+    } else if (selection.vertices().size() <= kMostMarks) {  // nothing hides them; they are faint where elements were taken away
       marks.vertices.insert(marks.vertices.end(), selection.vertices().begin(), selection.vertices().end());
     }
   }
@@ -64,7 +64,7 @@ class SelectionOverlay final : public Overlay {
   }
 };
 
-/// A diamond at the point of the run's size function.
+/// Marks the point of the run's size function with a diamond.
 class SizePointOverlay final : public Overlay {
  public:
   [[nodiscard]] bool wanted(const OverlayInput& in) const override {

@@ -13,11 +13,11 @@ namespace dmoscope::ui {
 namespace {
 
 constexpr std::size_t kMostEllipses = 200;  // more would hide the mesh
-constexpr double kLongAxis = 1.05;          // what is less long shows no axis
-// Unlike the outlines of what is picked, on any colour.
+constexpr double kLongAxis = 1.05;          // least ratio of axes for which an axis is drawn
+// Colours that can be seen on any colour, unlike the outlines of the pick.
 constexpr render::Rgba kInk{255, 255, 255, 255}, kTargetCasing{20, 20, 20, 255};
 
-/// The image of the circle (the sphere) in an ideal element of unit edges, so large that it fills its element.
+/// Image of the circle (or sphere) in an ideal element of unit edges, scaled to fill its element.
 class Ellipsoid {
  public:
   Ellipsoid(const SmallMatrix& map, Vec3 centre) : count_(static_cast<std::size_t>(map.n)), centre_(centre) {
@@ -28,7 +28,7 @@ class Ellipsoid {
       axes_[i] = {half * e.vectors.at[0][i], half * e.vectors.at[1][i], half * e.vectors.at[2][i]};
     }
   }
-  /// The ellipse, or the three around the axes of the ellipsoid.
+  /// Adds the ellipse, or the three around the axes of the ellipsoid.
   void draw(std::vector<render::OverlayLine>& lines, float width, render::Rgba colour) const {
     constexpr int kParts = 48;
     for (std::size_t k = 0; k < (count_ == 3 ? 3 : 1); ++k) {
@@ -50,7 +50,7 @@ class Ellipsoid {
   Vec3 centre_;
 };
 
-/// None where there is no target, or the metric is another mesh's.
+/// Target of an element; none if there is none, or if the metric belongs to another mesh.
 std::optional<TargetShapeOfElement> shape_of(const Frame& frame, Metric metric, Index element) {
   try {
     return target_shape(*frame.input, frame.positions, metric, element);
@@ -61,7 +61,7 @@ std::optional<TargetShapeOfElement> shape_of(const Frame& frame, Metric metric, 
 
 class TargetOverlay final : public Overlay {
  public:
-  /// Of a volume those of a star would hide one another.
+  /// Not around a vertex of a volume, because the ellipsoids of a star would hide one another.
   [[nodiscard]] bool wanted(const OverlayInput& in) const override {
     return !in.searching &&
            (in.picked().kind == Picked::Kind::Element || (in.picked().kind == Picked::Kind::Vertex && !in.input().in_space()));
@@ -71,7 +71,7 @@ class TargetOverlay final : public Overlay {
   }
 
  private:
-  /// The one shown, where it has targets or nothing else can have them; else that of the run.
+  /// The shown metric, if it has targets or no other can have them; else that of the run.
   static Metric metric_of(const OverlayInput& in) {
     const Metric shown = in.frame().shown;
     return !is_built_in(shown) || in.run() == nullptr ? shown : in.session.runs[in.session.active].parameters.metric;

@@ -12,15 +12,15 @@ namespace dmoscope::ui {
 
 namespace {
 
-/// A search in a volume is looked into: its marks are to be seen.
+/// Whether a search in a volume is inspected, whose marks must be seen.
 bool is_searching(const Scenery& scenery, bool inspected) {
   return inspected && scenery.state.inspection.open && scenery.inspection.solid && !scenery.state.inspection.applied;
 }
 
-/// No cell at all, but faintly the boundary of all of them.
+/// A view of no cell, with the boundary of all of them drawn faintly.
 ClippingView ghost_alone() {
   ClippingView view;
-  view.isolate = {4.0F, 5.0F};  // no metric is
+  view.isolate = {4.0F, 5.0F};  // no metric reaches these values
   view.ghost = true;
   return view;
 }
@@ -31,20 +31,20 @@ render::Style picture_style(const ViewState& state, const Derived& derived) {
   render::Style style = scene_style(state);
   style.colours = shown_scale(state, derived);
   const render::Rgb ink = palette(state.theme).text;
-  constexpr int kStrongest = 115;  // 45 %
+  constexpr int kStrongest = 115;  // 45 % of 255
   style.tint = {ink.r, ink.g, ink.b, static_cast<std::uint8_t>(kStrongest * state.stepping.flash_level / kFlashLevels)};
   return style;
 }
 
 void PaneView::update_colours(const ViewState& state, std::shared_ptr<const Frame> reference, const PaneView* like) {
   if (like != nullptr && !needs_positions(state.colouring.by) && state.colouring.by != ColourBy::Class) {
-    worker_.update(state, {}, nullptr);  // what it worked at before nobody waits for
+    worker_.update(state, {}, nullptr);  // nobody waits for its earlier work any more
     colours_ = like->colours_;
     return;
   }
   worker_.update(state, *session_, std::move(reference));
   colours_ = worker_.colours();
-  // Around its vertices a volume has no colours of its own: quality is shown, and said.
+  // A volume has no colours by vertices: quality is shown instead, with a note.
   if (in_space() && colours_ && (!colours_->shading || colours_->shading->by != render::Shading::By::Elements)) colours_.reset();
 }
 
@@ -90,7 +90,7 @@ void PaneView::update_volume(render::VolumeScene& scene, const Scenery& scenery,
   const ViewState& state = scenery.state;
   const bool by_elements = colours_ && colours_->shading && colours_->shading->by == render::Shading::By::Elements;
   scene.set_shading(by_elements ? colours_->shading : nullptr);
-  // What is isolated of the histogram is taken out of the volume; what is merely chosen keeps its place, and the rest fades.
+  // Isolation in the histogram takes cells out of the volume; a mere choice leaves them in place, and the rest fades.
   render::Selection selection = this->selection(scenery);
   ClippingView view = state.inside;
   if (selection.quality && selection.others == render::Selection::Others::Hide) view.isolate = std::exchange(selection.quality, {});
@@ -110,9 +110,9 @@ render::Selection PaneView::selection(const Scenery& scenery) {
   return selection;
 }
 
-/// Elements around the vertices that the last step moved, as long as that is shown.
+/// Elements around the vertices that the last step moved, as long as they are tinted.
 std::shared_ptr<const std::vector<std::uint8_t>> PaneView::moved_just_now(const SteppingState& stepping) {
-  constexpr std::size_t kMostElements = 300'000;  // beyond, to draw them anew would take longer than the tint lasts
+  constexpr std::size_t kMostElements = 300'000;  // with more, drawing them anew would take longer than the tint lasts
   const StepNews& news = stepping.news;
   const Frame& frame = *this->frame();
   const bool any = stepping.flash_level > 0 && news.serial == frame.serial && !news.moved.empty();
@@ -130,7 +130,7 @@ std::shared_ptr<const std::vector<std::uint8_t>> PaneView::moved_just_now(const 
 void PaneView::find_labels(const Scenery& scenery, const render::Camera& camera) {
   const ColouringState& colouring = scenery.state.colouring;
   const double em = ImGui::GetFontSize();
-  // As they are drawn: digits of DejaVu Sans are 0.64 em wide.
+  // Sizes match the drawn text: digits of DejaVu Sans are 0.64 em wide.
   const render::LabelWish wish{colouring.label_vertices, colouring.label_elements, 0.8 * 0.64 * em, em, 400};
   const Vec2<double> viewport = scenery.state.viewport;
   labels_ = scene().labels(camera, viewport, wish);

@@ -13,7 +13,7 @@
 namespace dmoscope::ui {
 namespace {
 
-/// On a plate in the left upper corner of a viewport's part of the picture, as much as there is room for.
+/// Draws as much of a title as there is room for, on a plate in the left upper corner of a viewport's part of the picture.
 void draw_title(render::Image& image, const render::Font& font, std::vector<TitlePiece> pieces, const std::optional<render::Rgb>& run,
                 const Rect& clip, const render::Style& style, float scale) {
   const float size = 13.0F * scale;
@@ -47,7 +47,7 @@ void draw_title(render::Image& image, const render::Font& font, std::vector<Titl
   }
 }
 
-/// The columns of `part` that lie within `clip` of the whole.
+/// Copies the columns of `part` that lie within `clip` of the whole.
 void paste(render::Image& whole, const render::Image& part, const Rect& at, const Rect& clip) {
   const int left = static_cast<int>(at.x), top = static_cast<int>(at.y);
   const int first = std::max(0, static_cast<int>(clip.x) - left);
@@ -64,7 +64,7 @@ void draw_rule(render::Image& image, int x, int height, int width, render::Rgba 
 
 }  // namespace
 
-/// What one viewport shows; without a frame nothing but the background.
+/// Picture of one viewport; without a frame only the background.
 render::Image Viewports::picture_of(std::size_t pane, const Scenery& scenery, const render::Shot& shot) {
   const ViewState& state = scenery.state;
   PaneView& view = *views_[pane];

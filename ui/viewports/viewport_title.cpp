@@ -1,4 +1,4 @@
-// What is said of a viewport.
+// Title of a viewport.
 #include <fmt/format.h>
 
 #include "ui/state/format.h"
@@ -38,7 +38,7 @@ std::vector<TitlePiece> title_of(const PaneFacts& pane, Metric shown) {
     } else if (name.rest.empty() || !name.one_method) {
       pieces.push_back({name.whole(), Role::Name, 0});
     } else {
-      // Where there is little room, what tells it from others is worth more than the method that all share.
+      // If there is little room, differences to other runs are worth more than the method that all share.
       pieces.push_back({name.number, Role::Name, 0});
       pieces.push_back({name.method, Role::Name, 3});
       pieces.push_back({"· " + name.rest, Role::Name, 0});

@@ -12,17 +12,18 @@ using ContentKind = PaneContent::Kind;
 
 namespace {
 
-/// More of them wait for memory.
+/// Greatest number of threads; more would only wait for memory.
 constexpr unsigned kMostThreads = 8;
 
-/// What the session is asked for to show this; nothing for what is there anyway.
+/// Request to the session for a content; none if it is there anyway.
 std::optional<Watch> watch_of(const PaneContent& content) {
   if (content.kind == ContentKind::Input) return Watch{};
   if (content.kind == ContentKind::Run) return Watch{content.run, content.iteration};
   return std::nullopt;
 }
 
-/// Of a volume as it is seen from a corner, from where it is seen first: viewports do not change their places while it is turned.
+/// Box of the input; for a volume as seen from the corner from which it is seen first, so that viewports keep their places while it is
+/// turned.
 render::Bounds2 input_box(const InputMesh& input) {
   render::Bounds2 box;
   if (input.in_space()) {
@@ -42,7 +43,7 @@ bool cover_alike(const InputMesh& a, const InputMesh& b) {
   const render::Bounds2 one = input_box(a), other = input_box(b);
   render::Bounds2 both = one;
   both.include(other);
-  constexpr double kAlike = 0.6;  // of what both take together
+  constexpr double kAlike = 0.6;  // share of what both take together
   const auto is_alike = [](double a_size, double b_size, double size) { return std::min(a_size, b_size) >= kAlike * size; };
   return is_alike(one.size().x, other.size().x, both.size().x) && is_alike(one.size().y, other.size().y, both.size().y);
 }
@@ -91,7 +92,7 @@ void Viewports::show_mark(std::size_t pane, const Marked& mark, const char* lett
     show(pane, nullptr, session_->active, letter, fmt::format("{} is not marked yet: Shift+{} marks what is shown", letter, letter));
     return;
   }
-  const auto at = std::ranges::find(session_->runs, mark.run.id, &RunView::id);  // the end: it has been removed
+  const auto at = std::ranges::find(session_->runs, mark.run.id, &RunView::id);  // end of the list if the run has been removed
   show(pane, mark.frame, static_cast<std::size_t>(at - session_->runs.begin()), letter, {}, &mark.run);
 }
 
@@ -167,7 +168,7 @@ std::vector<Watch> Viewports::wanted(const ViewState& state) const {
   return wanted;
 }
 
-/// What differences are taken from; null while it is not there.
+/// Frame that differences are taken from; null while it is not there.
 std::shared_ptr<const Frame> Viewports::reference(const ViewState& state) const {
   const PaneContent& content = state.colouring.reference;
   if (content.kind == ContentKind::MarkA) return state.timeline.a.frame;
@@ -180,14 +181,14 @@ std::shared_ptr<const Frame> Viewports::reference(const ViewState& state) const 
 
 void Viewports::update_colours(ViewState& state, Derived& derived) {
   const std::shared_ptr<const Frame> compared = state.colouring.by == ColourBy::Difference ? reference(state) : nullptr;
-  const PaneView* first = nullptr;  // that has a mesh to work them out for
+  const PaneView* first = nullptr;  // the first one with a mesh to work them out for
   for (std::size_t k = 0; k < count_; ++k) {
     views_[k]->update_colours(state, compared, first);
     if (first == nullptr && views_[k]->frame() != nullptr) first = views_[k].get();
   }
   ColourFacts& facts = derived.colouring;
   facts.colours = views_[focus_]->colours();
-  // The bar is of those that have values.
+  // The colour bar belongs to viewports with values.
   for (std::size_t k = 0; k < count_; ++k)
     if (const auto& colours = views_[k]->colours(); colours && (!facts.colours || (colours->has_values && !facts.colours->has_values)))
       facts.colours = colours;
@@ -204,7 +205,7 @@ void Viewports::update_stepping(bool busy) {
   for (std::size_t k = 0; k < count_; ++k) views_[k]->update_stepping(busy);
 }
 
-/// Shows all of the mesh in the active viewport, and in those that nobody has moved since the last fit.
+/// Shows all of the mesh in the active viewport, and in others whose camera was not moved since the last fit.
 bool Viewports::fit(ViewState& state, double em) {
   if (!state.requests.fit) return false;
   if (session_->frame == nullptr) {
@@ -213,7 +214,7 @@ bool Viewports::fit(ViewState& state, double em) {
   }
   if (!views_[focus_]->current()) return false;
   state.requests.fit = false;
-  // Title above and colour bar below the mesh, not on it.
+  // Title and colour bar stand above and below the mesh, not on it.
   const bool bar_within = state.panes.one() || state.panes.layout == PaneLayout::Split;
   const double top = 2.4 * em, bottom = bar_within ? 4.4 * em : 0.5 * em;
   const Vec2<double> free{state.viewport.x, std::max(1.0, state.viewport.y - top - bottom)};
@@ -249,7 +250,7 @@ bool Viewports::fit(ViewState& state, double em) {
   return true;
 }
 
-/// Of the planar mesh that a viewport shows; before it is ready to be drawn, of its input.
+/// Box of the planar mesh of a viewport; before it is ready to be drawn, that of its input.
 render::Bounds2 Viewports::box_of_pane(std::size_t pane) const {
   const PaneView& view = *views_[pane];
   const bool ready = view.frame() != nullptr && view.current() && view.planar() != nullptr;
@@ -257,7 +258,7 @@ render::Bounds2 Viewports::box_of_pane(std::size_t pane) const {
   return bounds.empty() && view.session()->input ? input_box(*view.session()->input) : bounds;
 }
 
-/// Whether a volume that was fitted is to be fitted anew: nobody has moved it, but the viewport or the kind of projection is another.
+/// Whether a fitted volume must be fitted anew: its camera was not moved, but the viewport or the kind of projection has changed.
 bool Viewports::keeps_fit(const render::OrbitCamera& now, bool resized) const {
   if (!fitted_orbit_) return false;
   render::OrbitCamera fitted = *fitted_orbit_;
@@ -274,14 +275,14 @@ bool Viewports::draw(ViewState& state, const Derived& derived, const Inspection&
   const Vec2<double> before = state.viewport;
   const Rect& rect = rects.front();
   state.viewport = {std::max(1.0, static_cast<double>(rect.w)), std::max(1.0, static_cast<double>(rect.h))};
-  // A fitted mesh stays fitted when the window or a panel changes its size, or its projection does.
+  // A fitted mesh stays fitted when the window, a panel or its projection changes.
   const bool resized = before.x != state.viewport.x || before.y != state.viewport.y;
   const bool volume = views_[focus_]->in_space();
   if (volume ? keeps_fit(state.orbit, resized) : resized && fitted_ && *fitted_ == state.camera) state.requests.fit = true;
   loading_ = refining_ = false;
   if (volume && !pool_) pool_ = std::make_unique<ThreadPool>(std::clamp(std::thread::hardware_concurrency(), 1U, kMostThreads));
   for (std::size_t k = 0; k < count_; ++k) {
-    views_[k]->set_pool(turn.live ? nullptr : pool_.get());  // a run that goes on has the processors already
+    views_[k]->set_pool(turn.live ? nullptr : pool_.get());  // a run at work uses the processors already
     loading_ = !views_[k]->bring(options_.wait_for_scene ? render::Loading::Wait : render::Loading::Background) || loading_;
   }
   const bool fitted = fit(state, turn.em);

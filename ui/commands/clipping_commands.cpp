@@ -21,12 +21,12 @@ render::Bounds3 box_of_volume(const CommandHost& host) {
 
 float to_quality(const std::string& word) { return static_cast<float>(to_number(word)); }
 
-/// Half-way along an axis; what lies towards the eye is taken away.
+/// A plane across an axis at a fraction of the box; the side towards the eye is taken away.
 ClipPlane across(int axis, double fraction, const render::OrbitCamera& seen_by, const render::Bounds3& box) {
   return parse_clip(fmt::format("{}:{}", axis_name(axis, looks_along(seen_by, axis)), fraction), box.low, box.high);
 }
 
-/// Where it was; where it was nowhere yet, across x, and through the middle where it would miss the mesh.
+/// The plane at its place; if it had none, across x, and through the middle if it would miss the mesh.
 ClipPlane plane_within(ClipPlane plane, const render::OrbitCamera& seen_by, const render::Bounds3& box) {
   if (plane == ClipPlane{.mode = plane.mode}) return across(0, 0.5, seen_by, box);
   plane.on = true;
@@ -35,7 +35,7 @@ ClipPlane plane_within(ClipPlane plane, const render::OrbitCamera& seen_by, cons
   return plane;
 }
 
-/// As far along the next axis as it was along its own; across x where it was not on, or oblique.
+/// A plane as far along the next axis as it was along its own; across x if it was off or oblique.
 ClipPlane across_next_axis(const ClipPlane& plane, const render::OrbitCamera& seen_by, const render::Bounds3& box) {
   const auto now = plane.on ? axis_plane(plane, box) : std::nullopt;
   return across(now ? (now->axis + 1) % 3 : 0, now ? std::clamp(now->fraction, 0.0, 1.0) : 0.5, seen_by, box);
@@ -82,7 +82,7 @@ void add_peel_commands(CommandTable& table, ViewState& state) {
   table.add({"show-all", "show-all", "all cells of a volume mesh are seen again"}, {0, 0}, [&view](Arguments) { view = {}; });
 }
 
-/// "CX CY CZ HEIGHT RX RY RZ UX UY UZ"
+/// Sets the camera from "CX CY CZ HEIGHT RX RY RZ UX UY UZ".
 void set_orbit(ViewState& state, Arguments words) {
   const auto at = [&words](std::size_t k) { return Vec3{to_number(words[k]), to_number(words[k + 1]), to_number(words[k + 2])}; };
   render::OrbitCamera orbit = state.orbit;

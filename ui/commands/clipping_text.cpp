@@ -33,7 +33,7 @@ std::optional<AxisPlane> axis_plane(const ClipPlane& plane, const render::Bounds
 
 bool looks_along(const render::OrbitCamera& camera, int axis) {
   const Vec3 back = camera.back();
-  constexpr double kFromTheSide = 1e-6;  // and as good as so
+  constexpr double kFromTheSide = 1e-6;  // so small that the view is practically from the side
   return (axis == 0 ? back.x : axis == 1 ? back.y : back.z) < -kFromTheSide;
 }
 

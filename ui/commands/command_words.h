@@ -1,5 +1,5 @@
 #pragma once
-// The window's commands, theme by theme, and how their handlers read their words. Only for sources of this room.
+// The window's commands, theme by theme, and the reading of their words. Only for sources of this module.
 
 #include <array>
 #include <string>
@@ -17,14 +17,14 @@ namespace dmoscope::ui {
   throw UsageError(fmt::format("\"{}\": expected {}", word, expected));
 }
 
-/// What is shown of the session. Throws UsageError where no mesh is open.
+/// The shown state of the session. Throws UsageError if no mesh is open.
 inline std::shared_ptr<const SessionView> open_view(const CommandHost& host) {
   auto view = host.session();
   if (!view || !view->input) throw UsageError("no mesh is open");
   return view;
 }
 
-/// on, off or toggle (also: no word).
+/// New state of a switch from the word on, off or toggle (also: no word).
 inline bool switched(Arguments words, std::size_t at, bool now) {
   if (words.size() <= at || words[at] == "toggle") return !now;
   if (words[at] == "on") return true;
@@ -44,9 +44,9 @@ auto choose(const std::string& word, const Choices& choices) {
   unexpected(word, "one of " + names);
 }
 
-/// The commands that do nothing but set an option, see view_options(). What a volume mesh shows, and from where; colours, filter and
-/// labels; the window's look as a script gives it again; its files; the mouse and the keyboard; viewports; plots; selected vertices; marks
-/// and playing.
+/// Add the window's commands to the table: those that only set an option, see view_options(); visible part and camera of a volume mesh;
+/// colours, filter and labels; the window's look as a script gives it again; its files; the mouse and the keyboard; viewports; plots;
+/// selected vertices; marks and playing.
 void add_option_commands(CommandTable& table, ViewState& state);
 void add_clipping_commands(CommandTable& table, ViewState& state, const CommandHost& host);
 void add_colouring_commands(CommandTable& table, ViewState& state, const CommandHost& host);

@@ -21,7 +21,7 @@ using InputKind = SimulatedInput::Kind;
 
 void push_click(ViewState& state, std::pair<float, float> at, int button) {
   auto& input = state.requests.input;
-  // A few frames at rest first: windows that just opened take their place, hovering settles.
+  // The mouse rests for a few frames first: windows that just opened take their place, hovering settles.
   for (int k = 0; k < 2; ++k) input.push_back({InputKind::Move, at.first, at.second, 0, {}, {}});
   input.push_back({InputKind::Press, at.first, at.second, button, {}, {}});
   input.push_back({InputKind::Release, at.first, at.second, button, {}, {}});
@@ -76,7 +76,7 @@ void add_input_commands(CommandTable& table, ViewState& state, const CommandHost
   table.add({"key", "key NAME", "presses a key, such as N or Ctrl+Shift+S"}, {1, 1}, [&state](Arguments words) {
     auto chord = parse_key(words[0]);
     if (!chord) unexpected(words[0], "a key such as N, Space, F1 or Ctrl+Shift+S");
-    if (chord->code == '+') chord->code = '=';  // there is no other key of that name
+    if (chord->code == '+') chord->code = '=';  // no other key has that name
     state.requests.input.push_back({InputKind::KeyDown, 0, 0, 0, *chord, {}});
     state.requests.input.push_back({InputKind::KeyUp, 0, 0, 0, *chord, {}});
   });

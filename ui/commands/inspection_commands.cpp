@@ -13,7 +13,7 @@ namespace dmoscope::ui {
 namespace {
 
 constexpr double kLevelTime = 0.8;  // seconds that playing shows a level
-constexpr double kBusyTime = 0.05;  // and waits for work to be done
+constexpr double kBusyTime = 0.05;  // seconds that playing waits while work is being done
 
 std::shared_ptr<const SessionView> session_of(const CommandHost& host) {
   auto session = host.session();
@@ -37,7 +37,7 @@ void look_at_star(ViewState& state, const Frame& frame, Index vertex) {
   state.camera.look_at(box.centre(), extent / kShare, state.viewport);
 }
 
-/// Ends a close-up: back to where it came from, unless the camera was moved since.
+/// Ends a close-up: goes back to the camera before it, unless the camera was moved since.
 void leave_close_up(ViewState& state) {
   auto& close_up = state.inspection.close_up;
   if (close_up && close_up->second == state.camera) state.camera = close_up->first;
@@ -47,10 +47,10 @@ void leave_close_up(ViewState& state) {
   space.reset();
 }
 
-/// The grid of a level in space fills a good part of the view where it would be too small to read.
+/// Moves closer to the grid of a level in space, if it would be too small to read, until it fills a good part of the view.
 void close_up_in_space(ViewState& state, const Inspection& look) {
   const auto number = static_cast<std::size_t>(state.inspection.level - 1);
-  constexpr double kLeastShare = 0.4, kShare = 0.6;  // of the view's height
+  constexpr double kLeastShare = 0.4, kShare = 0.6;  // share of the view's height
   const Vec3 size = look.solid ? look.solid->levels[number].size : look.grid->plane.lift(look.trace->levels[number].size);
   const Vec3 centre = look.solid ? look.solid->levels[number].centre : look.grid->plane.lift(look.trace->levels[number].centre);
   const double extent = length(size);
@@ -61,9 +61,9 @@ void close_up_in_space(ViewState& state, const Inspection& look) {
   state.inspection.space_close_up = {before, state.orbit};
 }
 
-/// Candidates that would lie on top of each other are looked at from closer by.
+/// Moves closer to candidates that would lie on top of each other.
 void close_up_on(ViewState& state, const Inspection& look) {
-  constexpr double kLeastSpacing = 8.0, kSpacing = 17.0, kLargestShare = 0.6;  // pixels; of the view's shorter side
+  constexpr double kLeastSpacing = 8.0, kSpacing = 17.0, kLargestShare = 0.6;  // pixels; share of the view's shorter side
   leave_close_up(state);
   InspectionState& inspection = state.inspection;
   if (!inspection.zoom || look.visit() == nullptr || inspection.applied || inspection.all_levels || inspection.level < 1) return;
@@ -75,7 +75,7 @@ void close_up_on(ViewState& state, const Inspection& look) {
   const render::Camera2D before = state.camera;
   const double side = std::min(state.viewport.x, state.viewport.y);
   const double pixels = std::min(kLargestShare * side, kSpacing * state.scale * extent / spacing);
-  if (extent / pixels >= before.units_per_pixel) return;  // as close as it can be and stay in sight
+  if (extent / pixels >= before.units_per_pixel) return;  // the view is as close as it can be with the grid in sight
   state.camera.look_at({look.origin.x + level.centre.x, look.origin.y + level.centre.y}, extent * side / pixels, state.viewport);
   inspection.close_up = {before, state.camera};
 }
@@ -88,7 +88,7 @@ void show_level(ViewState& state, const Inspection& look, int level) {
   close_up_on(state, look);
 }
 
-/// `in_order`: it is the vertex that the run visits next.
+/// Opens the inspection of a vertex. `in_order`: the run visits it next.
 void open_at(ViewState& state, const SessionView& session, Index vertex, bool in_order) {
   leave_close_up(state);
   InspectionState& inspection = state.inspection;
@@ -122,7 +122,7 @@ void open_at_element(ViewState& state, const SessionView& session, Index element
   state.panels.show_selection();
 }
 
-/// At what is picked, or where the run goes next.
+/// Opens the inspection at the pick, or at the vertex that the run visits next.
 void open_inspection(ViewState& state, const SessionView& session) {
   if (state.picked.kind == Picked::Kind::Vertex) {
     open_at(state, session, state.picked.id, false);
@@ -133,7 +133,7 @@ void open_inspection(ViewState& state, const SessionView& session) {
   }
 }
 
-/// A vertex that was picked since is the one to look into.
+/// Makes a vertex that was picked since the inspected one.
 void follow_pick(ViewState& state) {
   InspectionState& inspection = state.inspection;
   if (!inspection.open || state.picked.kind != Picked::Kind::Vertex || state.picked.id == inspection.vertex) return;
@@ -148,7 +148,7 @@ Index parse_index(const std::string& word, Index size, const char* what) {
   return static_cast<Index>(id);
 }
 
-/// The visit as the run itself makes it: its next step when it is this vertex's turn, else a visit of this vertex alone.
+/// Applies the visit as the run itself makes it: by its next step when it is this vertex's turn, else by a visit of this vertex alone.
 void apply_move(ViewState& state, const CommandHost& host, const SessionView& session) {
   InspectionState& inspection = state.inspection;
   if (!inspection.open || inspection.vertex == kNoIndex) throw UsageError("no vertex is looked into");
@@ -166,7 +166,7 @@ void apply_move(ViewState& state, const CommandHost& host, const SessionView& se
   const RunView& run = session.runs[session.active];
   inspection.take_back.clear();
   inspection.applied_from = run.moment;
-  // Where an edit waits to be done again, a step would be that one's.
+  // If an edit was undone and can be repeated, a step would repeat that edit.
   if (inspection.in_order && run.edits == run.edits_done && next_vertex(session) == inspection.vertex) {
     host.post("step vertex");
     inspection.take_back = "back vertex";
@@ -187,12 +187,12 @@ void next_level(ViewState& state, const CommandHost& host, const SessionView& se
     return;
   }
   if (inspection.applied) {
-    if (host.busy()) return;  // where the run goes next is not known yet
+    if (host.busy()) return;  // the vertex that the run visits next is not known yet
     open_at(state, session, inspection.in_order ? next_vertex(session) : inspection.vertex, inspection.in_order);
     return;
   }
   const Inspection look = inspect(session, inspection.vertex);
-  if (look.level_count() == 0) return;  // the inspector says why
+  if (look.level_count() == 0) return;  // the inspector tells the reason
   const int last = static_cast<int>(look.level_count());
   if (inspection.level < last && !inspection.all_levels) {
     show_level(state, look, inspection.level + 1);
@@ -202,7 +202,7 @@ void next_level(ViewState& state, const CommandHost& host, const SessionView& se
   }
 }
 
-/// Whether the applied move is the last thing that the run did.
+/// Whether the applied move is the run's latest change.
 bool can_take_back(const InspectionState& inspection, const RunView& run) {
   const Moment& from = inspection.applied_from;
   if (inspection.take_back == "undo") return run.moment == Moment{from.iteration, from.visits, from.edits + 1};
@@ -210,7 +210,7 @@ bool can_take_back(const InspectionState& inspection, const RunView& run) {
   return run.moment == (ended ? Moment{from.iteration + 1} : Moment{from.iteration, from.visits + 1});
 }
 
-/// From the applied move back to the last level: the move is taken back, too, unless something else came after it.
+/// Goes back from the applied move to the last level: the move is taken back, too, unless something else came after it.
 void previous_level(ViewState& state, const CommandHost& host, const SessionView& session) {
   InspectionState& inspection = state.inspection;
   if (!inspection.open) return;

@@ -1,5 +1,5 @@
 #pragma once
-// Commands that look into a visit, on plain state.
+// Commands of the inspection of a visit, on plain state.
 
 #include <limits>
 #include <string>
@@ -15,15 +15,16 @@ namespace dmoscope::ui {
 ///   level-range view|level | copy-level [N] | export-trace FILE.csv
 void add_inspection_commands(CommandTable& table, ViewState& state, const CommandHost& host);
 
-/// What playing the levels asks for now: a command line, empty: none yet; and after how many seconds there may be another one.
+/// Next command of playing the levels (empty: none yet), and the seconds after which there may be another one.
 struct LevelTurn {
   std::string line;
   double wait = std::numeric_limits<double>::infinity();
 };
-/// `now`: seconds of the window. Whoever runs the line notes in the state since when its level is shown, and plays on until it is applied.
+/// Next turn of playing the levels. `now`: seconds of the window. The caller that runs the line notes in the state since when its level is
+/// shown, and plays on until the move is applied.
 [[nodiscard]] LevelTurn play_levels(ViewState& state, bool busy, double now);
 
-/// Ends the look into a vertex' search, and goes back to where its close-up came from.
+/// Ends the inspection of a vertex's search, and goes back to the camera before its close-up.
 void close_inspection(ViewState& state);
 
 }  // namespace dmoscope::ui

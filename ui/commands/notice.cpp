@@ -21,7 +21,7 @@ std::vector<FigureRow> rows_of(const ReportCard& card) {
     FigureRow before{of + " was", {}}, now{"is now", {}};
     for (; i < card.figures.size() && card.figures[i].of == of; ++i) {
       const CardFigure& figure = card.figures[i];
-      if (of.empty()) continue;  // what is worse of the mesh itself stands in the sentence
+      if (of.empty()) continue;  // the sentence tells what is worse of the mesh itself
       if (rows.size() == 1) rows[0].cells.push_back({figure.name.starts_with("below") ? "<" + figure.name.substr(6) : figure.name});
       before.cells.push_back({text(figure, figure.before)});
       now.cells.push_back({text(figure, figure.after), figure.verdict});
@@ -33,7 +33,7 @@ std::vector<FigureRow> rows_of(const ReportCard& card) {
   return rows;
 }
 
-/// Says what is worse than in the input, with a button for each option that would have kept it.
+/// Tells what is worse than in the input, with a button for each option that would have kept it.
 void tell_card(Notice& notice, const ReportCard& card) {
   if (card.verdict != Verdict::Worse) return;
   notice.sentences.push_back(card.sentence(false) + ".");
@@ -42,7 +42,7 @@ void tell_card(Notice& notice, const ReportCard& card) {
   for (const CardFigure* figure : card.worse()) {
     const std::string& command = figure->kept_by;
     const bool has_button = command.empty() || command == "then mean" || std::ranges::find(offered, command) != offered.end();
-    if (has_button) continue;  // the mean has its own offer
+    if (has_button) continue;  // the mean has a button of its own
     offered.push_back(command);
     notice.offers.push_back({fmt::format("notice:keep-{}", offered.size()), "Keep: " + command, command,
                              "a new run beside this one, which keeps it: for that the minimum may rise less; Run starts it"});
@@ -67,7 +67,7 @@ void tell_ending(Notice& notice, const RunEnding& ending) {
 
 std::string as_sentence(std::string text) { return capitalised(std::move(text)) + "."; }
 
-/// Of a method that promises nothing.
+/// Tells what became worse, for a method that promises nothing.
 void tell_worse(Notice& notice, const RunView& run) {
   const std::uint64_t at = run.moment.iteration;
   if (const std::string worse = made_worse(run.parameters, run.records.whole(), at); !worse.empty())
@@ -80,7 +80,7 @@ void tell_worse(Notice& notice, const RunView& run) {
                            "the best by inverted elements, minimum and mean; the run's later iterations stay on the timeline"});
 }
 
-/// What raising the worst element cost the others.
+/// Tells how much worse the others became while the worst element was raised.
 void tell_mean_given_up(Notice& notice, const RunView& run) {
   const std::string fell = mean_given_up(run.parameters, run.records.whole(), run.moment.iteration);
   if (fell.empty()) return;

@@ -1,5 +1,5 @@
 #pragma once
-// What a person should know when a run has come to its end, and what can be done about it.
+// The note at the end of a run: what a person should know of it, and what can be done about it.
 
 #include <string>
 #include <vector>
@@ -11,9 +11,9 @@
 namespace dmoscope::ui {
 
 struct Offer {
-  std::string id;       // of its item: "best"
+  std::string id;       // id of its item: "best"
   std::string label;    // "Go to iteration 2"
-  std::string command;  // one line
+  std::string command;  // one command line
   std::string tooltip;
 };
 
@@ -23,24 +23,23 @@ struct FigureRow {
     std::string text;
     Verdict verdict = Verdict::Same;
   };
-  std::string name;  // "mean ratio was", "is now"; of the head none
+  std::string name;  // "mean ratio was", "is now"; empty for the head
   std::vector<Cell> cells;
 };
 
 struct Notice {
-  std::string key;  // the end that it is about; the same as more becomes known of it
+  std::string key;  // the end that it is about; it stays when more becomes known of that
   std::vector<std::string> sentences;
-  std::vector<FigureRow> figures;  // a head and two rows a metric: where something is worse
+  std::vector<FigureRow> figures;  // a head and two rows for each metric by which something is worse
   std::vector<Offer> offers;
   [[nodiscard]] bool empty() const noexcept { return sentences.empty(); }
 };
 
-/// Of the active run: what is worse than in the input, elements that stay inverted, that it has passed through a better iteration, and what
-/// the mean lost. Empty where
-/// nothing of this is so.
+/// Note about the active run: figures worse than in the input, elements that stay inverted, a better iteration on the way, and loss of the
+/// mean. Empty if there is none of these.
 [[nodiscard]] Notice notice_of(const SessionView& session);
 
-/// `notice off|on`: takes away the one that is on show, until another run ends; shows it again.
+/// Adds `notice off|on`: hides the note until another run ends; shows it again.
 void add_notice_command(CommandTable& table, ViewState& state, const CommandHost& host);
 
 }  // namespace dmoscope::ui

@@ -10,7 +10,7 @@ namespace {
 
 using Kind = ViewOption::Kind;
 
-/// "[on|off|toggle]", "dark|light|contrast|next", "N|off|toggle"
+/// Usage of an option: "[on|off|toggle]", "dark|light|contrast|next", "N|off|toggle".
 std::string usage_of(const ViewOption& option) {
   if (option.kind() == Kind::Flag) return "[on|off|toggle]";
   std::string usage;
@@ -65,7 +65,7 @@ double number_of(const ViewOption& option, double now, const std::string& word) 
     if (number.factor > 0.0 && !(wanted > 0.0)) unexpected(word, "a number greater than 0");
   }
   if (number.clamped) return std::clamp(wanted, number.least, number.most);
-  const bool rests = wanted == number.rest && number.rest_word.empty();  // else only by its word
+  const bool rests = wanted == number.rest && number.rest_word.empty();  // otherwise only the word means none
   if (!rests && !(wanted >= number.least && wanted <= number.most)) unexpected(word, option.expected());
   return wanted;
 }

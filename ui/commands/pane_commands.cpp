@@ -17,7 +17,7 @@ void set_pane(ViewState& state, Arguments words) {
   Pane& pane = state.panes.panes[to_pane(state, words[0])];
   pane.content = state.panes.parse({words.begin() + 1, words.end()});
   pane.chosen = pane.content.kind != PaneContent::Kind::Free;
-  if (pane.content.kind == PaneContent::Kind::Run) state.panes.hide_run(pane.content.run, false);  // who asks for it wants to see it
+  if (pane.content.kind == PaneContent::Kind::Run) state.panes.hide_run(pane.content.run, false);  // a run that was asked for is to be seen
 }
 
 void hide_runs(Panes& panes, Arguments words) {
@@ -55,7 +55,7 @@ void add_pane_commands(CommandTable& table, ViewState& state) {
               const Panes& panes = state.panes;
               if (panes.run_ids.empty()) throw UsageError("no mesh is open");
               state.renaming_run = words.empty() ? panes.active_id : panes.parse({"run", words[0]}).run;
-              state.panels.setup = true;  // where the list is
+              state.panels.setup = true;  // the dock with the list
               (state.panels.setup_side == Side::Left ? state.panels.left_over : state.panels.right_over) = true;
             });
 }

@@ -48,7 +48,7 @@ void switch_series(ViewState& state, Arguments words) {
     view.isolated = name;
     view.hidden.erase(name);
   } else if (!before.empty() && (words.size() == 1 || words[1] == "toggle")) {
-    // Back to all that was there before one was isolated.
+    // The isolation ends: all entries from before come back.
   } else if (switched(words, 1, !view.hidden.contains(name))) {
     view.hidden.erase(name);
   } else {
@@ -92,7 +92,7 @@ PlotSave parse_save(Arguments words) {
 }  // namespace
 
 void rename_runs(PlotView& view, const std::map<std::string, std::string>& changed) {
-  // All at once: one run may have now the name that another one had.
+  // All are renamed at once: a run may now have the name that another one had.
   std::set<std::string> hidden;
   for (const std::string& name : view.hidden) {
     const auto at = changed.find(name);

@@ -59,7 +59,7 @@ void select(ViewState& state, const CommandHost& host, Arguments words) {
   }
 }
 
-/// Those that may be moved; throws UsageError where there is none.
+/// Those of the selected vertices that may be moved; throws UsageError if there is none.
 std::vector<Index> free_of(const ViewState& state, const SessionView& view) {
   const RunView& run = view.runs[view.active];
   std::vector<Index> free;
@@ -82,7 +82,7 @@ std::string chosen_vertices(const ViewState& state, const SessionView& view) {
   return fmt::format("vertices:{}", state.picked.id);
 }
 
-/// One thing at a time, the latest first: what the mouse is to do, then what is picked.
+/// Leaves one thing at a time, the latest first: the mouse's mode, then the pick.
 void leave(ViewState& state) {
   if (std::exchange(state.placing_size_point, false)) return;
   if (state.renaming_run) return state.renaming_run.reset();
@@ -112,7 +112,7 @@ void add_selection_commands(CommandTable& table, ViewState& state, const Command
     const auto view = host.session();
     std::string list = id_ranges(free_of(state, open_session(view)));
     std::ranges::replace(list, ' ', ',');
-    host.post("fix vertices:" + list);  // a number alone may also be a group's
+    host.post("fix vertices:" + list);  // a number alone may also be the name of a group
   });
   table.add({"make", "make corner|no-corner|auto-corner", "gives the selected vertices, or else the picked one, this kind"}, {1, 1},
             [&state, &host](Arguments words) {

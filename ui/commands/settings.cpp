@@ -28,7 +28,7 @@ void take(const json& from, const char* name, double& value, double least, doubl
   if (read >= least && read <= most) value = read;
 }
 
-/// Of a range the second number is greater; where it is not, both stay as they were.
+/// Keeps the second number of a range greater than the first; otherwise both stay as they were.
 void keep_ranges(const ViewState& before, ViewState& next) {
   if (!(next.range_low < next.range_high)) {
     next.range_low = before.range_low;
@@ -40,9 +40,9 @@ void keep_ranges(const ViewState& before, ViewState& next) {
   }
 }
 
-constexpr int kLayout = 3;  // 1, which was not written: wide side panels; 2: narrower ones; 3: one column
+constexpr int kLayout = 3;  // layouts: 1, which was not written, wide side panels; 2, narrower ones; 3, one column
 
-/// Settings have always held the panels' sizes, also where nobody had chosen them.
+/// Replaces sizes of panels that are old defaults: settings have always held sizes, also when nobody had chosen them.
 void forget_old_defaults(Panels& panels, int layout) {
   const auto forget = [&panels](double Panels::*size, double usual) {
     if (panels.*size == usual) panels.*size = Panels{}.*size;
@@ -53,7 +53,7 @@ void forget_old_defaults(Panels& panels, int layout) {
   forget(&Panels::runs_height, 6.2);
 }
 
-/// A file of ours where XDG wants it: `variable`, else `fallback` in the home.
+/// Path of one of the program's files by the XDG rules: in the folder `variable`, else in `fallback` in the home.
 std::filesystem::path xdg_path(const char* variable, const char* fallback, const char* name) {
   if (const char* folder = std::getenv(variable); folder != nullptr && *folder != '\0') {
     return std::filesystem::path(folder) / "dmoscope" / name;
@@ -66,7 +66,7 @@ std::filesystem::path xdg_path(const char* variable, const char* fallback, const
 
 constexpr std::size_t kMostRecent = 10;
 
-/// Whole paths alone: older versions wrote them as they were typed, and nobody knows from which folder.
+/// Takes only whole paths: older versions wrote relative ones, whose folder is not known.
 void take_recent(const json& files, std::vector<std::string>& recent) {
   for (const json& file : files) {
     if (!file.is_string() || recent.size() >= kMostRecent) continue;
@@ -87,7 +87,7 @@ void take_place(const json& in, WindowPlace& place) {
   place.height = static_cast<int>(height);
 }
 
-/// The file's text; none where there is no such file.
+/// The file's text; none if there is no such file.
 std::optional<std::string> read_text(const std::filesystem::path& path) {
   constexpr std::size_t kMost = std::size_t{1} << 24U;
   try {
@@ -138,7 +138,7 @@ bool apply_settings(const std::string& text, ViewState& state) {
   double scale = state.scale / state.monitor_scale;
   take(in, "scale", scale, 0.125, 4.0);
   state.scale = std::clamp(scale * state.monitor_scale, 0.5, 4.0);
-  if (const auto at = in.find("recent"); at != in.end() && at->is_array()) {  // of older versions
+  if (const auto at = in.find("recent"); at != in.end() && at->is_array()) {  // written by older versions
     state.recent_files.clear();
     take_recent(*at, state.recent_files);
   }

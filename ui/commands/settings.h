@@ -1,5 +1,5 @@
 #pragma once
-// What the window remembers between starts.
+// Settings that the window keeps between starts.
 
 #include <filesystem>
 #include <string>
@@ -8,30 +8,32 @@
 
 namespace dmoscope::ui {
 
-/// $XDG_CONFIG_HOME/dmoscope/settings.json, else ~/.config/dmoscope/settings.json; empty when neither is known.
+/// Path of the settings: $XDG_CONFIG_HOME/dmoscope/settings.json, else ~/.config/dmoscope/settings.json; empty when neither is known.
 [[nodiscard]] std::filesystem::path settings_path();
 
-/// $XDG_STATE_HOME/dmoscope/recent.json, else ~/.local/state/dmoscope/recent.json; empty when neither is known.
+/// Path of the recent files: $XDG_STATE_HOME/dmoscope/recent.json, else ~/.local/state/dmoscope/recent.json; empty when neither is known.
 [[nodiscard]] std::filesystem::path recent_path();
 
-/// Folder of what windows save by themselves: $XDG_STATE_HOME/dmoscope/autosave, else below ~/.local/state; empty when neither is known.
+/// Folder of sessions that windows save automatically: $XDG_STATE_HOME/dmoscope/autosave, else below ~/.local/state; empty when neither is
+/// known.
 [[nodiscard]] std::filesystem::path autosave_folder();
 
 /// Theme, scale (over the monitor's), colour map, panels, how plots are laid, and the window's place as JSON.
 [[nodiscard]] std::string settings_text(const ViewState& state);
-/// Takes over what is there and makes sense; anything else keeps its value. Returns false when the text is no JSON object.
+/// Takes over valid settings; all others keep their values. Returns false when the text is no JSON object.
 bool apply_settings(const std::string& text, ViewState& state);
 
 /// Recent files as JSON, and back; false when the text is no JSON array.
 [[nodiscard]] std::string recent_text(const ViewState& state);
 bool apply_recent(const std::string& text, ViewState& state);
-/// As load_settings and save_settings. What other windows have put there meanwhile stays, behind this one's.
+/// Reads and writes the recent files, with the errors of load_settings and save_settings. Files that other windows have added meanwhile
+/// stay, behind this one's.
 void load_recent(const std::filesystem::path& path, ViewState& state);
 std::string save_recent(const std::filesystem::path& path, const ViewState& state);
 
-/// Reads the file if there is one. Never throws: a broken file gives a sentence in the log.
+/// Reads the file if there is one. Never throws: a broken file gives a message in the log.
 void load_settings(const std::filesystem::path& path, ViewState& state);
-/// Writes it, all or nothing. Returns a sentence when that failed.
+/// Writes the settings, all or nothing. Returns a sentence when that failed.
 std::string save_settings(const std::filesystem::path& path, const ViewState& state);
 
 }  // namespace dmoscope::ui

@@ -34,7 +34,7 @@ double SettingsKeeper::look(ViewState& state, double now) {
 
 std::vector<std::string> SettingsKeeper::write(const ViewState& state) {
   std::vector<std::string> troubles;
-  // What cannot be written is not tried again until it changes.
+  // After a failure, writing is not tried again until something changes.
   if (std::string text = settings_text(state); text != written_) {
     if (std::string trouble = save_settings(settings_, state); !trouble.empty()) troubles.push_back(std::move(trouble));
     written_ = seen_ = std::move(text);

@@ -11,20 +11,20 @@ namespace dmoscope::ui {
 
 class SettingsKeeper {
  public:
-  /// How long settings must have stood still: not every width is written through which a hand drags a panel.
+  /// Seconds for which settings must be unchanged before they are written, so that not every width of a dragged panel is.
   static constexpr double kStill = 0.3;
 
-  /// Reads them. Empty paths: neither read nor written.
+  /// Reads both files. Empty paths: neither read nor written.
   void begin(std::filesystem::path settings, std::filesystem::path recent, ViewState& state);
-  /// Once a frame, at `now` (seconds): writes what has changed. What could not be written is said in the log. Returns after which time it
+  /// Writes changes; to be called once a frame, at `now` (seconds). Failures are messages in the log. Returns the seconds after which it
   /// must be called again; infinity: when something changes.
   double look(ViewState& state, double now);
-  /// At once what is not written yet. Returns sentences about what could not be.
+  /// Writes everything that is not yet written. Returns sentences about failures.
   [[nodiscard]] std::vector<std::string> write(const ViewState& state);
 
  private:
   std::filesystem::path settings_, recent_;
-  std::string written_, seen_;  // settings
+  std::string written_, seen_;  // texts of the settings
   std::vector<std::string> written_recent_;
   double since_ = 0.0;
   std::string said_;

@@ -14,7 +14,7 @@ void add_size_point_commands(CommandTable& table, ViewState& state, const Comman
 /// The point of the run's size function; null: it has none.
 [[nodiscard]] const Vec3* size_point_of(const RunView& run);
 
-/// The session's command that puts the point to where the viewport has a pixel.
+/// The session's command that puts the point at a pixel of the viewport.
 [[nodiscard]] std::string size_point_command(const ViewState& state, const InputMesh& input, Vec2<double> pixel);
 
 }  // namespace dmoscope::ui

@@ -1,5 +1,5 @@
 #pragma once
-// The tour's command, and what it goes by. Only for sources of this room.
+// The tour's command, and the facts it goes on by. Only for sources of this module.
 
 #include "ui/commands/view_commands.h"
 

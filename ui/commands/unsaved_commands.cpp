@@ -17,7 +17,7 @@ void answer(ViewState& state, const CommandHost& host, Answer given) {
     state.dialog = Dialog::None;
     return;
   }
-  if (host.busy()) host.cancel();  // what is saved is where it stands now
+  if (host.busy()) host.cancel();  // its present state is saved
   state.leaving->phase = given == Answer::Discard ? Leaving::Phase::Going : Leaving::Phase::Saving;
   state.dialog = given == Answer::Discard ? Dialog::None : given == Answer::Session ? Dialog::SaveSession : Dialog::Export;
 }
@@ -25,12 +25,12 @@ void answer(ViewState& state, const CommandHost& host, Answer given) {
 void recovery(ViewState& state, const CommandHost& host, Recovery wish, std::size_t place) {
   if (place >= state.recoverable.size()) throw UsageError("there is nothing to recover");
   if (wish == Recovery::Later) {
-    state.recoverable.clear();  // lets go of them; the next start offers them again
+    state.recoverable.clear();  // leaves them: the next start offers them again
   } else if (wish == Recovery::Discard) {
     remove_safe(state.recoverable[place].names);
     state.recoverable.erase(state.recoverable.begin() + static_cast<std::ptrdiff_t>(place));
   } else {
-    // It stays ours until the session was saved by itself from here.
+    // It is kept until this window has saved the session automatically.
     state.recovering = state.recoverable[place];
     state.recoverable.clear();
     host.post("recover " + quote_word(state.recovering->names.session.string()));
@@ -56,7 +56,7 @@ void add_unsaved_commands(CommandTable& table, ViewState& state, const CommandHo
 
 bool ask_before(ViewState& state, const SessionView& session, const std::string& at_work, std::string_view line) {
   if (!state.asks_unsaved || !gives_up_session(line)) return false;
-  // What has just begun may have moved vertices of which no view tells yet.
+  // A command that has just begun may have moved vertices that no view shows yet.
   const bool moving = session.input && !at_work.empty() && !gives_up_session(at_work);
   if (unsaved_runs(session).empty() && !moving) return false;
   state.leaving = Leaving{std::string(line), Leaving::Phase::Asking};
@@ -67,7 +67,7 @@ bool ask_before(ViewState& state, const SessionView& session, const std::string&
 std::string go_on_leaving(ViewState& state, const SessionView& session, bool busy) {
   if (!state.leaving) return {};
   if (state.leaving->phase == Leaving::Phase::Asking) {
-    if (state.dialog == Dialog::None) state.leaving.reset();  // Escape
+    if (state.dialog == Dialog::None) state.leaving.reset();  // the dialog was closed by Escape
     return {};
   }
   const bool go = state.leaving->phase == Leaving::Phase::Going;

@@ -179,7 +179,7 @@ void add_session_shortcuts(CommandTable& table, ViewState& state, const CommandH
   });
   table.add({"next-metric", "next-metric", "shows the next metric that is defined for the mesh"}, {0, 0}, [&host](Arguments) {
     (void)open_view(host);
-    host.post("show next");  // not by name: of several presses in a row each goes one further
+    host.post("show next");  // relative, so that each of several presses in a row goes one further
   });
   (void)state;
 }

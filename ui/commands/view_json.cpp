@@ -23,7 +23,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Writes members. It and Reader offer the same, so that one description of the view serves both ways.
+/// Writes members. It has the same functions as Reader, so that one description of the view serves both.
 class Writer {
  public:
   [[nodiscard]] const json& result() const noexcept { return json_; }
@@ -68,7 +68,7 @@ class Writer {
   json json_ = json::object();
 };
 
-/// Reads members; throws UsageError with the whole name of one that is wrong. `vertices`: of the mesh.
+/// Reads members; throws UsageError with the whole name of one that is wrong. `vertices`: number of the mesh's vertices.
 class Reader {
  public:
   Reader(const json& from, std::string path, Index vertices) : json_(from), path_(std::move(path)), vertices_(vertices) {
@@ -133,7 +133,7 @@ class Reader {
     }
     value = std::move(read);
   }
-  /// As "3-7 9".
+  /// Writes or reads ids as "3-7 9".
   void ids(const char* name, Selection& value) {
     const json* at = find(name);
     if (at == nullptr) return;
@@ -144,7 +144,7 @@ class Reader {
       wrong(name, error.what());
     }
   }
-  /// Runs by their numbers.
+  /// Runs are given by their numbers.
   void content(const char* name, PaneContent& value, const Panes& panes) {
     const json* at = find(name);
     if (at == nullptr) return;
@@ -156,7 +156,7 @@ class Reader {
     }
   }
   void runs(const char* name, std::set<std::uint64_t>& ids, const Panes& panes) {
-    ids.clear();  // those of the runs there were; a view of before there were hidden ones hides none
+    ids.clear();  // ids of the present runs; a view from before there were hidden ones hides none
     const json* at = find(name);
     if (at == nullptr) return;
     for (const json& number : at->is_array() ? *at : json{0}) {
@@ -165,7 +165,7 @@ class Reader {
       ids.insert(panes.run_ids[k - 1]);
     }
   }
-  /// Behind the objects that they are in.
+  /// Options come after the objects that they are in.
   void options(ViewState& state) {
     for (const ViewOption& option : view_options()) {
       const json::json_pointer member{std::string(option.kept.member)};
@@ -185,7 +185,7 @@ class Reader {
   }
 
  private:
-  /// Where there is something, it must have members.
+  /// Throws UsageError if there is something at this place that has no members.
   void require_object(const json::json_pointer& at) const {
     if (!at.empty()) require_object(at.parent_pointer());
     if (!json_.contains(at) || json_[at].is_object()) return;
@@ -217,7 +217,7 @@ std::vector<std::pair<std::string_view, std::string>> sortable_columns() {
 constexpr std::array<std::pair<std::string_view, Picked::Kind>, 3> kPicks{
     {{"none", Picked::Kind::None}, {"vertex", Picked::Kind::Vertex}, {"element", Picked::Kind::Element}}};
 
-// State is const where it is written.
+// State is const when it is written.
 
 template <class Archive, class State>
 void describe_plots(Archive& archive, State& state) {
@@ -240,7 +240,7 @@ void describe_camera(Archive& archive, Camera& camera) {
   archive.number("units_per_pixel", camera.units_per_pixel, 1e-300, kFar);
 }
 
-/// What is seen of a volume mesh. Qualities in double, as the numbers of JSON are.
+/// The visible part of a volume mesh. Qualities are double, as the numbers of JSON are.
 template <class Archive, class View>
 void describe_inside(Archive& archive, View& view) {
   archive.object("clip", [&view](auto& clip) {
@@ -290,7 +290,7 @@ void describe_colouring(Archive& archive, State& state) {
   archive.range("filter", state.colouring.filter);
 }
 
-/// The one description of what of the view is no option.
+/// The only description of those parts of the view that are no options.
 template <class Archive, class State>
 void describe(Archive& archive, State& state) {
   archive.object("camera", [&state](auto& camera) { describe_camera(camera, state.camera); });

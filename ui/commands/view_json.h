@@ -9,11 +9,11 @@
 
 namespace dmoscope::ui {
 
-/// Camera, colours, panels, plots, what is picked: all on one line.
+/// Camera, colours, panels, plots and pick as JSON on one line.
 [[nodiscard]] std::string view_json(const ViewState& state);
 
-/// Takes it over. `mesh`: what is open, null for nothing; what is picked must exist there. Throws UsageError that names the member which
-/// makes no sense; the state is as it was then.
+/// Takes over a view. `mesh`: the open mesh, null for none; the pick must exist there. Throws UsageError that names the invalid member; the
+/// state is then unchanged.
 void apply_view_json(std::string_view text, ViewState& state, const Mesh* mesh);
 
 }  // namespace dmoscope::ui

@@ -23,7 +23,7 @@ std::vector<std::string> view_lines(const ViewState& state, bool with_camera) {
   std::vector<std::string> lines;
   if (state.window_size.first > 0) lines.push_back(fmt::format("size {} {}", state.window_size.first, state.window_size.second));
   lines.push_back(fmt::format("scale {}", state.scale));
-  // Also what is usual: the settings of whoever runs the script may say otherwise.
+  // Default values are written, too: the settings of the person who runs the script may differ.
   for (const ViewOption& option : view_options())
     if (option.kept.in_scripts && (option.entry.needs != Needs::Volume || state.in_space))
       lines.push_back(option_line(state, option.command));

@@ -1,5 +1,5 @@
 #pragma once
-// The look of the window as command lines, each of which sets one thing of it whatever it was before.
+// The look of the window as command lines. Each line sets one thing, whatever it was before.
 
 #include <string>
 #include <vector>
@@ -8,7 +8,8 @@
 
 namespace dmoscope::ui {
 
-/// What the mouse and the settings can change: the window's size, theme, panels, the picture's ways and, `with_camera`, the camera.
+/// Lines for everything that mouse and settings can change: the window's size, theme, panels, the picture's options and, `with_camera`, the
+/// camera.
 [[nodiscard]] std::vector<std::string> view_lines(const ViewState& state, bool with_camera);
 
 }  // namespace dmoscope::ui

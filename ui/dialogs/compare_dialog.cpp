@@ -1,4 +1,4 @@
-// Chooses methods and metrics that are run beside the active run, to be compared.
+// Dialog that chooses methods and metrics of runs to be compared with the active one.
 #include <algorithm>
 #include <set>
 
@@ -12,7 +12,7 @@
 namespace dmoscope::ui {
 namespace {
 
-/// Begins with what the active run has.
+/// Sets the choice to the active run's method and metric.
 void begin(CompareDialog& dialog, const RunView& run) {
   dialog.methods = {run.parameters.method};
   dialog.metrics = {std::string(info(run.parameters.metric).name)};
@@ -48,7 +48,7 @@ void draw_metrics(PanelContext& context, CompareDialog& dialog) {
   }
 }
 
-/// What is run besides the active one: every chosen method for every chosen metric.
+/// Commands for the runs besides the active one: every chosen method with every chosen metric.
 std::vector<std::string> chosen_runs(const CompareDialog& dialog, const RunView& active) {
   std::vector<std::string> runs;
   for (const MethodInfo& method : method_table())

@@ -1,4 +1,4 @@
-// What all dialogs share, and the small ones: find, keys, about, error.
+// Common parts of all dialogs, and the small ones: find, keys, about, error.
 #include <algorithm>
 #include <array>
 
@@ -62,7 +62,7 @@ constexpr std::array kDialogInfos{DialogInfo{Dialog::Open, "Open a mesh", draw_o
                                   DialogInfo{Dialog::Recover, "Recover", draw_recover_dialog},
                                   DialogInfo{Dialog::Formula, "A metric of your own", draw_formula_dialog},
                                   DialogInfo{Dialog::Compare, "Compare", draw_compare_dialog}};
-/// `dialog` is not None.
+/// Facts of a dialog, which must not be None.
 const DialogInfo& info_of(Dialog dialog) { return *std::ranges::find(kDialogInfos, dialog, &DialogInfo::dialog); }
 
 void close_stale_popup(PanelContext& context, Dialog now) {
@@ -123,7 +123,7 @@ void draw_keys_dialog(PanelContext& context) {
   const auto table = [&](const char* name) {
     ImGui::Spacing();
     heading(context, name);
-    const int pairs = ImGui::GetContentRegionAvail().x >= 46 * context.em() ? 2 : 1;  // else titles would be cut
+    const int pairs = ImGui::GetContentRegionAvail().x >= 46 * context.em() ? 2 : 1;  // with two, titles would be cut in a narrower dialog
     if (!ImGui::BeginTable(name, 2 * pairs)) return false;
     for (int k = 0; k < pairs; ++k) {
       ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, 7.5F * context.em());

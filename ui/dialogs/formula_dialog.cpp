@@ -1,4 +1,4 @@
-// A metric of a person's own: a formula that is checked while it is typed, with its picture; and the target shape of the elements.
+// Dialog for a person's own metric: a formula that is checked while it is typed, with its picture; and the target shape of the elements.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* kFirst = "2*det/norm^2";
 
-/// Where the dialog begins: with the formula of the active run's metric.
+/// Starts the dialog with the formula of the active run's metric.
 void begin(FormulaDialog& dialog, const RunView* run) {
   const Metric metric = run != nullptr ? run->parameters.metric : Metric::MeanRatio;
   if (is_built_in(metric)) {
@@ -28,7 +28,7 @@ void begin(FormulaDialog& dialog, const RunView* run) {
   dialog.target = to_text(target_of(metric));
 }
 
-/// A list of texts to begin with.
+/// Draws a list of texts to begin with.
 void draw_examples(PanelContext& context) {
   FormulaDialog& dialog = context.widgets.formula;
   ImGui::SetNextItemWidth(14 * context.em());
@@ -84,7 +84,7 @@ void draw_verdict(PanelContext& context, const FormulaCheck& check) {
   ImGui::PopTextWrapPos();
 }
 
-/// The metric over the free corner, in the window's colours; what is 0 or less is as inverted elements are.
+/// Draws the metric over the free corner, in the window's colours; values of 0 or less look like inverted elements.
 void draw_picture(PanelContext& context, const FormulaCheck& check) {
   const float width = ImGui::GetContentRegionAvail().x, height = 0.75F * width;
   const ImVec2 corner = ImGui::GetCursorScreenPos();

@@ -1,4 +1,4 @@
-// F6: what was done and said, and the script of it.
+// Log of commands and messages (F6), and the script made from it.
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -12,7 +12,7 @@ namespace {
 
 const char* state_word(LogLine::State state) {
   constexpr std::array<const char*, 5> kWords{"  (waits or runs)", "", "  (failed)", "  (cancelled)", "  (cancelled before it began)"};
-  return kWords[static_cast<std::size_t>(state)];  // in its order
+  return kWords[static_cast<std::size_t>(state)];  // in the order of State
 }
 
 render::Rgb ink_of(const PanelContext& context, const LogLine& line) {
@@ -37,7 +37,7 @@ void draw_line(PanelContext& context, const LogLine& line) {
   dim_text(context, line.time, false);
   ImGui::SameLine(5.5F * context.em());
   const bool command = line.kind == LogLine::Kind::Command;
-  // Commands have a mark of their own: colour alone tells nobody.
+  // Commands have a mark, too, because not everybody can tell them by colour.
   ImGui::TextColored(colour_vector(context.palette.accent), command ? "▸" : " ");
   ImGui::SameLine(7.0F * context.em());
   const std::string text = context.shown(line.text.substr(0, line.text.find('\n'))) + state_word(line.state);

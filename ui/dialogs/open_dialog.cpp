@@ -1,4 +1,4 @@
-// Our own file browser, so that the program depends on no desktop.
+// The program's own file browser, so that it depends on no desktop.
 #include <algorithm>
 #include <filesystem>
 
@@ -32,8 +32,8 @@ void open_files(PanelContext& context, const std::vector<fs::path>& files) {
 }
 void open_file(PanelContext& context, const fs::path& file) { open_files(context, {file}); }
 
-/// A click with Ctrl adds a file to those that are chosen or takes it away, with Shift it adds all up to there; any other click chooses it
-/// alone. Folders are not among them.
+/// Chooses a file: a click with Ctrl adds it or takes it away, with Shift it adds all files up to there; any other click chooses it alone.
+/// Folders cannot be chosen.
 void choose(OpenDialog& open, int row, bool several) {
   const ImGuiIO& io = ImGui::GetIO();
   const auto name_of = [&](int k) -> const FolderEntry& { return open.entries[static_cast<std::size_t>(k)]; };
@@ -51,7 +51,7 @@ void choose(OpenDialog& open, int row, bool several) {
   if (!name_of(row).folder) open.text = (fs::path(open.folder) / name_of(row).name).string();
 }
 
-/// A folder is entered, a file opened; anything else gets a sentence.
+/// Enters a folder or opens a file; anything else gives a message.
 void go_to(PanelContext& context, const fs::path& named) {
   std::error_code ignored;
   SaveTarget target;
@@ -136,7 +136,7 @@ void draw_places_column(PanelContext& context) {
   ImGui::Spacing();
 }
 
-/// Beside the open mesh; once that is known, where one was last.
+/// Starts in the last folder if the open mesh is still the same, else in the folder of the open mesh.
 void begin_open(PanelContext& context) {
   OpenDialog& open = context.widgets.open;
   const Frame* frame = context.frame();

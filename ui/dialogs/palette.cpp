@@ -1,4 +1,4 @@
-// Ctrl+P: every action, every command, and any line of the command language.
+// The palette (Ctrl+P): every action, every command, and any line of the command language.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ int move_selection(int selected, int size) {
   return std::clamp(selected, 0, std::max(0, size - 1));
 }
 
-/// Where an entry's detail stands from its upper left corner: at the right of the title, else below it. Nothing is cut.
+/// Place of an entry's detail relative to its upper left corner: at the right of the title, else below it. Nothing is cut.
 struct EntryLayout {
   ImVec2 detail;
   float wrap = 0, height = 0;

@@ -1,4 +1,4 @@
-// Saves the plot, or what is compared.
+// Dialog that saves the plot, or the comparison.
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -13,7 +13,7 @@ namespace dmoscope::ui {
 
 namespace {
 
-/// The table of runs is one of numbers alone, a comparison a page, too.
+/// Formats of the plot: the table of runs has only numbers, a comparison also a page.
 SaveEndings plot_endings(const PanelContext& context) {
   if (context.state.plot == PlotTab::Compare) return {"a comparison", {".html", ".svg", ".png", ".csv"}};
   if (context.state.plot == PlotTab::Runs) return {"the table of runs", {".csv"}};

@@ -1,4 +1,4 @@
-// Export of the mesh and its numbers, and screenshots.
+// Dialogs for export of the mesh and its numbers, and for screenshots.
 #include <algorithm>
 #include <filesystem>
 
@@ -23,7 +23,7 @@ std::string default_name(const PanelContext& context, int what) {
   return what == 0 ? name_beside(context, "-smoothed", {}) : name_beside(context, what == 1 ? "-stats" : "-elements", ".csv");
 }
 
-/// Meshes are packed by gzip where the name says so.
+/// Endings for a kind of export. Meshes are packed by gzip if the name says so.
 SaveEndings endings_of(const PanelContext& context, int what) {
   if (what != 0) return {what == 1 ? "a table of statistics" : "a table of elements", {".csv"}};
   return {"a mesh", {mesh_extension(default_name(context, 0))}, true};
@@ -38,7 +38,7 @@ void draw_formats(PanelContext& context, std::string& name) {
     for (const FormatInfo& format : format_table()) {
       const std::string_view first = format.extensions.substr(0, format.extensions.find(' '));
       if (format_by_extension(first)->name != format.name)
-        continue;  // told apart from another by content, which is written where it was read
+        continue;  // it differs from another format only by content, and is written by the source that reads it
       const std::string label = fmt::format("{}   {}", format.title, format.extensions);
       if (ImGui::Selectable(label.c_str(), &format == current)) {
         const std::string extensions(format.extensions);
@@ -52,14 +52,14 @@ void draw_formats(PanelContext& context, std::string& name) {
   if (current != nullptr) dim_text(context, std::string(current->doc));
 }
 
-/// Whether the export would take the place of the file that the mesh was read from, by whatever name.
+/// Whether the export would replace the file that the mesh was read from, by whatever name.
 bool writes_over_input(const PanelContext& context) {
   const ExportDialog& dialog = context.widgets.exporting;
   const Frame* frame = context.frame();
   return dialog.what == 0 && frame != nullptr && same_file(dialog.save.target.path(), frame->input->path);
 }
 
-/// In the place of the dialog's buttons.
+/// Draws the question whether to overwrite the input in place of the dialog's buttons.
 void ask_over_input(PanelContext& context) {
   ExportDialog& dialog = context.widgets.exporting;
   const std::string copy = original_name(context.frame()->input->path, 1).filename().string();
@@ -109,7 +109,7 @@ void draw_export_dialog(PanelContext& context) {
   if (dialog.what == 0) draw_formats(context, dialog.save.target.name);
   if (draw_save_buttons(context, form, "Export", entered))
     context.send(fmt::format("{} {}", kCommands[dialog.what], quote_word(dialog.save.target.path().string())));
-  // That it is the mesh's own file is asked in other words.
+  // The mesh's own file has a question of its own.
   if (std::string& asked = dialog.save.target.asked; !asked.empty() && writes_over_input(context)) {
     dialog.over_input = true;
     asked.clear();

@@ -27,7 +27,7 @@ void row_label(PanelContext& context, const SaveForm& form, const char* text) {
 
 void go_to_folder(SaveRows& rows, const std::string& folder) {
   rows.target.folder = folder;
-  // A name with a folder of its own would stay there.
+  // A name with a folder of its own would keep that folder.
   rows.target.name = fs::path(rows.target.name).filename().string();
   rows.target.asked.clear();
   rows.target.trouble.clear();
@@ -64,12 +64,12 @@ void browse(PanelContext& context, const SaveForm& form) {
     wish.name = path.filename().string();
   }
   wish.endings = form.endings.endings;
-  if (form.endings.meshes) wish.endings.clear();  // all: a person may type any of its formats
+  if (form.endings.meshes) wish.endings.clear();  // no filter: a person may type any format of meshes
   chooser.wish = std::move(wish);
   chooser.asked_by = form.dialog;
 }
 
-/// The folder's files in the dialog itself: a folder is entered, a file lends its name.
+/// Draws the folder's files in the dialog itself: a folder is entered, a file lends its name.
 void draw_browser(PanelContext& context, const SaveForm& form) {
   SaveRows& rows = form.rows;
   if (rows.listed != rows.target.folder) {
@@ -122,7 +122,7 @@ bool path_field(PanelContext& context, const char* label, std::string& text) {
   const bool entered = ImGui::InputText(label, &shown, ImGuiInputTextFlags_EnterReturnsTrue);
   if (shown != before) {
     text = context.widgets.glyphs.meant(shown);
-    (void)context.shown(text);  // what was pasted
+    (void)context.shown(text);  // registers letters that were pasted
   }
   return entered;
 }
@@ -192,7 +192,8 @@ bool draw_save_buttons(PanelContext& context, const SaveForm& form, const char* 
     wrapped_text(context.shown(fs::path(target.asked).filename().string()) + " exists already. Replace it?", context.palette.warning);
   }
   ImGui::Spacing();
-  // While it asks, Enter and the usual button do nothing: what is replaced is replaced by a button of its own, which Enter does not press.
+  // While the question is open, Enter and the usual button do nothing: only a button of its own, which Enter does not press, replaces a
+  // file.
   ImGui::BeginDisabled(asks);
   bool go = ImGui::Button(verb) || entered;
   context.items.record_last(form.items + ":go");

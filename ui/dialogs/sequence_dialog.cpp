@@ -1,4 +1,4 @@
-// Pictures of a run, for a video.
+// Dialog for pictures of a run, for a video.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -65,7 +65,7 @@ void draw_sequence_dialog(PanelContext& context) {
   if (context.widgets.dialog_opened) {
     widgets.from = 0;
     widgets.to = static_cast<int>(std::min<std::uint64_t>(last_iteration(context), 1'000'000'000));
-    widgets.width = static_cast<int>(context.state.viewport.x) / 2 * 2;  // videos want even numbers
+    widgets.width = static_cast<int>(context.state.viewport.x) / 2 * 2;  // videos need even numbers
     widgets.height = static_cast<int>(context.state.viewport.y) / 2 * 2;
   }
   dim_text(context, "Shows one iteration after another and saves a picture of each: frame-0000.png, frame-0001.png, ...");

@@ -1,4 +1,4 @@
-// What would be lost, and what was left behind.
+// Dialogs about unsaved work, and about sessions that were left behind.
 #include <algorithm>
 #include <ctime>
 #include <filesystem>
@@ -12,13 +12,13 @@
 namespace dmoscope::ui {
 namespace {
 
-/// The buttons of a question, each of which sends a command. Enter presses the one that has the focus, else the first.
+/// The buttons of a question, each of which sends a command. Enter presses the focused one, else the first.
 class Answers {
  public:
   explicit Answers(PanelContext& context)
       : context_(context), enter_(ImGui::IsKeyPressed(key::kEnter, false) && !context.widgets.dialog_opened) {}
 
-  /// On a line of its own where there is no room beside the one before.
+  /// Adds a button, on a line of its own if there is no room beside the one before.
   void add(const char* item, const char* label, const std::string& command) {
     const float width = ImGui::CalcTextSize(label).x + 2 * ImGui::GetStyle().FramePadding.x;
     if (!first_.empty()) {
@@ -59,7 +59,7 @@ std::string row_of(const Recoverable& one) {
 
 void draw_unsaved_dialog(PanelContext& context) {
   if (!begin_dialog(context, "Not saved", 42)) return;
-  if (!context.state.leaving) {  // opened by hand
+  if (!context.state.leaving) {  // the dialog was opened by a command
     context.state.dialog = Dialog::None;
     end_dialog();
     return;
@@ -92,7 +92,7 @@ void draw_unsaved_dialog(PanelContext& context) {
 void draw_recover_dialog(PanelContext& context) {
   if (!begin_dialog(context, "Recover", 46)) return;
   const std::vector<Recoverable>& found = context.state.recoverable;
-  if (context.state.dialog == Dialog::None) context.send("recovery later");  // Escape
+  if (context.state.dialog == Dialog::None) context.send("recovery later");  // closed by Escape
   if (found.empty()) {
     context.state.dialog = Dialog::None;
     end_dialog();

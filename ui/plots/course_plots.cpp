@@ -13,7 +13,7 @@
 namespace dmoscope::ui {
 namespace {
 
-/// Values that can be plotted: infinity stands for "there is no such element".
+/// Value to be plotted, with a gap for infinity, which stands for "there is no such element".
 double finite_or_gap(double value) { return std::isfinite(value) ? value : NAN; }
 
 constexpr std::array<double Statistics::*, 3> kCourses{&Statistics::minimum, &Statistics::movable_minimum, &Statistics::mean};
@@ -71,7 +71,7 @@ class CoursePlot : PlotBuilder {
     }
   }
 
-  /// How the course lies along the plot, `longest` being its end.
+  /// Lays the course along the plot up to `longest`.
   void lay_along(double longest) {
     if (!(longest > 0.0)) return;
     if (state_.plot_options.x_axis == XAxis::Log) {
@@ -94,7 +94,8 @@ class CoursePlot : PlotBuilder {
     return std::isfinite(least) ? least : 0.0;
   }
 
-  /// Some room behind the last place at which a run changed by more than a hundredth of what the plot of its qualities spans.
+  /// End of the changes: some room behind the last place at which a run changed by more than a hundredth of what the plot of its qualities
+  /// spans.
   [[nodiscard]] double last_change() const {
     double low = INFINITY, high = -INFINITY, last = 0.0;
     for (const RunView& run : session_.runs) {
@@ -183,7 +184,7 @@ class CoursePlot : PlotBuilder {
     }
   }
 
-  /// The minima of all runs by one metric; by another metric than a run's own at those of its iterations that were judged by it.
+  /// Builds the minima of all runs by one metric; if a run optimises another metric, only at those iterations that were judged.
   void build_judged() {
     describe_course();
     const bool own = state_.plot_options.judged_own;

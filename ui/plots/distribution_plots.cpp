@@ -23,7 +23,7 @@ class DistributionPlot : PlotBuilder {
   }
 
  private:
-  /// Of the shown metric, of a run whose elements are not in the frame; null where it is not worked out yet.
+  /// Summary by the shown metric of a run whose elements are not in the frame; null while it is not worked out yet.
   [[nodiscard]] const RunSummary* summary_of(std::size_t k) const {
     const RunSummary* summary = session_.runs[k].summary.get();
     return k != session_.frame->run && is_shown(k) && summary != nullptr && summary->metric == session_.frame->shown ? summary : nullptr;
@@ -70,8 +70,8 @@ class DistributionPlot : PlotBuilder {
     if (state_.plot_options.histogram_range == HistogramRange::Data) show_data_alone();
   }
 
-  /// At first the histogram shows whole bars from where its elements begin to where they end. A few far down, no more than a thousandth,
-  /// are left out where all else gets much wider by that; how many is said.
+  /// Sets the histogram's first range to whole bars from the first to the last element. A few far down, no more than a thousandth, are left
+  /// out if everything else gets much wider by that; a note tells their number.
   void show_data_alone() {
     constexpr double kFew = 1e-3, kWorthIt = 0.6, kFewestBars = 4.0;
     const Range all = x_extent(plot_);
@@ -95,7 +95,7 @@ class DistributionPlot : PlotBuilder {
     if (home.second - home.first > kMuchOfARange * (all.second - all.first)) return;
     plot_.x_home = home;
     if (!cut) return;
-    double left_out = 0.0;  // now
+    double left_out = 0.0;  // elements left out now
     for (const Series& one : plot_.series) {
       if (one.name == "input" && plot_.series.size() > 1) continue;
       for (std::size_t k = 0; k < one.x.size() && one.x[k] + one.bar_width <= home.first + 1e-9; ++k) left_out += one.y[k];
@@ -104,12 +104,12 @@ class DistributionPlot : PlotBuilder {
       plot_.y_title += fmt::format(" · {} below {:.3g}, left of what is shown", count(static_cast<std::uint64_t>(left_out)), home.first);
   }
 
-  /// The filter is the histogram's brush; how many elements it leaves is said beside.
+  /// Adds the filter as the histogram's brush, with a note on the number of elements that it leaves.
   void brush(const Frame& frame) {
     const auto& filter = state_.colouring.filter;
     if (!filter) return;
     plot_.brush = *filter;
-    if (frame.quality.empty()) return;  // they are on a device
+    if (frame.quality.empty()) return;  // qualities are on a device
     const std::pair range{static_cast<float>(filter->first), static_cast<float>(filter->second)};
     std::size_t inside = 0;
     for (std::size_t e = 0; e < frame.quality.size(); ++e)

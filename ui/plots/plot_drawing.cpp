@@ -11,7 +11,7 @@ using Points = std::vector<Point>;
 
 DrawingColour ink(render::Rgb c) { return {c.r, c.g, c.b}; }
 
-/// `strength` of the colour before the background.
+/// Colour mixed with the background; `strength`: share of the colour.
 DrawingColour mixed(render::Rgb colour, render::Rgb background, double strength) {
   const auto channel = [strength](std::uint8_t c, std::uint8_t b) {
     return static_cast<std::uint8_t>(std::lround(b + std::clamp(strength, 0.0, 1.0) * (c - b)));
@@ -23,11 +23,11 @@ struct PlotFrame {
   double left, top, right, bottom;
 };
 
-/// The part of the stretch from a to b inside the frame (Liang and Barsky). False: there is none.
+/// Cuts the stretch from a to b to the part inside the frame (Liang and Barsky). False: there is none.
 bool clip(Point& a, Point& b, const PlotFrame& f) {
   const double dx = b.x - a.x, dy = b.y - a.y;
   double t0 = 0.0, t1 = 1.0;
-  const auto cut = [&](double step, double room) {  // step * t <= room
+  const auto cut = [&](double step, double room) {  // demands step * t <= room
     if (step == 0.0) return room >= 0.0;
     if (step < 0.0) t0 = std::max(t0, room / step);
     if (step > 0.0) t1 = std::min(t1, room / step);
@@ -90,7 +90,7 @@ class SeriesDrawer {
     std::vector<double> values = one.y;
     for (double& value : values) value = can_show(y.kind, value) ? value : NAN;
     const auto columns = static_cast<std::size_t>(std::max(1.0, (frame.right - frame.left) / std::min(1.0, unit_)));
-    const Axis& x = layout_.x;  // its columns are even in its shape
+    const Axis& x = layout_.x;  // its columns are even in the axis' shape
     std::vector<double> along = one.x;
     for (double& at : along) at = x.shape(at);
     for (const Stroke& stroke : decimate(along, values, x.shape(x.low), x.shape(x.high), columns)) {
@@ -116,7 +116,7 @@ class SeriesDrawer {
       if (!(one.y[k] > 0.0) || !can_show(y.kind, one.y[k])) continue;
       Point from{std::clamp(layout_.x.place(one.x[k]), f.left, f.right), std::clamp(y.place(one.y[k]), f.top, f.bottom)};
       Point to{std::clamp(layout_.x.place(one.x[k] + one.bar_width), f.left, f.right), f.bottom};
-      if (to.x - from.x > 3.0 * unit_) to.x -= unit_;  // bars stand apart
+      if (to.x - from.x > 3.0 * unit_) to.x -= unit_;  // a gap between bars
       if (to.x <= from.x || to.y <= from.y) continue;
       drawing_.boxes.push_back({from, to, ink(one.colour), one.strength * (in_brush(one, k) ? 1.0 : 0.3), full_name(plot_, one)});
     }
@@ -151,7 +151,7 @@ void draw_axes(Drawing& drawing, const Plot& plot, const PlotLayout& layout, con
   const auto across = [&](double y, DrawingColour colour) {
     drawing.rules.push_back({{{layout.left, y}, {layout.right, y}}, colour, unit});
   };
-  const double room = layout.x.pivot > 0.0 ? 4.0 : 6.0;  // of a logarithm's labels most are short
+  const double room = layout.x.pivot > 0.0 ? 4.0 : 6.0;  // most labels of a logarithm are short
   for (const PlacedTick& tick : place_ticks(layout.x, plot.x_unit, plot.integer_x, how_many(layout.right - layout.left, room * font))) {
     drawing.rules.push_back({{{tick.place, layout.top}, {tick.place, layout.bottom}}, grid, unit});
     const bool at_end = tick.place + 1.5 * font > layout.right;  // there is no room behind the end
@@ -165,7 +165,7 @@ void draw_axes(Drawing& drawing, const Plot& plot, const PlotLayout& layout, con
   const auto upright = [&](const Axis& axis, const AxisUnit& units, bool integer, double each) {
     double last = INFINITY;
     for (const PlacedTick& tick : place_ticks(axis, units, integer, std::max(2, how_many(axis.from - axis.to, each * font)))) {
-      if (tick.label.empty() && std::abs(tick.place - last) < 0.4 * font) continue;  // too dense to be of use
+      if (tick.label.empty() && std::abs(tick.place - last) < 0.4 * font) continue;  // too dense to be useful
       last = tick.place;
       across(tick.place, tick.label.empty() ? mixed(colours.grid, colours.background, 0.5) : grid);
       drawing.labels.push_back({{layout.left - 0.45 * font, tick.place + 0.36 * font}, tick.label, font, dim, Drawing::Anchor::End});
@@ -191,11 +191,11 @@ void draw_brush(Drawing& drawing, const Plot& plot, const PlotLayout& layout, co
 
 double width_of(const std::string& text, double size) {
   const auto letters = std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U; });
-  return 0.62 * size * static_cast<double>(letters);  // of DejaVu Sans, generously
+  return 0.62 * size * static_cast<double>(letters);  // approximate width in DejaVu Sans, generously
 }
 
 void draw_marks(Drawing& drawing, const Plot& plot, const PlotLayout& layout, const PlotInk& colours, double font, double unit) {
-  std::vector<std::pair<double, double>> taken;  // by the labels so far; one over another's goes a line down
+  std::vector<std::pair<double, double>> taken;  // ranges of the labels so far; one that would cover another goes a line down
   for (const PlotMark& mark : plot.marks) {
     const double x = layout.x.place(mark.x);
     if (x < layout.left - 0.5 || x > layout.right + 0.5) continue;
@@ -231,7 +231,7 @@ void draw_plot_area(Drawing& drawing, const Plot& plot, const PlotView& view, co
                     double unit) {
   draw_axes(drawing, plot, layout, colours, font, unit);
   SeriesDrawer drawer(drawing, plot, layout, colours, unit);
-  // The thick ones, the active run's, over the others; among these the first over later ones, as their order in the legend has it.
+  // Thick lines, the active run's, come over the others; among these the first over later ones, in the order of the legend.
   std::vector<const Series*> order;
   for (const Series& one : plot.series) {
     if (is_visible(plot, view, one)) order.push_back(&one);

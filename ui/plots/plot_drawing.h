@@ -12,12 +12,13 @@ struct PlotInk {
 };
 [[nodiscard]] PlotInk ink_of(const Palette& palette);
 
-/// Grid, ticks, series, brush and marks, at the places of `layout`. `font`: height of the ticks' labels; `unit`: of all other lengths, such
-/// as the lines' widths.
+/// Draws grid, ticks, series, brush and marks, at the places of `layout`. `font`: height of the ticks' labels; `unit`: of all other
+/// lengths, such as the lines' widths.
 void draw_plot_area(Drawing& drawing, const Plot& plot, const PlotView& view, const PlotLayout& layout, const PlotInk& ink, double font,
                     double unit);
 
-/// The plot as it is seen, with title, legend of what is visible, and axes' titles, for white paper. Lengths in units; text is 12 high.
+/// The plot in its visible range, with title, legend of visible series, and axes' titles, for white paper. Lengths in units; text is 12
+/// high.
 [[nodiscard]] Drawing whole_plot(const Plot& plot, const PlotView& view, double width, double height, const PlotInk& ink);
 
 }  // namespace dmoscope::ui

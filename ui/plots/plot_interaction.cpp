@@ -8,7 +8,7 @@
 namespace dmoscope::ui {
 namespace {
 
-constexpr double kClick = 4.0;  // pixels at scale 1 that a click may move
+constexpr double kClick = 4.0;  // greatest movement of a click, in pixels at scale 1
 
 /// One gesture in one frame.
 class Gesture {
@@ -53,7 +53,7 @@ class Gesture {
       send(fmt::format("plot-zoom y {} {}", range.first, range.second));
   }
 
-  /// Values after the axis' places have been stretched around `at` and moved.
+  /// Range of values after the axis' places have been stretched around `at` and moved.
   static Range stretched(const Axis& axis, double at, double factor, double move = 0.0) {
     const auto place = [&](double end) { return at + (end - at) * factor - move; };
     return {axis.value(place(axis.from)), axis.value(place(axis.to))};
@@ -104,7 +104,7 @@ class Gesture {
 
   void pan(double dx, double dy) {
     if (view_.x_range && dx != 0.0) {
-      const Axis& x = layout_.x;  // no further than to either end of all there is
+      const Axis& x = layout_.x;  // no further than to either end of all x
       const double least = std::min(0.0, x.to - x.place(full_.second)), most = std::max(0.0, x.from - x.place(full_.first));
       zoom_x(stretched(x, layout_.left, 1.0, std::clamp(dx, least, most)));
     }

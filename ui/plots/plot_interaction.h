@@ -1,5 +1,5 @@
 #pragma once
-// What the mouse does in a plot, as commands. No ImGui: tests play it.
+// Actions of the mouse in a plot, as commands. No ImGui: tests play it.
 
 #include <optional>
 #include <string>
@@ -9,24 +9,24 @@
 
 namespace dmoscope::ui {
 
-/// The mouse over a plot, in one frame.
+/// State of the mouse over a plot in one frame.
 struct PlotMouse {
-  double x = 0.0, y = 0.0;                                                             // in the layout's places
-  bool over = false;                                                                   // the inside, or an axis' labels
+  double x = 0.0, y = 0.0;                                                             // places of the layout
+  bool over = false;                                                                   // over the inside, or an axis' labels
   bool left_pressed = false, left_down = false, left_released = false, twice = false;  // twice: pressed for the second time
   bool right_pressed = false, right_down = false, right_released = false;
   bool shift = false;
   double wheel = 0.0;
 };
 
-/// What a held button is about.
+/// State of a drag while a button is held.
 struct PlotDrag {
   enum class Kind { None, Pan, Box, Brush };
   Kind kind = Kind::None;
-  double x0 = 0.0, y0 = 0.0;  // where it was pressed
-  double x = 0.0, y = 0.0;    // where it is
-  bool moved = false;         // far enough to be no click
-  bool right = false;         // by the right button
+  double x0 = 0.0, y0 = 0.0;  // place where it was pressed
+  double x = 0.0, y = 0.0;    // present place
+  bool moved = false;         // far enough not to be a click
+  bool right = false;         // with the right button
 };
 
 struct PlotOutcome {
@@ -35,13 +35,13 @@ struct PlotOutcome {
   bool menu = false;              // a right click without a drag
 };
 
-/// Wheel: zooms x, over the value axis' labels y. Left drag: brushes the histogram, else moves what is zoomed. Right drag, or left with
-/// Shift: zooms to a box, or to a stretch of x when it is flat. Twice: as it is seen at first. A click on the histogram clears the brush, a
-/// right click asks for the menu.
+/// Handles the mouse. Wheel: zooms x, over the value axis' labels y. Left drag: brushes the histogram, else moves a zoomed plot. Right
+/// drag, or left with Shift: zooms to a box, or to a stretch of x when it is flat. Double click: back to the first range. A click on the
+/// histogram clears the brush, a right click asks for the menu.
 [[nodiscard]] PlotOutcome handle_mouse(const PlotMouse& mouse, PlotDrag& drag, const Plot& plot, const PlotView& view,
                                        const PlotLayout& layout, double scale);
 
-/// The x that a brush from one place to another selects: whole bins, at least one.
+/// Range of x that a brush from one place to another selects: whole bins, at least one.
 [[nodiscard]] Range brushed(const Plot& plot, const PlotLayout& layout, double from, double to);
 
 }  // namespace dmoscope::ui

@@ -6,9 +6,9 @@
 namespace dmoscope::ui {
 namespace {
 
-constexpr double kLeast = 1e-300;  // what logarithms are taken of
+constexpr double kLeast = 1e-300;  // least argument of logarithms
 
-/// A range that an axis of its kind can have.
+/// A range that is valid on an axis of this kind.
 Range usable(ValueAxis kind, Range range) {
   if (kind == ValueAxis::Log) range.first = std::max(range.first, range.second > 0.0 ? 1e-12 * range.second : kLeast);
   if (kind == ValueAxis::LogDistance) range.second = std::min(range.second, 1.0 - 1e-15);

@@ -1,5 +1,5 @@
 #pragma once
-// Which series the window's plots have, from what the session tells.
+// Builds the window's plots from the session.
 
 #include <span>
 
@@ -18,13 +18,13 @@ struct SortedQualities {
 /// The plot that `state` shows. Runs have the palette's colours, the active one the thickest lines.
 [[nodiscard]] Plot build_plot(const ViewState& state, const SessionView& session, const SortedQualities& sorted, const Palette& palette);
 
-/// Changes whenever build_plot() would make another plot of the same palette.
+/// Text that changes whenever build_plot() would make another plot of the same palette.
 [[nodiscard]] std::string plot_key(const ViewState& state, const SessionView& session, const SortedQualities& sorted);
 
-/// The iteration of a run that lies nearest to `x` of the plots over iterations, or over seconds.
+/// The iteration of a run that is nearest to `x` in plots over iterations, or over seconds.
 [[nodiscard]] std::uint64_t iteration_at(const RunView& run, bool by_seconds, double x);
 
-/// The same elements in fewer bins. `bins`: 16, 32 or 64.
+/// The histogram with its elements in fewer bins. `bins`: 16, 32 or 64.
 [[nodiscard]] std::vector<double> rebinned(const Histogram& histogram, std::size_t bins);
 
 }  // namespace dmoscope::ui

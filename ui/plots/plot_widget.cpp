@@ -51,7 +51,7 @@ void paint(ImDrawList& list, const Drawing::Line& line) {
 }
 
 void paint_rule(ImDrawList& list, const Drawing::Line& line) {
-  // Whole pixels, so that the grid's lines are all alike.
+  // Places are whole pixels, so that the grid's lines are all alike.
   const auto whole = [](Drawing::Point p) { return ImVec2{std::round(static_cast<float>(p.x)), std::round(static_cast<float>(p.y))}; };
   list.AddLine(whole(line.points.front()), whole(line.points.back()), opaque(line.colour), std::max(1.0F, static_cast<float>(line.width)));
 }
@@ -148,7 +148,7 @@ class Widget {
 
   [[nodiscard]] static std::string more_text(std::size_t runs) { return fmt::format("… {} more", runs); }
 
-  /// How many lines the legend and the title of x take with only the first `runs` runs.
+  /// Number of lines that the legend and the title of x take with only the first `runs` runs.
   [[nodiscard]] int lines_with(std::size_t runs, std::size_t all, float left, float right) const {
     float x = left;
     int lines = 1;
@@ -169,7 +169,7 @@ class Widget {
     return lines;
   }
 
-  /// How many of `all` runs are named, so that the plot keeps most of the height; the others are in a menu.
+  /// Number of runs, of `all`, that are named, so that the plot keeps most of the height; the others are in a menu.
   [[nodiscard]] std::size_t runs_with_room(std::size_t all, float right) const {
     const float left = ImGui::GetCursorScreenPos().x;
     const int most = std::max(2, static_cast<int>(0.3F * ImGui::GetContentRegionAvail().y / ImGui::GetTextLineHeightWithSpacing()));
@@ -198,7 +198,7 @@ class Widget {
     ImGui::GetWindowDrawList()->AddText({at.x + 26 * s_, at.y}, colour(palette_.text, alpha), entry.name.c_str());
   }
 
-  /// The menu of the runs from `first` on, behind a word in the legend.
+  /// Draws the menu of the runs from `first` on, behind a word in the legend.
   void draw_more_runs(std::size_t first, std::size_t all) {
     const std::string text = more_text(all - first);
     const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -321,7 +321,7 @@ class Widget {
     }
   }
 
-  /// One row a series; of several runs, one row a run and one column a quantity.
+  /// Draws the values in one row a series; with several runs, in one row a run and one column a quantity.
   void draw_values(const std::vector<Reading>& readings) {
     std::vector<std::string> runs, names;
     for (const Reading& reading : readings) {

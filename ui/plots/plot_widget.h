@@ -7,7 +7,7 @@
 
 namespace dmoscope::ui {
 
-/// A plot as the window drew it last; made again when its keys change.
+/// The plot that the window drew last; made again when its keys change.
 struct PlotCache {
   std::string plot_key, drawing_key;
   Plot plot;
@@ -16,9 +16,8 @@ struct PlotCache {
   PlotDrag drag;
 };
 
-/// Draws cache.plot into the space that is left, with its legend above, and reads what the mouse points at. Returns what a person does with
-/// it. Records the items "plot", its inside, "plot-y", the value axis' labels, and "legend:NAME".
-/// `inside`: see PlotArea.
+/// Draws cache.plot into the remaining space, with its legend above and the values under the mouse. Returns the person's actions. Records
+/// the items "plot", its inside, "plot-y", the value axis' labels, and "legend:NAME". `inside`: see PlotArea.
 PlotOutcome draw_plot(PlotCache& cache, const PlotView& view, const Palette& palette, double scale, Items& items,
                       std::optional<Range> inside = {});
 

@@ -1,5 +1,5 @@
 #pragma once
-// The table of runs as it is shown.
+// Rows of the table of runs.
 
 #include <vector>
 
@@ -9,14 +9,13 @@
 
 namespace dmoscope::ui {
 
-/// A row a run, judged by the metric that is shown, in the order that the options ask for.
+/// A row for each run, judged by the shown metric, in the order that the options ask for.
 [[nodiscard]] std::vector<RunRow> sorted_runs(const SessionView& session, const PlotOptions& options);
 
-/// The meshes as they were read, a row each beside the runs, by the metric that is shown; none of what has not been judged by that: see
-/// InputView::summary.
+/// A row for each mesh as it was read, by the shown metric; none for meshes that have not been judged by it, see InputView::summary.
 [[nodiscard]] std::vector<RunRow> input_rows(const SessionView& session);
 
-/// The whole table, as it is saved and copied: the inputs, then the runs in their order.
+/// The whole table for saving and copying: the inputs, then the runs in their order.
 [[nodiscard]] std::vector<RunRow> rows_to_save(const SessionView& session, const PlotOptions& options);
 
 }  // namespace dmoscope::ui

@@ -28,7 +28,7 @@ bool compares_runs(std::string_view line) { return line.starts_with("compare ");
 
 constexpr double kNotByItself = std::numeric_limits<double>::infinity();
 
-/// What side panels that lie over the meshes leave of them.
+/// Part of the meshes that side panels over them leave uncovered.
 Rect uncovered(const Layout& layout) {
   Rect rect = layout.viewport;
   if (!layout.folded) return rect;
@@ -96,7 +96,7 @@ void App::submit(std::string_view line) {
     execute(line);
   } catch (const Error& error) {
     add_message(state_, {Message::Kind::Error, error.what(), error.exit_code()});
-  } catch (const std::exception& unforeseen) {  // a person's session must outlive our mistakes
+  } catch (const std::exception& unforeseen) {  // a person's session must outlive errors of the program
     add_message(state_, {Message::Kind::Error, fmt::format("{}: {}", line, unforeseen.what()), 3});
   }
 }
@@ -147,7 +147,7 @@ void App::take_news(double now) {
   activity_.seconds_left = pace_.seconds_left();
 
   const double interval = now - last_draw_;
-  constexpr double kLongestInterval = 0.5;  // longer: nothing was to be drawn
+  constexpr double kLongestInterval = 0.5;  // after a longer interval nothing was to be drawn
   const bool steady = last_draw_ >= 0.0 && interval > 0.0 && interval < kLongestInterval && (moving(now) || activity_.busy);
   if (steady) {
     frame_interval_ = frame_interval_ > 0.0 ? 0.9 * frame_interval_ + 0.1 * interval : interval;
@@ -158,7 +158,7 @@ void App::take_news(double now) {
   last_draw_ = now;
 }
 
-/// Runs that a command compares are seen side by side, and in the matrix, from when they are there.
+/// Shows the runs that a command compares side by side, and in the matrix, once they exist.
 void App::show_comparison(bool ended) {
   const bool more = std::exchange(runs_before_, session_->runs.size()) < session_->runs.size();
   const bool at_work = compares_runs(engine_.current_command());
@@ -171,7 +171,7 @@ void App::show_comparison(bool ended) {
 
 bool App::moving(double now) const { return now - widgets_.moved_at < kRestAfter; }
 
-/// The active run's; with no mesh, what a run would have.
+/// Brings the backend up to date: the active run's, or with no mesh the one that a run would have.
 void App::update_backend() {
   const Acceleration& acceleration = options_.acceleration;
   if (session_->active < session_->runs.size()) {
@@ -186,7 +186,7 @@ void App::update_backend() {
   }
 }
 
-/// What the scene has found out counts from the next drawing on.
+/// Brings the way of drawing up to date; findings of the scene count from the next drawing on.
 void App::update_drawing() {
   const Frame* frame = session_->frame.get();
   const bool snapshot_failed = frame != nullptr && !frame->device_trouble.empty();
@@ -199,7 +199,7 @@ void App::notice_new_input() {
   const MeshChange change = meshes_.follow(*session_);
   const Frame* frame = session_->frame.get();
   if (change == MeshChange::None) return;
-  const bool stays = change == MeshChange::ReadAgain || change == MeshChange::Switched;  // what is picked and where one looks
+  const bool stays = change == MeshChange::ReadAgain || change == MeshChange::Switched;  // the pick and the view stay
   if (!stays || !meshes_.same_ids()) {
     state_.picked = change == MeshChange::Switched ? std::exchange(state_.pick_on_switch, {}) : Picked{};
     state_.selection.clear();
@@ -225,23 +225,23 @@ void App::notice_new_input() {
   if (!stays && frame != nullptr && !frame->input->path.empty()) remember_file(state_, frame->input->path.string());
 }
 
-/// Meshes that lie at the same place are looked at under one camera, others each under its own.
+/// Puts meshes that lie at the same place under one camera, others each under its own.
 void App::show_beside() {
   if (state_.panes.one()) state_.set_layout(PaneLayout::Two);
-  state_.follow(*session_);  // which mesh comes into which viewport
+  state_.follow(*session_);  // finds which mesh comes into which viewport
   if (state_.in_space) return;
   const auto alike = [&](const InputView& mesh) { return cover_alike(*mesh.input, *session_->input); };
   if (!std::ranges::all_of(session_->meshes, alike)) state_.link_cameras(false);
 }
 
-/// Of names that are drawn where the book is not at hand.
+/// Registers letters of names that are drawn without the glyph book.
 void App::note_letters(const Mesh& mesh) {
   (void)widgets_.glyphs.shown(mesh.name);
   for (const auto& group : mesh.groups) (void)widgets_.glyphs.shown(group.name);
 }
 
-/// The colour bar lies on the mesh, of two viewports on that of the left one where these are high enough; else it has a place of its own
-/// below them.
+/// Places of the viewports. The colour bar lies on the mesh, with two viewports on the left one if they are high enough; else it has a
+/// place of its own below them.
 std::vector<Rect> App::pane_places(PanelContext& context, const Rect& rect) {
   Rect area = rect;
   const PaneLayout layout = state_.panes.layout;
@@ -253,7 +253,7 @@ std::vector<Rect> App::pane_places(PanelContext& context, const Rect& rect) {
 
 void App::update_viewports(PanelContext& context, const Rect& rect) {
   redraw_in_ = kNotByItself;
-  // The frame that takes a turn of the wheel shall not draw a slice of the full picture first.
+  // The frame of a wheel's turn does not draw a slice of the full picture first.
   const bool moved = moving(context.now) || ImGui::GetIO().MouseWheel != 0.0F;
   // A live run counts as movement: its next frame comes soon.
   const bool live = activity_.busy && activity_.busy_seconds > kRestAfter;
@@ -266,7 +266,7 @@ void App::update_viewports(PanelContext& context, const Rect& rect) {
   context.panes = viewports_.facts();
 }
 
-/// In a small window the facts of a pick lie over the mesh: what they would cover moves out from under them.
+/// Moves a pick out from under the facts, which lie over the mesh in a small window.
 void App::uncover_pick(const Layout& layout) {
   const Picked picked = state_.picked;
   if (std::exchange(seen_pick_, picked) == picked || !layout.folded || picked.kind == Picked::Kind::None) return;
@@ -293,7 +293,7 @@ void App::draw_panels(PanelContext& context) {
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   state_.window_size = {static_cast<int>(screen.x), static_cast<int>(screen.y)};
   Panels panels = state_.panels;
-  constexpr double kLeastComparison = 17.0;  // with four runs
+  constexpr double kLeastComparison = 17.0;  // height with four runs
   if (state_.plot == PlotTab::Compare) panels.bottom_height = std::max(panels.bottom_height, kLeastComparison);
   const Layout layout = compute_layout(panels, screen.x, screen.y, header_size(context), session_->input != nullptr);
   widgets_.narrow = layout.folded;
@@ -322,7 +322,7 @@ void App::draw_panels(PanelContext& context) {
 }
 
 void App::draw(double now) {
-  // Asked before the news, so that nothing is taken for finished whose outcome is not among them.
+  // Busy is asked before the news, so that nothing counts as finished whose outcome is not among them.
   const bool busy = engine_.busy();
   take_news(now);
   notice_new_input();
@@ -368,7 +368,7 @@ void App::draw(double now) {
       {},
       commands_.commands(),
       now};
-  // What a panel holds must stay alive until the frame is done, whatever its commands bring about.
+  // A panel's data stays alive until the frame is done, whatever its commands do.
   const std::shared_ptr<const SessionView> held = session_;
   const auto hovered = state_.inspection.hovered;
   serve_chooser();
@@ -380,13 +380,13 @@ void App::draw(double now) {
   advance_sequence();
   watch_file();
   redraw_in_ = std::min({redraw_in_, play_in, fades_in});
-  if (state_.inspection.hovered != hovered) redraw_in_ = 0.0;      // the mesh is marked in the next frame
-  if (widgets_.glyphs.size() != built_letters_) redraw_in_ = 0.0;  // with the letters that were met for the first time
+  if (state_.inspection.hovered != hovered) redraw_in_ = 0.0;      // the next frame marks it in the mesh
+  if (widgets_.glyphs.size() != built_letters_) redraw_in_ = 0.0;  // to draw letters that were met for the first time
   if (const auto wakes_in = std::exchange(widgets_.pointer_rest.wakes_in, std::nullopt)) redraw_in_ = std::min(redraw_in_, *wakes_in);
   if (tooltip_unsettled()) redraw_in_ = 0.0;
 }
 
-/// Each level as a command of its own, so that what was seen can be repeated. Returns after which time there may be more.
+/// Sends each level as a command of its own, so that it can be repeated. Returns the seconds after which there may be more.
 double App::play_on(bool busy, double now) {
   const LevelTurn turn = play_levels(state_, busy, now);
   if (turn.line.empty()) return turn.wait;

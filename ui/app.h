@@ -1,6 +1,6 @@
 #pragma once
-// The window's content: the engine, the view state and the scene, drawn one ImGui frame at a time. Whoever owns the platform
-// (GLFW, or nothing at all) drives it.
+// The window's content: the engine, the view state and the scene, drawn one ImGui frame at a time. The owner of the platform (GLFW, or
+// none) drives it.
 
 #include <functional>
 #include <memory>
@@ -24,14 +24,14 @@ namespace dmoscope::ui {
 class App {
  public:
   struct Options {
-    unsigned threads = 0;             // of the smoothing; 0: one a hardware thread
-    Acceleration acceleration{};      // what runs may use besides the CPU
-    Backend backend = Backend::Auto;  // what the first run asks for
-    std::string renderer;             // what draws
-    std::string no_interop;           // why the accelerator cannot write what is drawn; empty where it can
+    unsigned threads = 0;             // threads of the smoothing; 0: one per hardware thread
+    Acceleration acceleration{};      // devices that runs may use besides the CPU
+    Backend backend = Backend::Auto;  // backend that the first run asks for
+    std::string renderer;             // name of the OpenGL renderer
+    std::string no_interop;           // reason why the accelerator cannot write what is drawn; empty if it can
     bool software_renderer = false;
-    bool sample_pictures = true;  // on the start page
-    bool native_dialogs = false;  // the desktop's file dialogs may be shown
+    bool sample_pictures = true;  // pictures of samples on the start page
+    bool native_dialogs = false;  // allows the desktop's file dialogs
     bool wait_for_scene = false;  // big meshes are made ready for drawing before a frame goes on (headless)
   };
 
@@ -46,61 +46,62 @@ class App {
   [[nodiscard]] Engine& engine() noexcept { return engine_; }
   [[nodiscard]] const Items& items() const noexcept { return items_; }
   [[nodiscard]] const Activity& activity() const noexcept { return activity_; }
-  /// What was drawn last; null: nothing is open.
+  /// Frame that was drawn last; null: nothing is open.
   [[nodiscard]] std::shared_ptr<const Frame> frame() const { return session_->frame; }
   [[nodiscard]] const CommandTable& commands() const noexcept { return commands_; }
-  /// Of quality and what the elements are coloured by instead (null: quality), in the active viewport as it was drawn last.
+  /// Range of the colours of quality, and the colours shown instead of it (null: quality), in the active viewport as drawn last.
   [[nodiscard]] std::pair<double, double> colour_range() const noexcept { return derived_.range; }
-  /// Of what is coloured by other values than quality, all viewports together.
+  /// Range of the values other than quality that elements are coloured by, all viewports together.
   [[nodiscard]] std::optional<std::pair<double, double>> values_range() const { return derived_.colouring.values_range; }
   [[nodiscard]] std::shared_ptr<const ElementColours> colours() const noexcept { return derived_.colouring.colours; }
-  /// The viewports as they were drawn last.
+  /// The viewports as drawn last.
   [[nodiscard]] std::span<const PaneFacts> panes() const noexcept { return viewports_.facts(); }
-  /// The look into a visit as it was drawn last.
+  /// The inspection as drawn last.
   [[nodiscard]] const Inspection& inspection() const noexcept { return inspection_; }
 
-  /// Runs or queues one command line. Throws UsageError for one that cannot be (what goes wrong in the session becomes a message).
+  /// Runs or queues one command line. Throws UsageError for an impossible one (errors of the session become messages).
   void execute(std::string_view line);
-  /// The same; errors become messages.
+  /// Runs or queues one command line; errors become messages.
   void submit(std::string_view line);
   /// Opens the tab or fold of the control that a line of a script clicks, and scrolls to it; true: a frame is to be drawn before the line.
   bool bring_to_sight(std::string_view line);
-  /// A line of a person: where it would give up what is in no file, the question is put instead.
+  /// Runs a line of a person, or opens the question instead if it would give up unsaved work.
   void submit_by_person(std::string_view line);
-  /// What is saved by itself goes along with the view as it is now.
+  /// Stores the present view with the automatically saved session.
   void update_autosaved_view();
   /// Called with every message of the session, besides the log.
   /// `wake` ends the event loop's waiting; called from any thread when there is something new.
   void set_wake(const std::function<void()>& wake);
   void set_listener(std::function<void(const Message&)> listener) { listener_ = std::move(listener); }
 
-  /// A key is for commands: no field, dialog or menu has the keyboard.
+  /// Whether keys are for commands: no field, dialog or menu has the keyboard.
   [[nodiscard]] bool takes_commands() const;
-  /// Does what a key is for, where that is possible now. `repeated`: the key is being held.
+  /// Runs the action of a key if it is possible now. `repeated`: the key is being held.
   void press(const KeyChord& chord, bool repeated = false);
-  /// As which letter ImGui gets one that is typed.
+  /// Letter that ImGui gets for a typed one.
   [[nodiscard]] char16_t shown_letter(char32_t letter) { return widgets_.glyphs.shown_letter(letter); }
-  /// The control that has the keyboard takes text.
+  /// Whether the control that has the keyboard takes text.
   [[nodiscard]] bool focus_takes_text() const { return items_.focus_takes_text(); }
-  /// With the next frame, the keyboard goes to the next control (1) or to the one before (-1).
+  /// Moves the keyboard to the next control (1) or to the one before (-1), with the next frame.
   void move_focus(int direction) noexcept { focus_moves_ = direction; }
 
-  /// Before ImGui::NewFrame: builds fonts and style anew when theme or scale changed. True: upload the font texture again.
+  /// Builds fonts and style anew when theme or scale changed; to be called before ImGui::NewFrame. True: upload the font texture again.
   bool prepare();
-  /// Between ImGui::NewFrame and ImGui::Render. `now`: seconds on any steady clock. Draws the mesh into a texture of its own.
+  /// Draws the window, the mesh into a texture of its own; to be called between ImGui::NewFrame and ImGui::Render. `now`: seconds on any
+  /// steady clock.
   void draw(double now);
-  /// After which time a frame should be drawn though nothing happens; infinity when there is no such need.
+  /// Seconds after which a frame should be drawn though nothing happens; infinity when there is no such need.
   [[nodiscard]] double redraw_in() const noexcept { return redraw_in_; }
-  /// False while the scene is still made ready in the background, or drawn in full, a fit waits for it, or the window does something by
-  /// itself that ends.
+  /// Whether nothing is under way: false while the scene is prepared in the background or drawn in full, a fit waits for it, or the window
+  /// does something by itself that ends.
   [[nodiscard]] bool settled() const noexcept {
     const bool drawn = viewports_.settled() && !state_.requests.fit;
     return drawn && !state_.sequence && state_.timeline.play.kind != Playback::Kind::History;
   }
 
-  /// A picture of the mesh as it is seen now, with its colour bar.
+  /// A picture of the mesh in its present view, with its colour bar.
   [[nodiscard]] render::Image mesh_picture(const ScreenshotOptions& options);
-  /// "east.14 – dmoscope"
+  /// Title of the window: "east.14 – dmoscope".
   [[nodiscard]] std::string title() const;
 
  private:
@@ -152,12 +153,12 @@ class App {
     std::shared_ptr<const Frame> mark;
     std::shared_ptr<const SessionView> view;
   };
-  Flipped flipped_;  // what shown_view() made last
+  Flipped flipped_;  // latest result of shown_view()
 
   Viewports viewports_;
   StepWatch steps_;
   FileChooser chooser_;
-  bool chooser_failed_ = false;  // it is not tried again
+  bool chooser_failed_ = false;  // set after a failure: it is not tried again
 
   Pace pace_;
   double styled_scale_ = 0.0;
@@ -166,13 +167,13 @@ class App {
   double busy_since_ = -1.0, last_draw_ = -1.0, frame_interval_ = 0.0;
   double redraw_in_ = 0.0;
   int focus_moves_ = 0;
-  Picked seen_pick_;               // in the last frame
-  std::size_t runs_before_ = 0;    // in the last frame
-  bool comparison_shown_ = false;  // of the command at work
+  Picked seen_pick_;               // pick in the last frame
+  std::size_t runs_before_ = 0;    // number of runs in the last frame
+  bool comparison_shown_ = false;  // whether the comparison was shown for the command at work
   double view_kept_at_ = 0.0;
   std::uint64_t seen_restored_ = 0;
   MeshWatch meshes_;
-  std::unique_ptr<FileWatch> watch_;  // last: it wakes others
+  std::unique_ptr<FileWatch> watch_;  // declared last, because it wakes others
 };
 
 }  // namespace dmoscope::ui

@@ -1,4 +1,4 @@
-// Keys that are commands.
+// Handles keys that are commands.
 #include <algorithm>
 #include <array>
 #include <string>
@@ -13,7 +13,7 @@
 namespace dmoscope::ui {
 namespace {
 
-/// Does holding its key do it again and again? What switches something on and off, or opens something, is done once.
+/// Whether holding the key repeats the action. Switching something, or opening something, is done once.
 bool goes_on_while_held(const Action& action) {
   constexpr std::array kSmallSteps{"step ", "back ",  "timeline ", "zoom ", "speed ",    "brush-radius ", "arrow-scale ",
                                    "peel ", "scale ", "undo",      "redo",  "each step", "each back"};
@@ -24,13 +24,13 @@ bool is_step(std::string_view command) { return command.starts_with("step ") || 
 
 }  // namespace
 
-/// Not while the desktop's dialog is open: what is typed before it is seen is meant for it.
+/// False also while the desktop's dialog is open: keys typed before it is seen are meant for it.
 bool App::takes_commands() const {
   return !widgets_.chooser.open && !ImGui::GetIO().WantTextInput && state_.dialog == Dialog::None &&
          !ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
 }
 
-/// Steps that are asked for faster than they are made are all made.
+/// Whether an action waits: steps that are asked for faster than they are made are all made.
 bool App::waits_its_turn(const Action& action) const {
   constexpr std::size_t kMost = 16;
   return is_step(action.command) && engine_.busy() && is_step(engine_.current_command()) && engine_.pending() < kMost;
@@ -41,13 +41,13 @@ void App::press(const KeyChord& chord, bool repeated) {
   KeyChord known = chord;
   if (chord.code == kKeypadMinus) known.code = '-';
   if (chord.code == kKeypadPlus) known.code = '+';
-  if (known.code == '+' && !known.ctrl && !known.alt) known.shift = false;  // on some keyboards it is on Shift
+  if (known.code == '+' && !known.ctrl && !known.alt) known.shift = false;  // "+" is on Shift on some keyboards
   const Action* action = action_of(known);
   if (action == nullptr || (repeated && !goes_on_while_held(*action))) return;
   Situation now = situation_of(*session_, state_, activity_.busy);
   if (!repeated && waits_its_turn(*action)) now.busy = false;
   if (!enabled(*action, now)) return;
-  const std::size_t over = widgets_.run_list.over;  // with the mouse on a run, its key is for that
+  const std::size_t over = widgets_.run_list.over;  // with the mouse on a run, its key is for that run
   submit_by_person(action->key == "F2" && over > 0 ? fmt::format("begin-rename {}", over) : std::string(action->command));
 }
 

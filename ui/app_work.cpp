@@ -1,4 +1,4 @@
-// What the window does by itself, frame by frame: playing, sequences of pictures, watching a file, showing a mark.
+// Work that the window does by itself, frame by frame: playing, sequences of pictures, watching a file, showing a mark.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -9,7 +9,7 @@
 
 namespace dmoscope::ui {
 
-/// The session as it stands, or with a mark's frame in place of its own.
+/// The session's present state, or with a mark's frame in place of its own.
 std::shared_ptr<const SessionView> App::shown_view() {
   std::shared_ptr<const SessionView> now = engine_.view();
   drop_stale_marks(state_.timeline, *now);
@@ -39,7 +39,7 @@ void App::cancel() {
 
 void App::post_by_itself(const std::string& line) { state_.commands.posted(line, engine_.post(line)); }
 
-/// After a session was opened: the view that was saved with it.
+/// Restores the view that was saved with a session after it was opened.
 void App::take_restored_view() {
   const std::string& view = session_->restored_view;
   const std::uint64_t serial = session_->restored_serial;
@@ -78,7 +78,7 @@ void App::end_sequence(const std::string& outcome, Message::Kind kind) {
   add_message(state_, {kind, outcome, kind == Message::Kind::Info ? 0 : 1});
 }
 
-/// One step of the sequence under way, if any: seeks are not recorded, as it ends where it began.
+/// Takes one step of the sequence under way, if any: seeks are not recorded, because it ends where it began.
 void App::advance_sequence() {
   if (!state_.sequence) return;
   redraw_in_ = 0.0;
@@ -121,7 +121,7 @@ void App::submit_by_person(std::string_view line) {
 
 void App::update_autosaved_view() { engine_.set_autosaved_view(view_json(state_)); }
 
-/// What a person is asked about what is, or was, in no file.
+/// Asks the person about unsaved work, or about work that was recovered.
 void App::keep_safe(bool busy, double now) {
   if (const std::string line = go_on_leaving(state_, *session_, busy); !line.empty()) submit(line);
   if (!state_.recoverable.empty() && state_.dialog == Dialog::None) state_.dialog = Dialog::Recover;

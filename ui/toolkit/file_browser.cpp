@@ -93,7 +93,7 @@ std::string byte_size(std::uintmax_t bytes) {
 
 std::string parent_folder(const std::string& folder) {
   std::filesystem::path path(folder);
-  if (!path.has_filename()) path = path.parent_path();  // a slash at the end
+  if (!path.has_filename()) path = path.parent_path();  // the path ended with a slash
   return path.has_parent_path() ? path.parent_path().string() : folder;
 }
 

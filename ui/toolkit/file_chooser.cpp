@@ -77,16 +77,16 @@ std::vector<std::string> chooser_arguments(const fs::path& program, const Choose
   return program.filename() == "kdialog" ? kdialog_arguments(program, wish) : zenity_arguments(program, wish);
 }
 
-/// The program that is running, and the thread that waits for its answer.
+/// The program at work, and the thread that waits for its answer.
 struct FileChooser::Child {
   pid_t pid = -1;
   int out = -1;
   std::string program;
-  bool several = false;  // files may be chosen, one a line; else the line is one, whatever is in its name
+  bool several = false;  // several files may be chosen, one a line; else the whole output is one name
   std::atomic<bool> unwanted = false;
   std::mutex mutex;
   std::optional<ChooserOutcome> outcome;
-  bool reaped = false;  // the id may be another's since
+  bool reaped = false;  // the id may belong to another process since
   std::jthread thread;
 
   Child() = default;
@@ -100,7 +100,7 @@ struct FileChooser::Child {
   }
   void terminate() {
     const std::scoped_lock lock(mutex);
-    if (!reaped && pid > 0) ::kill(-pid, SIGKILL);  // with what it started itself
+    if (!reaped && pid > 0) ::kill(-pid, SIGKILL);  // the whole process group, with the processes that it started
   }
   void wait(const std::function<void()>& wake);
   [[nodiscard]] ChooserOutcome outcome_of(int status, std::string text, bool at_once) const;
@@ -182,10 +182,10 @@ bool FileChooser::begin(const ChooserWish& wish, std::function<void()> wake, std
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);  // toolkits warn of anything
+  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);  // toolkits write many warnings
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
-  // The window takes its signals on a thread of its own; the dialog is to get them as any program does.
+  // The window takes its signals on a thread of its own; the dialog must get them as any program does.
   sigset_t none;
   sigemptyset(&none);
   posix_spawnattr_setsigmask(&attributes, &none);

@@ -21,7 +21,7 @@ void ChangeJudge::start(std::optional<FileStamp> known) {
 }
 
 bool ChangeJudge::look(const std::optional<FileStamp>& stamp, double now) {
-  if (!stamp || stamp == known_) {  // gone for a moment is how many programs save
+  if (!stamp || stamp == known_) {  // many programs remove a file for a moment when they save
     changed_.reset();
     return false;
   }

@@ -13,25 +13,25 @@
 
 namespace dmoscope::ui {
 
-/// What tells one state of a file from another.
+/// Facts that differ between states of a file.
 struct FileStamp {
   std::filesystem::file_time_type time;
   std::uintmax_t size = 0;
   friend bool operator==(const FileStamp&, const FileStamp&) = default;
 };
-/// None: there is no such file (or it cannot be asked).
+/// Stamp of a file; none if it does not exist or cannot be read.
 [[nodiscard]] std::optional<FileStamp> stamp_of(const std::filesystem::path& file);
 
-/// Judges stamps over time: a file counts as written anew once it has been another than before and the same for kStable seconds, so that
-/// one in the midst of being written is left alone.
+/// Judges stamps over time: a file counts as written anew once it differs from before and has not changed for kStable seconds, so that a
+/// file is left alone while it is being written.
 class ChangeJudge {
  public:
   static constexpr double kStable = 0.5;
-  /// The state that is known.
+  /// Starts from a known state.
   void start(std::optional<FileStamp> known);
-  /// The file as it is at `now` (seconds). True once for every change.
+  /// Looks at the stamp at `now` (seconds). True once for every change.
   [[nodiscard]] bool look(const std::optional<FileStamp>& stamp, double now);
-  /// A change has been seen and may not be over.
+  /// Whether a change has been seen and may not be over.
   [[nodiscard]] bool expecting() const noexcept { return changed_.has_value(); }
 
  private:
@@ -59,9 +59,9 @@ class FileWatch {
   std::mutex mutex_;
   std::condition_variable_any changed_;
   std::string file_;
-  std::uint64_t serial_ = 0;  // of file_
+  std::uint64_t serial_ = 0;  // serial of file_
   bool news_ = false;
-  std::jthread thread_;  // last: everything above exists before it starts
+  std::jthread thread_;  // declared last: everything above exists before it starts
 };
 
 }  // namespace dmoscope::ui

@@ -24,7 +24,7 @@ constexpr ImWchar kGlyphs[] = {0x20,   0xff,   0x370,  0x3ff,  0x1d62, 0x1d6a, 0
 std::filesystem::path font_file(const char* name) {
   std::error_code none;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", none);
-  const std::string carried = (program.parent_path().parent_path() / "share/fonts").string();  // of a bundle
+  const std::string carried = (program.parent_path().parent_path() / "share/fonts").string();  // fonts of a bundle
   for (const char* folder : {carried.c_str(), "/usr/share/fonts/truetype/dejavu", "/usr/share/fonts/dejavu-sans-fonts",
                              "/usr/share/fonts/dejavu", "/usr/share/fonts/TTF", "/usr/local/share/fonts/dejavu"}) {
     const std::filesystem::path file = std::filesystem::path(folder) / name;
@@ -34,7 +34,7 @@ std::filesystem::path font_file(const char* name) {
   return {};
 }
 
-/// A font for Chinese, Japanese and Korean, if one is installed: the only ones that are too large to be part of every desktop.
+/// A font for Chinese, Japanese and Korean, if one is installed; only these are too large to be part of every desktop.
 std::filesystem::path east_asian_font() {
   for (const char* file : {"/usr/share/fonts/opentype/noto/NotoSansCJK-Regular.ttc", "/usr/share/fonts/noto-cjk/NotoSansCJK-Regular.ttc",
                            "/usr/share/fonts/truetype/droid/DroidSansFallbackFull.ttf", "/usr/share/fonts/truetype/wqy/wqy-zenhei.ttc",
@@ -132,7 +132,7 @@ float width_of(const ImFont& font, const std::string& name) {
   return width + 2;
 }
 
-/// Copies the letters of the name, as they lie in the atlas, to where the name has its place there.
+/// Copies the letters of a name within the atlas to the place of the name.
 void write_name(ImFontAtlas& atlas, const ImFont& font, const Named& named) {
   unsigned char* pixels = nullptr;
   int width = 0, height = 0;
@@ -164,7 +164,7 @@ Fonts build_fonts(double scale, const GlyphBook& book) {
   std::ranges::copy_if(book.letters(), std::back_inserter(letters), [](char16_t letter) { return !is_own(letter); });
   std::vector<Named> named;
   std::vector<float> widths;
-  if (book.size() > 0) {  // to see what is missing, and how wide its name is
+  if (book.size() > 0) {  // a first build finds missing letters, and the widths of their names
     const AtlasBuilder trial(size, letters);
     atlas.Build();
     for (std::size_t k = 0; k < trial.size(); ++k) {
@@ -180,7 +180,7 @@ Fonts build_fonts(double scale, const GlyphBook& book) {
     reserve(atlas, builder.font(named[k].font), widths[k], builder.height(named[k].font), named[k]);
   atlas.Build();
   for (const Named& one : named) write_name(atlas, *builder.font(one.font), one);
-  atlas.ClearInputData();  // the files: some are large
+  atlas.ClearInputData();  // frees the fonts' files, some of which are large
   const Fonts fonts{builder.font(0), builder.font(1), builder.font(2)};
   ImGui::GetIO().FontDefault = fonts.body;
   return fonts;

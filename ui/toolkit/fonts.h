@@ -14,9 +14,9 @@ struct Fonts {
   ImFont* large = nullptr;
 };
 
-/// Builds the atlas anew: DejaVu Sans 15 px times `scale` through FreeType, or ImGui's own font where DejaVu is not installed. Besides what
-/// the program itself writes there are the letters of `book`: from DejaVu, else from a font for Chinese, Japanese and Korean where one is
-/// installed, else as their names ("<U+4E2D>"). The event loop uploads the texture afterwards.
+/// Builds the atlas anew: DejaVu Sans 15 px times `scale` through FreeType, or ImGui's own font where DejaVu is not installed. In addition
+/// to the program's own letters it has those of `book`: from DejaVu, else from a font for Chinese, Japanese and Korean if one is installed,
+/// else as their names ("<U+4E2D>"). The event loop uploads the texture afterwards.
 [[nodiscard]] Fonts build_fonts(double scale, const GlyphBook& book);
 
 }  // namespace dmoscope::ui

@@ -13,8 +13,8 @@ namespace dmoscope::ui {
 
 namespace {
 
-/// Areas that the mouse alone uses: the mesh, a plot.
-constexpr float kWidestStop = 60.0F, kHighestStop = 12.0F;  // heights of the interface's font
+/// Least size of areas that only the mouse uses: the mesh, a plot.
+constexpr float kWidestStop = 60.0F, kHighestStop = 12.0F;  // in heights of the interface's font
 
 }  // namespace
 
@@ -23,7 +23,7 @@ void Items::record_stop(unsigned id) {
   ImGuiWindow* window = g.CurrentWindow;
   const ImGuiItemFlags flags = g.LastItemData.InFlags;
   if (id == 0 || window->SkipItems || (flags & (ImGuiItemFlags_Disabled | ImGuiItemFlags_NoNav)) != 0) return;
-  if (window->DC.NavLayerCurrent != ImGuiNavLayer_Main) return;  // the menu bar has Alt
+  if (window->DC.NavLayerCurrent != ImGuiNavLayer_Main) return;  // the menu bar is reached by Alt
   const ImRect& rect = g.LastItemData.Rect;
   if (rect.GetWidth() > kWidestStop * g.FontSize || rect.GetHeight() > kHighestStop * g.FontSize) return;
   stops_.push_back({window, id, {rect.Min.x, rect.Min.y, rect.Max.x, rect.Max.y}, (flags & ImGuiItemFlags_Inputable) != 0});
@@ -32,7 +32,7 @@ void Items::record_stop(unsigned id) {
 void Items::move_focus(int direction) const {
   ImGuiContext& g = *ImGui::GetCurrentContext();
   const ImGuiWindow* dialog = ImGui::GetTopMostPopupModal();
-  if (!g.OpenPopupStack.empty() && g.OpenPopupStack.back().Window != dialog) return;  // a menu has arrows
+  if (!g.OpenPopupStack.empty() && g.OpenPopupStack.back().Window != dialog) return;  // menus use the arrow keys
   std::vector<Stop> ring;
   std::ranges::copy_if(stops_, std::back_inserter(ring), [&](const Stop& stop) { return !dialog || stop.window->RootWindow == dialog; });
   if (ring.empty()) return;
@@ -53,7 +53,7 @@ void Items::move_focus(int direction) const {
   ImGui::ScrollToRect(next.window, rect, ImGuiScrollFlags_KeepVisibleEdgeY);
   if (!next.takes_text) return;
   ImGui::ActivateItem(next.id);
-  g.NavNextActivateFlags = ImGuiActivateFlags_PreferInput;  // of a slider, too: what is typed is its number
+  g.NavNextActivateFlags = ImGuiActivateFlags_PreferInput;  // a slider, too, takes a typed number
 }
 
 bool Items::focus_takes_text() const {
@@ -72,13 +72,13 @@ void Items::end_focus() {
 
 void Items::record_last(std::string_view name) {
   record_stop(ImGui::GetItemID());
-  if (!stops_.empty() && stops_.back().id == ImGui::GetItemID())  // ImGui shows no ring round buttons that it does not draw itself
+  if (!stops_.empty() && stops_.back().id == ImGui::GetItemID())  // ImGui shows no ring around buttons that it does not draw itself
     ImGui::RenderNavHighlight(ImGui::GetCurrentContext()->LastItemData.Rect, stops_.back().id);
   if (!scroll_to_.empty() && name == scroll_to_) {
     if (!ImGui::IsItemVisible()) ImGui::SetScrollHereY(0.5F);
     scroll_to_.clear();
   }
-  if (!ImGui::IsItemVisible()) return;  // scrolled out of its panel: something else is where it would be
+  if (!ImGui::IsItemVisible()) return;  // scrolled out of its panel: something else is at its place
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   record(name, {low.x, low.y, high.x, high.y});
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Where the named items of the interface were drawn last, so that scripts and tests click by name.
+// Places of the named items of the interface as drawn last, so that scripts and tests click by name.
 
 #include <array>
 #include <map>
@@ -14,7 +14,7 @@ namespace dmoscope::ui {
 class Items {
  public:
   using Box = std::array<float, 4>;  // left, top, right, bottom in pixels
-  /// Forgets all of the last frame.
+  /// Forgets all items of the last frame.
   void begin_frame() {
     boxes_.clear();
     stops_.clear();
@@ -22,21 +22,21 @@ class Items {
   void record(std::string_view name, const Box& box) { boxes_.insert_or_assign(std::string(name), box); }
   /// Records the item that ImGui drew last.
   void record_last(std::string_view name);
-  /// The item of ImGui with this id, in the window that is being drawn, takes the keyboard by Tab.
+  /// Lets ImGui's item with this id, in the window that is being drawn, take the keyboard by Tab.
   void record_stop(unsigned id);
-  /// Gives the keyboard to the control that was drawn after the one that has it, or before it (`direction` -1), round and round within the
-  /// dialog that is open, or else all panels; to a text field with its text selected. Between ImGui::NewFrame and ImGui::Render.
+  /// Gives the keyboard to the control drawn after the one that has it, or before it (`direction` -1), cyclically within the open dialog,
+  /// or else all panels; to a text field with its text selected. To be called between ImGui::NewFrame and ImGui::Render.
   void move_focus(int direction) const;
-  /// The control that has the keyboard takes text, or a number, that is typed.
+  /// Whether the control that has the keyboard takes typed text or numbers.
   [[nodiscard]] bool focus_takes_text() const;
   /// Gives the keyboard to the window of the menus.
   static void focus_menus();
-  /// Escape ends the ring round the control that has the keyboard, also within a panel's part that scrolls by itself, which ImGui would
-  /// only leave for its panel. Between ImGui::NewFrame and ImGui::Render.
+  /// Makes Escape end the ring around the control that has the keyboard, also within a scrolled part of a panel, which ImGui would only
+  /// leave for its panel. To be called between ImGui::NewFrame and ImGui::Render.
   static void end_focus();
-  /// The panel of this item scrolls in the next frame so that it is seen.
+  /// Scrolls the panel of this item in the next frame so that the item is seen.
   void scroll_to(std::string_view name) { scroll_to_ = name; }
-  /// Throws UsageError that lists the known names.
+  /// Place of an item. Throws UsageError that lists the known names.
   [[nodiscard]] const Box& find(const std::string& name) const;
   [[nodiscard]] const std::map<std::string, Box, std::less<>>& boxes() const noexcept { return boxes_; }
 
@@ -47,7 +47,7 @@ class Items {
     Box box;
     bool takes_text;
   };
-  std::vector<Stop> stops_;  // in the order they were drawn
+  std::vector<Stop> stops_;  // in the order of drawing
   std::map<std::string, Box, std::less<>> boxes_;
   std::string scroll_to_;
 };

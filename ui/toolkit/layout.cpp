@@ -7,11 +7,12 @@ namespace dmoscope::ui {
 
 namespace {
 
-// All in heights of the font. Whole pixels everywhere: ImGui puts windows there, and the mesh's picture must not be resampled.
+// Heights of the parts, in heights of the font. They become whole pixels: ImGui puts windows there, and the mesh's picture must not be
+// resampled.
 constexpr float kHeader = 2.66F, kMenu = 1.6F, kLowest = 1.87F, kStrip = 2.6F;
 constexpr float kLeastMesh = 24.0F, kUnfoldedMesh = 33.0F, kLeastMeshHeight = 10.0F, kLeastPlots = 9.0F, kStatus = 20.0F;
 
-/// Menus and tools in one row where both fit, else one above the other. Returns where the row ends.
+/// Places menus and tools in one row if both fit, else one above the other. Returns the lower end of the row.
 float place_header(Layout& layout, float width, const HeaderSize& header) {
   const float row = std::round(kHeader * header.em);
   if (header.menu + header.tools <= width) {
@@ -25,7 +26,7 @@ float place_header(Layout& layout, float width, const HeaderSize& header) {
   return menu + row;
 }
 
-/// The status stands below the right column; without one at the right end. The timeline has the rest.
+/// Places the status below the right column, or without one at the right end. The timeline has the rest.
 void place_lowest(Layout& layout, const Panels& panels, float width, float height, float em, bool mesh) {
   const float row = std::round(kLowest * em), top = height - row;
   const bool column = !layout.folded && panels.has_column(Side::Right) && layout.right.w >= kStatus * em * 0.7F;
@@ -34,7 +35,7 @@ void place_lowest(Layout& layout, const Panels& panels, float width, float heigh
   if (mesh) layout.timeline = {0, top, width - status, row};
 }
 
-/// The viewport gives plots their room.
+/// Takes the plots' room from the viewport.
 void take_bottom(Layout& layout, const Panels& panels, float em) {
   Rect& mesh = layout.viewport;
   float height = 0.0F;
@@ -45,7 +46,7 @@ void take_bottom(Layout& layout, const Panels& panels, float em) {
   layout.bottom = {mesh.x, mesh.y + mesh.h, mesh.w, height};
 }
 
-/// Strips in place of the columns; a column that is open lies over the mesh, and none covers the other.
+/// Places strips in place of the columns; a column that is open lies over the mesh, and none covers the other.
 void place_folded(Layout& layout, const Panels& panels, float width, float top, float inner, float em) {
   const float strip = std::round(kStrip * em);
   const float left = panels.uses(Side::Left) ? strip : 0.0F, right = panels.uses(Side::Right) ? strip : 0.0F;
@@ -79,7 +80,7 @@ void place_columns(Layout& layout, const Panels& panels, float width, float top,
   layout.viewport = {left, top, std::max(0.0F, width - left - right), inner};
 }
 
-/// Whether the usual columns leave too little of the window to the mesh: closing one in a small window shall not turn the other into a
+/// Whether the usual columns leave too little of the window to the mesh: closing one in a small window must not turn the other into a
 /// column.
 bool folds(const Panels& panels, float width, float em) {
   const Panels usual;

@@ -1,5 +1,5 @@
 #pragma once
-// Which part of the window each panel gets.
+// Division of the window into panels.
 
 #include "ui/state/layout_rect.h"
 #include "ui/state/view_state.h"
@@ -7,21 +7,21 @@
 namespace dmoscope::ui {
 
 struct Layout {
-  Rect menu, toolbar;            // in one row where there is room
+  Rect menu, toolbar;            // in one row if there is room
   Rect left, right;              // columns of docks
-  Rect viewport, bottom;         // the plots stand below the viewport alone
+  Rect viewport, bottom;         // the plots stand below the viewport only
   Rect timeline, status;         // in one row, the lowest
-  Rect left_strip, right_strip;  // instead of the columns where the window is too small
+  Rect left_strip, right_strip;  // in place of the columns if the window is too small
   bool folded = false;           // columns are strips, and open over the mesh
 };
 
-/// The interface font's height, and how wide menus and buttons of the tool bar are in one row, in pixels.
+/// Height of the interface's font, and widths of menus and tools in one row, in pixels.
 struct HeaderSize {
   float em = 15.0F, menu = 0.0F, tools = 0.0F;
 };
 
-/// All in pixels. `mesh`: one is open, so that there are a timeline and plots. The mesh keeps at least 24 em of width; widths and heights
-/// of the panels are limited so that it does.
+/// Places of all parts of the window, in pixels. `mesh`: a mesh is open, so that there are a timeline and plots. The mesh keeps at least 24
+/// em of width; widths and heights of the panels are limited so that it does.
 [[nodiscard]] Layout compute_layout(const Panels& panels, float width, float height, const HeaderSize& header, bool mesh = true);
 
 }  // namespace dmoscope::ui

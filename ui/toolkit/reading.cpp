@@ -27,7 +27,7 @@ std::optional<BeingRead> being_read(std::string_view command) {
     if (words.size() < 2) return std::nullopt;
     if (words[0] == "open" || words[0] == "open-state") return of_file(words[1]);
     if (words[0] == "generate") return BeingRead{"sample " + words[1], {}};
-  } catch (const UsageError&) {  // an open quote: the session says so
+  } catch (const UsageError&) {  // a quote is not closed: the session reports it
   }
   return std::nullopt;
 }

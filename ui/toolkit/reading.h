@@ -1,5 +1,5 @@
 #pragma once
-// What is on its way into the window, in words: for the place where its mesh will be seen.
+// Names what is being read or made, for the place where its mesh will be seen.
 
 #include <optional>
 #include <string>
@@ -9,10 +9,10 @@ namespace dmoscope::ui {
 
 struct BeingRead {
   std::string name;   // "east.14"; "sample coast"
-  std::string where;  // "184.2 MB in /home/me/meshes"; empty where there is no file
+  std::string where;  // "184.2 MB in /home/me/meshes"; empty if there is no file
 };
 
-/// What a command of the session brings; none: it opens nothing. Looks at the file's size.
+/// Mesh that a command of the session brings; none: it opens nothing. Reads the file's size.
 [[nodiscard]] std::optional<BeingRead> being_read(std::string_view command);
 
 }  // namespace dmoscope::ui

@@ -1,5 +1,5 @@
 #pragma once
-// Recent files, and whether they are still there.
+// Recent files, and whether they still exist.
 
 #include <string>
 #include <vector>
@@ -9,15 +9,15 @@ namespace dmoscope::ui {
 struct RecentFile {
   std::string path;
   bool missing = false;
-  /// Why it cannot be opened; empty when it can.
+  /// Reason why it cannot be opened; empty when it can.
   [[nodiscard]] std::string reason() const { return missing ? path + ": this file is not there any more" : std::string(); }
 };
 
-/// Asks the file system now and then, not at every frame.
+/// Recent files that ask the file system now and then, not at every frame.
 class RecentFiles {
  public:
   static constexpr double kSeconds = 2.0;
-  /// `files` with what is known of them at `now` (seconds).
+  /// The files with the facts known at `now` (seconds).
   [[nodiscard]] const std::vector<RecentFile>& list(const std::vector<std::string>& files, double now);
 
  private:

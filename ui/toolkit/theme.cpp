@@ -194,7 +194,7 @@ render::Style scene_style(const ViewState& state) {
   style.occlusion = state.occlusion;
   style.scale = static_cast<float>(state.scale);
   style.colours.map = state.colour_map;
-  // In space the light shows the form, and edges close to one another would hide it.
+  // In space the lighting shows the form, and edges close to one another would hide it.
   if (state.in_space && state.shading && state.theme != Theme::Contrast) style.wire_colour.a /= 2;
   return style;
 }

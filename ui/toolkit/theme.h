@@ -13,14 +13,14 @@ namespace dmoscope::ui {
 
 /// All colours that panels draw with.
 struct Palette {
-  render::Rgb background;  // behind the mesh
+  render::Rgb background;  // colour behind the mesh
   render::Rgb panel, raised, line;
   render::Rgb text, dim;
   render::Rgb accent, on_accent;
   render::Rgb good, warning, error;
-  render::Rgb grid;  // of plots
+  render::Rgb grid;  // grid of plots
   std::array<render::Rgb, 16> runs;
-  /// Of run k, from 0.
+  /// Colour of run k, from 0.
   [[nodiscard]] render::Rgb run(std::size_t k) const { return runs[k % runs.size()]; }
 };
 [[nodiscard]] const Palette& palette(Theme theme);
@@ -31,10 +31,10 @@ struct Palette {
 [[nodiscard]] ImU32 colour(render::Rgb rgb, float alpha = 1.0F);
 [[nodiscard]] ImVec4 colour_vector(render::Rgb rgb, float alpha = 1.0F);
 
-/// Sets ImGui's colours and spacing, everything sized from the font.
+/// Sets ImGui's colours and spacing; all sizes follow the font.
 void apply_style(Theme theme, double scale);
 
-/// How the mesh is drawn in this theme.
+/// Look of the mesh in this theme.
 [[nodiscard]] render::Style scene_style(const ViewState& state);
 
 }  // namespace dmoscope::ui

@@ -16,23 +16,23 @@
 namespace dmoscope::ui {
 namespace {
 
-/// About how many vertices, tried in this order: some generators need more to make anything.
+/// Approximate numbers of vertices, tried in this order: some generators need more to make anything.
 constexpr std::size_t kSideLengths[] = {180, 600, 1500};
 
-/// Darker, as a face that looks away from the light.
+/// A colour made darker, as on a face that looks away from the light.
 render::Rgb lit(render::Rgb ink, double light) {
   const double part = 0.55 + 0.45 * std::clamp(light, 0.0, 1.0);
   const auto channel = [part](std::uint8_t value) { return static_cast<std::uint8_t>(std::lround(part * value)); };
   return {channel(ink.r), channel(ink.g), channel(ink.b)};
 }
 
-/// Does the element lie across the seam of a mesh that wraps? It is not drawn then.
+/// Whether the element lies across the seam of a mesh that wraps, and is not drawn.
 bool is_wide(const Plane& plane, std::span<const Vec3> points, std::span<const Index> corners) {
   return plane.period > 0.0 &&
          std::ranges::any_of(corners, [&](Index v) { return std::abs(points[v].x - points[corners[0]].x) > 0.5 * plane.period; });
 }
 
-/// Elements of a plane from above; a surface or the skin of a volume from a corner, the farthest face first.
+/// Picture of a sample: elements of a plane from above; a surface or the skin of a volume from a corner, the farthest face first.
 Thumbnail make_one(const GeneratorInfo& generator, std::size_t size_wanted, render::ColourMap map) {
   Thumbnail out{std::string(generator.name), std::string(generator.doc), {}};
   Progress progress;
@@ -95,7 +95,7 @@ std::vector<Thumbnail> make_thumbnails(render::ColourMap map, bool pictures) {
         sample = make_one(generator, size, map);
         break;
       } catch (const UsageError&) {
-        continue;  // too small for this one
+        continue;  // too small for this generator
       }
     }
     out.push_back(std::move(sample));

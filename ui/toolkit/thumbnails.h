@@ -1,5 +1,5 @@
 #pragma once
-// Small pictures of the samples for the start page: the samples themselves, made small.
+// Small pictures of the samples for the start page, made from small samples.
 
 #include <array>
 #include <string>
@@ -20,7 +20,8 @@ struct Thumbnail {
   std::vector<Polygon> polygons;
 };
 
-/// One for each generator; without polygons where a generator makes nothing that small, or `pictures` are not wanted: they take some 0.1 s.
+/// One thumbnail for each generator; without polygons if a generator makes nothing that small, or if `pictures` are not wanted. Pictures
+/// take some 0.1 s.
 [[nodiscard]] std::vector<Thumbnail> make_thumbnails(render::ColourMap map, bool pictures = true);
 
 }  // namespace dmoscope::ui

@@ -12,7 +12,7 @@ bool tooltip_unsettled() {
   const ImVector<ImGuiWindow*>& windows = ImGui::GetCurrentContext()->Windows;
   return std::any_of(windows.begin(), windows.end(), [](ImGuiWindow* window) {
     if (!window->Active || (window->Flags & ImGuiWindowFlags_Tooltip) == 0) return false;
-    if (window->Hidden) return true;  // it is measured before it is shown
+    if (window->Hidden) return true;  // ImGui measures it before it shows it
     const ImVec2 wanted = ImGui::CalcWindowNextAutoFitSize(window);
     constexpr float kHalfPixel = 0.5F;
     return std::abs(wanted.x - window->Size.x) > kHalfPixel || std::abs(wanted.y - window->Size.y) > kHalfPixel;

@@ -1,9 +1,9 @@
 #pragma once
-// ImGui gives a tooltip the size that its content had in the frame before.
+// Finds tooltips of a wrong size: ImGui gives a tooltip the size of its content in the frame before.
 
 namespace dmoscope::ui {
 
-/// Whether a tooltip of this frame has another size than its content wants: it takes one more frame to be right. To be asked once all is
+/// Whether a tooltip of this frame has another size than its content needs, so that it takes one more frame. To be called once all is
 /// drawn, before ImGui::Render.
 [[nodiscard]] bool tooltip_unsettled();
 

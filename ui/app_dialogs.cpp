@@ -1,4 +1,4 @@
-// The desktop's file dialog in place of our own, where there is one.
+// The desktop's file dialog in place of the program's own, if there is one.
 #include <algorithm>
 #include <string_view>
 #include <utility>
@@ -40,12 +40,12 @@ void App::take_chosen_file() {
       } else {
         rows->target.set_path(outcome->paths.front());
         ++rows->taken;
-        rows->target.replaced = rows->target.path().string();  // it has asked
+        rows->target.replaced = rows->target.path().string();  // the desktop's dialog has asked
       }
   }
 }
 
-/// Opens the desktop's dialog where ours was asked for, or one of ours wants it to look for a folder.
+/// Opens the desktop's dialog if the program's own was asked for, or wants it to choose a folder.
 void App::serve_chooser() {
   ChooserTurn& turn = widgets_.chooser;
   turn.usable = options_.native_dialogs && state_.native_dialogs && !chooser_failed_ && !chooser_program().empty();

@@ -15,7 +15,7 @@ namespace {
 
 constexpr float kFontSize = 15.0F;
 
-/// What the program itself writes, from first to last: Latin, Greek, punctuation, super- and subscripts, fractions, arrows, mathematical
+/// Ranges of the letters that the program itself writes: Latin, Greek, punctuation, super- and subscripts, fractions, arrows, mathematical
 /// operators, shapes and a few symbols.
 constexpr ImWchar kGlyphs[] = {0x20,   0xff,   0x370,  0x3ff,  0x1d62, 0x1d6a, 0x2000, 0x206f, 0x2070, 0x209f, 0x2100,
                                0x218f, 0x2190, 0x21ff, 0x2200, 0x22ff, 0x2300, 0x23ff, 0x25a0, 0x25ff, 0x2600, 0x26ff,

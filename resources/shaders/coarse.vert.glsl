@@ -1,9 +1,9 @@
-// One square stands for u_stride elements that follow each other along the drawn order, which keeps neighbours together.
+// Draws one square for u_stride elements that follow each other along the drawn order, which keeps neighbours together.
 #include "fill.glsl"
 layout(std430, binding = 0) readonly buffer Positions { vec2 positions[]; };
 layout(std430, binding = 3) readonly buffer Corners { uint corners[]; };
 layout(std430, binding = 7) readonly buffer Odd { uint odd[]; };  // a bit for every 32 drawn elements: whether any is inverted
-uniform int u_look;  // through all the elements that a square stands for: 0 no, 1 where some are odd, 2 yes
+uniform int u_look;  // whether all elements of a square are looked at: 0 no, 1 if some are odd, 2 yes
 uniform uint u_first;
 uniform uint u_last;
 uniform uint u_stride;

@@ -1,9 +1,9 @@
-// Put before every stage. Pixels here are relative to the middle of the viewport, y up.
-uniform vec2 u_offset_high;  // the camera's centre relative to the scene's, in two floats: far from it nothing jitters
+// Common uniforms and functions, put before every stage. Pixels are relative to the middle of the viewport, y up.
+uniform vec2 u_offset_high;  // the camera's centre relative to the scene's, in two floats: nothing jitters far from it
 uniform vec2 u_offset_low;
-uniform float u_zoom;      // pixels a unit of the plane
+uniform float u_zoom;      // pixels per unit of the plane
 uniform vec2 u_viewport;   // pixels
-uniform float u_widest;    // pixels; what is wider lies across the seam of a mesh that wraps, and is not drawn
+uniform float u_widest;    // pixels; wider elements lie across the seam of a mesh that wraps, and are not drawn
 
 vec2 to_pixels(vec2 point) {
   precise vec2 coarse = point - u_offset_high;

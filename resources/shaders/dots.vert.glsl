@@ -1,4 +1,4 @@
-// Six vertices a dot: a square around it.
+// A dot, drawn as a square of six vertices around it.
 struct Dot {
   vec4 place;   // middle in pixels, diameter, shape: 0 round, 1 square, 2 ring, 3 cross, 4 diamond
   vec4 fill;    // straight alpha

@@ -2,8 +2,8 @@
 #include "hatch.glsl"
 uniform float u_wire_half_width;  // pixels
 uniform vec4 u_wire_colour;       // straight alpha
-uniform vec4 u_hollow_fill;       // what is inside of an element of which only the outline is drawn; premultiplied
-uniform vec4 u_hollow_colour;     // its outline
+uniform vec4 u_hollow_fill;       // inside of an element of which only the outline is drawn; premultiplied
+uniform vec4 u_hollow_colour;     // outline of such an element
 
 flat in vec4 g_fill;
 flat in vec2 g_wire_and_size;
@@ -27,7 +27,7 @@ void main() {
 #endif
   float nearest = min(g_distance.x, min(g_distance.y, g_distance.z));
   if (plain.a == 1.0) {
-    // What is inverted lies over others: between its stripes and its outline they stay to be seen. Where it is small it is all colour.
+    // Inverted elements lie over others, which stay visible between their stripes and their outline. A small one is all colour.
     float solid = 1.0 - smoothstep(0.6, 1.6, g_wire_and_size.y / u_hatch_period);
     if (nearest > 2.0 * u_wire_half_width + 0.5 && max(solid, stripes(pixel)) < 0.5) discard;
     colour = vec4(plain.rgb, 1.0);

@@ -1,5 +1,5 @@
 // Colours an element once and gives its triangles the distances to its edges. With QUADRILATERALS an element comes as four corners. With
-// BY_CORNERS its fragments get what they need to take the colour of the corner that is nearest.
+// BY_CORNERS its fragments get the corners, to take the colour of the nearest one.
 #include "fill.glsl"
 #ifdef QUADRILATERALS
 layout(lines_adjacency) in;
@@ -11,25 +11,25 @@ layout(triangle_strip, max_vertices = 3) out;
 
 uniform uint u_first;
 uniform float u_wire_fade;   // pixels at which the wireframe begins to show; 0 or less: none
-uniform float u_hollow_fade; // the same for elements of which only the outline is drawn
+uniform float u_hollow_fade; // pixels at which the outline begins to show for elements of which only that is drawn
 uniform int u_others;        // elements that do not count: 0 faded, 1 hidden, 2 outlined
 uniform vec4 u_faded_colour;
 
 in vec2 v_pixels[];
 flat out vec4 g_fill;              // colour; 0 plain, 1 inverted, 2 not defined, 3 hollow, 4 faded
 flat out vec2 g_wire_and_size;     // strength of the wireframe, size of the element in pixels
-noperspective out vec3 g_distance; // to the three edges, pixels
+noperspective out vec3 g_distance; // distances to the three edges, pixels
 #ifdef BY_CORNERS
 in float v_value[];
 flat out vec4 g_corners[2];        // pixels
-flat out vec4 g_values;            // of the corners; a triangle's first twice
+flat out vec4 g_values;            // values of the corners; a triangle's first twice
 #endif
 
 const float kHidden = 1e6;
 
-// Outputs are lost with every vertex, so all are set again.
+// Sends one vertex. Outputs are lost with every vertex, so all are set again.
 void corner(vec2 point, vec3 distances, vec4 fill, vec2 wire_and_size) {
-  // Inverted elements lie above what they fold over, those that do not count below those that do.
+  // Inverted elements lie above those that they fold over, and elements that do not count below those that do.
   gl_Position = to_clip(point, fill.a == 1.0 ? -0.5 : fill.a >= 3.0 ? 0.5 : 0.0);
   g_distance = distances;
   g_fill = fill;
@@ -48,7 +48,7 @@ void corner(vec2 point, vec3 distances, vec4 fill, vec2 wire_and_size) {
   EmitVertex();
 }
 
-// `hidden`: added to the distance from the edge opposite of b.
+// Sends a triangle. `hidden`: added to the distance from the edge opposite of b.
 void emit(vec2 a, vec2 b, vec2 c, float hidden, vec4 fill, vec2 wire_and_size) {
   float twice = abs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
   vec3 height = twice / max(vec3(distance(b, c), distance(c, a), distance(a, b)), 1e-9);
@@ -62,7 +62,7 @@ float turn(vec2 a, vec2 b, vec2 c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a
 
 float wire_strength(float fade, float size) { return fade > 0.0 ? smoothstep(fade, 4.0 * fade, size) : 0.0; }
 
-// Whether no pixel's centre lies in the box: nothing of it would be drawn, which is true of most elements of a big mesh seen whole.
+// Whether no pixel's centre lies in the box, so that nothing of it would be drawn: true for most elements of a big mesh seen whole.
 // Positions are rounded to a part of a pixel before they are drawn, hence the margin.
 bool between_pixels(vec2 low, vec2 high) {
   const float kMargin = 1.0 / 64.0;
@@ -100,7 +100,7 @@ void main() {
   }
 #ifdef QUADRILATERALS
   vec2 a = v_pixels[0], b = v_pixels[1], c = v_pixels[2], d = v_pixels[3];
-  // The diagonal that lies inside: where a quadrilateral is not convex only one does.
+  // The diagonal must lie inside: in a quadrilateral that is not convex only one does.
   if (turn(a, b, c) * turn(a, c, d) >= 0.0 || turn(b, c, d) * turn(b, d, a) < 0.0) {
     emit(a, b, c, kHidden, fill, wire_and_size);
     emit(c, d, a, kHidden, fill, wire_and_size);

@@ -1,4 +1,4 @@
-// With GHOST only a breath of the face is drawn.
+// Colours faces. With GHOST a face is very faint.
 #include "hatch.glsl"
 uniform float u_wire_half_width;  // pixels
 uniform vec4 u_wire_colour;       // straight alpha

@@ -1,18 +1,18 @@
-// Six vertices a face: two triangles, or one and nothing.
+// Draws a face by six vertices: two triangles, or one and nothing.
 #include "fill.glsl"
 #include "faces.glsl"
-uniform uint u_first;       // face
+uniform uint u_first;       // number of the first face
 uniform float u_cut;        // 1: the faces are cuts
 uniform float u_wire_fade;  // pixels at which the wireframe begins to show; 0 or less: none
 uniform int u_others;       // elements that do not count: 0 faded, 1 hidden, 2 outlined (faded here)
 uniform vec4 u_faded_colour;
 flat out vec4 v_fill;              // colour; 0 plain, 1 inverted, 2 not defined, 4 faded
 flat out vec2 v_wire_and_size;     // strength of the wireframe, size of the face in pixels
-flat out vec3 v_edges[3];          // dot with a pixel and 1: how far it is from the edge
+flat out vec3 v_edges[3];          // dot with (pixel, 1) gives the distance from the edge
 
 const float kHidden = 1e6;
 
-// The line through a and b; c is on its positive side.
+// Line through a and b; c is on its positive side.
 vec3 edge(vec2 a, vec2 b, vec2 c) {
   vec2 along = b - a;
   float size = length(along);
@@ -45,8 +45,8 @@ void main() {
   vec3 here = local == 0u ? a : local == 1u ? b : c;
   gl_Position = u_to_clip_space * vec4(here, 1.0);
   gl_ClipDistance[0] = kept_by_plane(here);
-  // Where elements overlap the inverted lie above the others, and of cuts in one plane always the same. At the outline of a closed surface
-  // its back lies beneath its front.
+  // Where elements overlap, inverted ones lie above the others, and of cuts in one plane always the same one. At the outline of a closed
+  // surface its back lies beneath its front.
   float above = is_inverted ? 4e-5 : u_sides == 2 && away ? -4e-5 : 0.0;
   gl_Position.z -= gl_Position.w * (above + u_cut * 2e-6 * float(face.element & 7u));
 
@@ -62,7 +62,7 @@ void main() {
   float size = sqrt(abs(across.x * other.y - across.y * other.x));
   if (in_front) {
     vec2 x = at < 3u ? pixels[0] : pixels[2], y = at < 3u ? pixels[1] : pixels[3], z = at < 3u ? pixels[2] : pixels[0];
-    uint none = triangle ? 0xffffffffu - face.corners[3] : 4u;  // edges that are none; of a quadrilateral the diagonal
+    uint none = triangle ? 0xffffffffu - face.corners[3] : 4u;  // sides that are no edges; of a quadrilateral the diagonal
     if ((none & 1u) == 0u) v_edges[0] = edge(x, y, z);
     if ((none & 2u) == 0u) v_edges[1] = edge(y, z, x);
     if ((none & 4u) == 0u) v_edges[2] = edge(z, x, y);

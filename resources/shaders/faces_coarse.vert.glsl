@@ -1,9 +1,9 @@
-// A square for one of every u_stride faces, as large as these faces together. Which one is as if drawn by lot, always the same: in the rows of
-// a regular mesh every n-th face would leave stripes.
+// Draws a square for one of every u_stride faces, as large as these together. The choice is pseudo-random but always the same: in the rows
+// of a regular mesh every n-th face would leave stripes.
 #include "fill.glsl"
 #include "faces.glsl"
 uniform uint u_stride;
-uniform uint u_count;  // of faces
+uniform uint u_count;  // number of faces
 uniform int u_others;
 uniform vec4 u_faded_colour;
 flat out vec3 v_fill;
@@ -25,7 +25,7 @@ void main() {
   bool away = looks_away(p[0], p[1], p[2], p[3]), is_inverted = inverted(face.element);
   v_fill = fill * brightness(normal, middle) * side_brightness(away, is_inverted);
   if (!counting && u_others == 1 || hidden_by_others(away, is_inverted)) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
-  // Unforeshortened: squares face the eye, and what lies behind them must not show between them.
+  // Area without foreshortening: squares face the eye, and everything behind them must not show between them.
   float area = 0.5 * length(normal);
   float pixels_a_unit = 0.5 * u_viewport.y * length(vec3(u_to_clip_space[0][1], u_to_clip_space[1][1], u_to_clip_space[2][1])) / gl_Position.w;
   gl_PointSize = clamp(1.6 * sqrt(area * float(u_stride)) * pixels_a_unit + 0.5, 1.0, 64.0);

@@ -1,17 +1,17 @@
-// The colour of an element or of a corner, and which elements count. Included by those that need it.
+// Colour of an element or of a corner, and which elements count. Included by shaders that need it.
 layout(std430, binding = 1) readonly buffer Shades { float shades[]; };    // quality by element, see shade_of
-layout(std430, binding = 2) readonly buffer Order { uint order[]; };       // drawn order to element
-layout(std430, binding = 5) readonly buffer Values { float values[]; };    // what is shown instead of quality, by element or by vertex
+layout(std430, binding = 2) readonly buffer Order { uint order[]; };       // element of each drawn index
+layout(std430, binding = 5) readonly buffer Values { float values[]; };    // values shown instead of quality, by element or by vertex
 layout(std430, binding = 6) readonly buffer Members { uint members[]; };   // two bits an element: it is a member, it is tinted
 uniform int u_by;              // 0 quality, 1 values of elements, 2 values of vertices
-uniform int u_categories;      // how many the values are numbers of; 0: they go through the map
+uniform int u_categories;      // number of categories that the values are numbers of; 0: they go through the map
 uniform sampler2D u_colours;   // the map
-uniform sampler2D u_palette;   // of categories
+uniform sampler2D u_palette;   // colours of categories
 uniform vec2 u_range;          // values of the first and of the last colour of the map
 uniform vec4 u_inverted_colour;
 uniform vec4 u_undefined_colour;
-uniform vec4 u_neutral_colour;  // of no category
-uniform vec4 u_filter;          // lowest and highest quality that counts; 1: it is asked for; 1: inverted elements count
+uniform vec4 u_neutral_colour;  // colour of no category
+uniform vec4 u_filter;          // lowest and highest quality that counts; 1: the filter is on; 1: inverted elements count
 uniform int u_has_members;
 uniform vec4 u_tint;            // straight alpha; 0: nothing is tinted
 
@@ -27,7 +27,7 @@ bool counts(uint element) {
 
 bool inverted(uint element) { return shades[element] < -1e38; }
 
-// rgb; 0 plain, 2 not defined
+// Colour of a value: rgb; 0 plain, 2 not defined.
 vec4 colour_of(float value) {
   if (value > 1e38) return vec4(u_undefined_colour.rgb, 2.0);
   if (u_categories > 0) {
@@ -40,7 +40,7 @@ vec4 colour_of(float value) {
   return vec4(texelFetch(u_colours, ivec2(int(t * float(last) + 0.5), 0), 0).rgb, 0.0);
 }
 
-// Not of those that are coloured corner by corner. rgb; 0 plain, 1 inverted, 2 not defined
+// Colour of an element, unless it is coloured corner by corner: rgb; 0 plain, 1 inverted, 2 not defined.
 vec4 fill_of(uint element) {
   vec4 fill = inverted(element) ? vec4(u_inverted_colour.rgb, 1.0) : colour_of(u_by == 1 ? values[element] : shades[element]);
   if (u_tint.a > 0.0 && has_bit(element, 1u)) fill.rgb = mix(fill.rgb, u_tint.rgb, u_tint.a);

@@ -8,7 +8,7 @@ void main() {
   vec2 along = v_ends.zw - v_ends.xy;
   float t = clamp(dot(v_pixels - v_ends.xy, along) / max(dot(along, along), 1e-12), 0.0, 1.0);
   float outside = distance(v_pixels, v_ends.xy + t * along);
-  // A line thinner than a pixel is as faint as it is thin.
+  // A line thinner than a pixel is drawn fainter.
   float cover = clamp(v_half_width + 0.5 - outside, 0.0, 1.0) * min(1.0, 2.0 * v_half_width);
   float alpha = cover * v_colour.a;
   if (alpha <= 0.0) discard;

@@ -1,8 +1,8 @@
-// Six vertices a line: a rectangle around it. With BOUNDARY lines are the mesh's boundary edges, else a list of their own.
+// Draws a line as a rectangle of six vertices. With BOUNDARY lines are the mesh's boundary edges, else a list of their own.
 #ifdef BOUNDARY
 layout(std430, binding = 0) readonly buffer Positions { vec2 positions[]; };
 layout(std430, binding = 4) readonly buffer Edges { uvec2 edges[]; };
-layout(std430, binding = 5) readonly buffer Values { float values[]; };  // by vertex, see fill.glsl
+layout(std430, binding = 5) readonly buffer Values { float values[]; };  // values by vertex, see fill.glsl
 uniform sampler2D u_palette;
 uniform int u_edge_categories;  // 0: all edges have u_colour
 uniform float u_width;
@@ -11,7 +11,7 @@ uniform vec4 u_colour;
 struct Line {
   vec4 ends;    // pixels
   vec4 colour;  // straight alpha
-  vec4 width;   // pixels, in x
+  vec4 width;   // width in pixels, in x
 };
 layout(std430, binding = 4) readonly buffer Lines { Line lines[]; };
 #endif
@@ -29,7 +29,7 @@ void main() {
   vec2 a = to_pixels(positions[edges[index].x]), b = to_pixels(positions[edges[index].y]);
   if (abs(b.x - a.x) > u_widest) a = b = vec2(1e9);  // nothing is drawn
   v_colour = u_colour;
-  // Coasts of islands smaller than their line would be blots.
+  // Coasts of islands smaller than their line would become blots.
   float room = smoothstep(0.3, 5.0, distance(a, b));
   v_half_width = 0.5 * u_width * mix(0.45, 1.0, room);
   v_colour.a *= mix(0.6, 1.0, room);

@@ -1,11 +1,11 @@
-// How much of its colour a pixel keeps: less in corners, which little light would reach, and along edges and outlines. Depths alone tell,
-// and nothing by chance, so that the same scene gives the same picture, in one piece or in parts.
+// Share of its colour that a pixel keeps: less in corners, which little light would reach, and along edges and outlines. It depends only on
+// depths, without chance, so that the same scene gives the same picture, in one piece or in parts.
 uniform sampler2D u_depth;
 uniform mat4 u_from_clip_space;
-uniform float u_reach;  // pixels around that count
-uniform float u_line;   // pixels: how wide edges are
-uniform float u_most;   // share that corners take away at most
-uniform float u_line_strength;  // and sharp edges
+uniform float u_reach;  // radius in pixels of the neighbourhood that counts
+uniform float u_line;   // width of edges in pixels
+uniform float u_most;   // greatest share that corners take away
+uniform float u_line_strength;  // greatest share that sharp edges take away
 layout(location = 0) out vec4 colour;
 
 const int kAround = 20, kNear = 8;
@@ -17,7 +17,7 @@ vec3 point_at(vec2 pixel, float depth) {
   return point.xyz / point.w;
 }
 
-// Along the surface from one pixel to the next, on the side where it goes on.
+// Step along the surface from one pixel to the next, on the side where it goes on.
 vec3 along(ivec2 pixel, vec3 here, float depth, ivec2 step) {
   float after = depth_at(pixel + step), before = depth_at(pixel - step);
   if (abs(after - depth) < abs(before - depth)) return point_at(vec2(pixel + step), after) - here;
@@ -29,7 +29,7 @@ void main() {
   float depth = depth_at(pixel);
   if (depth >= 1.0) discard;
   vec3 here = point_at(vec2(pixel), depth);
-  float unit = distance(point_at(vec2(pixel) + vec2(1.0, 0.0), depth), here);  // of the mesh, a pixel wide
+  float unit = distance(point_at(vec2(pixel) + vec2(1.0, 0.0), depth), here);  // width of a pixel, in units of the mesh
   vec3 outwards = normalize(cross(along(pixel, here, depth, ivec2(1, 0)), along(pixel, here, depth, ivec2(0, 1))));
   float reach = u_reach * unit, closed = 0.0, all = 0.0;
   for (int i = 0; i < kAround; ++i) {
@@ -53,7 +53,7 @@ void main() {
     vec3 way = point_at(vec2(at), there) - here;
     edge += max(-dot(outwards, way) * inversesqrt(max(dot(way, way), 1e-30)) - 0.15, 0.0);
   }
-  // Faces keep most of their colour; a sharp edge is a line, as those of elements are.
+  // Faces keep most of their colour; a sharp edge is a line, like the edges of elements.
   float taken = clamp(2.6 * closed / all, 0.0, 1.0), line = smoothstep(0.14, 0.26, edge / float(kNear));
   colour = vec4(vec3((1.0 - u_most * taken) * (1.0 - u_line_strength * line)), 1.0);
 }

@@ -91,7 +91,7 @@ TEST(Palette, ListsEveryActionAndEveryVerbOfBothTables) {
 }
 
 TEST(Palette, ACommandWithItsWordsRunsAsTyped) {
-  // "Run 10 iterations" and "Zoom in" (zoom 1.25) hold these words too.
+  // These words also occur in the commands of "Run 10 iterations" and "Zoom in" (zoom 1.25).
   for (const char* line : {"run 1", "zoom 1", "step iteration 2", "goto vertex 3"}) {
     const std::vector<PaletteEntry> found = palette_entries(line, {.mesh = true}, view_command_infos());
     ASSERT_FALSE(found.empty()) << line;
@@ -105,7 +105,7 @@ TEST(Palette, AVerbAloneAsksForItsWords) {
   const auto at = std::find_if(found.begin(), found.end(), [](const PaletteEntry& entry) { return entry.command == "screenshot "; });
   ASSERT_NE(at, found.end());
   EXPECT_FALSE(at->complete);
-  // Nothing is open: what needs a mesh comes after all that can be.
+  // Nothing is open: actions that need a mesh come after all that are possible.
   const std::vector<PaletteEntry> none = palette_entries("s", {}, view_command_infos());
   EXPECT_TRUE(std::ranges::is_sorted(none, std::greater<>(), &PaletteEntry::possible));
   EXPECT_FALSE(none.back().possible);

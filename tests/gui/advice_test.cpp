@@ -1,4 +1,4 @@
-// Advice is kept: on 30 meshes each command that the window offers is followed, and comes to what was said of it.
+// Advice is kept: on 30 meshes each command that the window offers is followed, and gives the result that was promised.
 
 #include <algorithm>
 #include <cmath>
@@ -25,12 +25,12 @@ namespace advice {
 using ::testing::HasSubstr;
 
 struct Case {
-  std::string mesh;                   // words of a generator, or the name of one that is made here
-  std::vector<std::string> before{};  // commands
+  std::string mesh;                   // words of a generator, or name of a mesh made here
+  std::vector<std::string> before{};  // commands to run first
   std::string run = "until-converged best 20 60";
 };
 
-/// What has no generator: a spoiled boundary, stretched cells, a fold with a crease, thin layers, the least that there is.
+/// Meshes without a generator: a spoiled boundary, stretched cells, a fold with a crease, thin layers, the least that there is.
 Mesh made(const std::string& name) {
   if (name == "tiny") return testing::lattice(2, 0.4, 7);
   if (name == "one triangle") {
@@ -117,7 +117,7 @@ class Advice : public ::testing::Test {
     for (const Message& message : engine_->take_messages()) text += message.text + "\n";
     return text;
   }
-  /// In a session of its own: a mesh that is opened gets the parameters of the run before it.
+  /// Begins a case in a session of its own: an opened mesh gets the parameters of the run before it.
   void begin(const Case& one) {
     engine_ = std::make_unique<Engine>(1);
     if (one.mesh.starts_with("generate ")) {
@@ -187,7 +187,7 @@ TEST_F(Advice, OfTheNoticeIsKept) {
     const std::size_t place = engine_->view()->active;
     const Statistics before = now();
     for (const Offer& offer : notice_of(*engine_->view()).offers) {
-      if (offer.command.starts_with("goto ")) continue;  // a look
+      if (offer.command.starts_with("goto ")) continue;  // an action that only shows something
       ++followed;
       SCOPED_TRACE(offer.label);
       good(fmt::format("select-run {}", place + 1));

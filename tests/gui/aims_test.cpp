@@ -65,7 +65,7 @@ TEST_F(AimsInTheWindow, AMarkIsLookedIntoWithTheAimOfItsOwnPhase) {
   const Index vertex = run().colouring->order.front();
   good("inspect on");
   good("pick vertex " + std::to_string(vertex));
-  const auto has_optimum = [&] { return window_->app().inspection().optimum.has_value(); };  // of the one aim of the first phase
+  const auto has_optimum = [&] { return window_->app().inspection().optimum.has_value(); };  // of the first phase's single aim
   ASSERT_TRUE(window_->app().inspection().trace);
   EXPECT_FALSE(has_optimum());
   good("flip a");

@@ -1,4 +1,4 @@
-// What qualities range of the colours: from the start, through a run, by the menu on the bar, and after a restart.
+// Range of qualities that the colours span: at the start, through a run, by the menu on the bar, and after a restart.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -79,7 +79,7 @@ TEST_F(RangeWindow, TheMenuOfTheBarOffersAllOthers) {
   }
 }
 
-/// Of another metric the input's spread comes a little later than the colours.
+/// With another metric the input's spread comes a little later than the colours.
 TEST(Range, OfWhatIsSeenStandsInForAnInputsThatIsNotKnownYet) {
   ViewState state;
   const Pair own{0.3127, 0.9483};
@@ -118,7 +118,7 @@ TEST(Range, IsRememberedAndRepeated) {
     const auto lines = view_lines(state, false);
     EXPECT_NE(std::ranges::find(lines, line), lines.end()) << line;
   }
-  // Settings and sessions of before say nothing of some of this.
+  // Settings and sessions of older versions lack some of this.
   ViewState old;
   ASSERT_TRUE(apply_settings(R"({"colormap": "viridis"})", old));
   EXPECT_EQ(old.range_mode, RangeMode::Input);

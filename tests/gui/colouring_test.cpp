@@ -1,4 +1,4 @@
-// Colours, filters and labels: what the verbs do, what elements are coloured by, and the window's handles and legends.
+// Colours, filters and labels: effects of the commands, values that elements are coloured by, and the window's handles and legends.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -51,7 +51,7 @@ TEST(ColourRange, ExpandingHoldsAllThatWasSeenAndNeverShrinks) {
     }
     SessionView session;
     session.frame = frame_of(input, quality, serial);
-    if (serial % 7 == 0) state.range_mode = RangeMode::Fixed;  // what is seen meanwhile counts, too
+    if (serial % 7 == 0) state.range_mode = RangeMode::Fixed;  // qualities seen meanwhile count, too
     refresh(derived, state, session);
     if (serial % 7 == 0) {
       state.range_mode = RangeMode::Expanding;
@@ -64,7 +64,7 @@ TEST(ColourRange, ExpandingHoldsAllThatWasSeenAndNeverShrinks) {
     EXPECT_EQ(derived.outside_low + derived.outside_high, 0U);
     before = derived.range;
   }
-  // Another input has seen nothing yet.
+  // Another input starts without seen qualities.
   SessionView session;
   quality.assign(quality.size(), 0.5F);
   quality[0] = 0.4F;
@@ -226,7 +226,7 @@ TEST(ElementColours, DisplacementAndSize) {
   EXPECT_TRUE(even.logarithmic);
   for (const float value : even.shading->values) EXPECT_NEAR(static_cast<double>(value), 0.0, 1e-6);
   const Index moved = 5 * 11 + 5;
-  frame->positions[moved].x += 0.03;  // edges are 0.1 long
+  frame->positions[moved].x += 0.03;  // moves the vertex; edges are 0.1 long
   frame->positions[moved].y += 0.04;
   const ElementColours colours = colours_of(ColourBy::Displacement, frame);
   for (Index e = 0; e < mesh.elements.size(); ++e) {
@@ -264,7 +264,7 @@ TEST(Members, OfKindsGroupsValencesAndTheWorst) {
   EXPECT_EQ(ids(), (std::vector<Index>{6})) << "both must hold";
   state.worst = 0;
   EXPECT_EQ(ids(), (std::vector<Index>{5, 6, 7}));
-  state.isolated = Isolation{ColourBy::Group, "open boundary"};  // its role
+  state.isolated = Isolation{ColourBy::Group, "open boundary"};  // by the role of the group
   std::vector<Index> touching;
   for (Index e = 0; e < mesh.elements.size(); ++e) {
     const auto corners = mesh.elements.corners(e);
@@ -346,7 +346,7 @@ TEST_F(ColourWindow, TheBarSaysItsEndsWhateverTheyAre) {
     good(line);
     const render::Image picture = window_->picture();
     const auto bar = window_->app().items().find("range:bar");
-    // Below the ends, where no round number has its place, and below the handles.
+    // The strip below the ends, which has no round numbers, and below the handles.
     const auto inks = [&](float left) {
       std::set<std::array<int, 3>> seen;
       for (int y = static_cast<int>(bar[3]) + 6; y < static_cast<int>(bar[3]) + 13; ++y)
@@ -427,7 +427,7 @@ TEST_F(ColourWindow, WhatIsHiddenIsNotPickedAndWhatCountsIsTheWorst) {
   };
   good(fmt::format("goto element {}", worst[0].element));
   EXPECT_EQ(pick_at(worst[0].element), (Picked{Picked::Kind::Element, worst[0].element}));
-  // A neighbour that is none of the three is not there.
+  // A neighbour that is none of the three must not be there.
   for (const Incidence& incidence : frame->input->topology.star(frame->input->mesh.elements.corners(worst[0].element)[0])) {
     const Index other = incidence.element;
     if (std::any_of(worst.begin(), worst.begin() + 3, [&](const RankedElement& one) { return one.element == other; })) continue;
@@ -457,7 +457,7 @@ TEST_F(ColourWindow, EveryColouringIsDrawnInEveryThemeAndInPictures) {
   good("step iteration");
   std::map<std::string, render::Image> pictures;
   for (const ColourByInfo& one : kColourBys) {
-    if (one.by == ColourBy::Tilt) continue;  // of surfaces in space
+    if (one.by == ColourBy::Tilt) continue;  // only for surfaces in space
     if (one.by == ColourBy::Group && window_->app().frame()->input->mesh.groups.empty()) continue;
     good("color-by " + std::string(one.name));
     pictures[std::string(one.name)] = window_->app().mesh_picture({});

@@ -19,7 +19,8 @@ namespace {
 
 using ::testing::ElementsAre;
 
-/// 2 sqrt(3) |area| over the sum of the squared edges, and the least angle over 60 degrees, straight from the corners of a triangle.
+/// Mean ratio, 2 sqrt(3) |area| over the sum of the squared edges, and least angle over 60 degrees, straight from the corners of a
+/// triangle.
 std::pair<double, double> by_hand(const Vec3& a, const Vec3& b, const Vec3& c) {
   const auto squared = [](const Vec3& p, const Vec3& q) { return (p.x - q.x) * (p.x - q.x) + (p.y - q.y) * (p.y - q.y); };
   const double area = 0.5 * std::abs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
@@ -41,7 +42,7 @@ std::pair<double, double> minima_of(const InputMesh& input, std::span<const Vec3
 
 class ComparisonWindow : public HeadlessTest {
  protected:
-  void SetUp() override { open_explaining(); }  // courses come after all else, when the session rests
+  void SetUp() override { open_explaining(); }  // courses come after everything else, when the session rests
   [[nodiscard]] const RunView& run(std::size_t k) { return session()->runs[k]; }
   [[nodiscard]] const ui::Items::Box& box(const std::string& item) { return window_->app().items().find(item); }
 };
@@ -104,7 +105,7 @@ TEST_F(ComparisonWindow, CurvesAreJudgedByTheShownMetricOrEachByItsOwn) {
   const JudgedBy* judged = ui::judged_by(run(1), Metric::MeanRatio);
   ASSERT_NE(judged, nullptr);
   ASSERT_EQ(judged->course.size(), judged_iterations(13).size());
-  // Independent: the mesh at that iteration itself.
+  // Independent values come from the mesh at that iteration.
   good("select-run 2");
   good("seek 5");
   const double there = minima_of(*session()->input, session()->frame->positions).first;

@@ -1,4 +1,4 @@
-// Contours against shapes whose places are known.
+// Contours against shapes with known places.
 #include "ui/analysis/contours.h"
 
 #include <cmath>
@@ -58,13 +58,13 @@ TEST(Contours, CellsWithAnUndefinedCornerAreLeftOut) {
 }
 
 TEST(Contours, ASaddleIsCutAsItsMiddleSays) {
-  // High at the lower left and the upper right; the middle, the mean of the four, is high in the first and low in the second.
+  // Corners are high at the lower left and the upper right; the middle, the mean of the four, is high in the first and low in the second.
   const std::vector<float> joined{1.0F, -0.2F, -0.2F, 1.0F}, parted{0.2F, -1.0F, -1.0F, 0.2F};
   for (const bool high_middle : {true, false}) {
     const auto pieces = contour(high_middle ? joined : parted, 2, 2, 0.0);
     ASSERT_EQ(pieces.size(), 2U);
     for (const ContourPiece& piece : pieces) {
-      // Around a low corner where the high ones are joined, around a high one where they are not: corners (1, 0) and (0, 1) are low.
+      // Pieces run around a low corner if the high ones are joined, else around a high one: corners (1, 0) and (0, 1) are low.
       const double x = (piece.from.x + piece.to.x) / 2, y = (piece.from.y + piece.to.y) / 2;
       EXPECT_EQ((x > 0.5) != (y > 0.5), high_middle) << x << " " << y;
     }

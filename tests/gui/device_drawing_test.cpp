@@ -1,4 +1,4 @@
-// What a CUDA device writes into OpenGL's buffers. Where there is none these are skipped; tests/render/device_test.cpp has the rest.
+// Writing of a CUDA device into OpenGL's buffers. Skipped without such a device; tests/render/device_test.cpp has the rest.
 #include <memory>
 
 #include <glad/gl.h>
@@ -32,7 +32,7 @@ class CudaDrawing : public testing::Test {
     whole = builder.build(*session)->frame;
     ASSERT_NE(light->device, nullptr);
   }
-  /// Two kinds of elements, some turned over.
+  /// A mesh of two kinds of elements, some turned over.
   static Mesh source_mesh() {
     constexpr Index kSide = 60;
     Mesh mesh;

@@ -1,4 +1,4 @@
-// What the window says of a run that has come to its end, and what it offers: elements that stay inverted, and better iterations.
+// Notes of the window on a run that has come to its end, and its offers: elements that stay inverted, and better iterations.
 
 #include <algorithm>
 #include <filesystem>
@@ -27,7 +27,7 @@ class Ending : public HeadlessTest {
   [[nodiscard]] ui::Notice notice() { return ui::notice_of(*session()); }
   [[nodiscard]] RunView run() { return session()->runs.at(session()->active); }
   [[nodiscard]] bool best_is_possible() { return ui::enabled(*ui::find_action("best"), ui::situation_of(*session(), state(), false)); }
-  /// Nine cells of two triangles, the corner of the first of which lies beyond the other two of its triangle: all three are fixed.
+  /// Opens nine cells of two triangles. The corner of the first triangle lies beyond its other two: all three are fixed.
   void open_hopeless() {
     const std::filesystem::path file = folder_ / "hopeless.off";
     std::ofstream(file) << squares_with(3, 0, "0.9 0.9 0");
@@ -95,7 +95,7 @@ TEST_F(Ending, WhatEndsWorseThanItsBestOffersThat) {
   good("method laplace");
   EXPECT_TRUE(has_item("method-note"));
   good("run 60");
-  // The best by the very numbers.
+  // The best iteration by the exact minima.
   std::uint64_t best = 0;
   const RunView now = run();
   for (std::uint64_t i = 1; i < now.records.size(); ++i) {

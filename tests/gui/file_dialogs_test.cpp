@@ -1,4 +1,4 @@
-// The dialogs that open and save: ours, and the desktop's by a stand-in on the path.
+// Dialogs that open and save: the program's own, and the desktop's by a stand-in on the path.
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -79,14 +79,14 @@ TEST_F(FileDialogs, EnterAloneReplacesNothing) {
   for (int k = 0; k < 3; ++k) good("key Enter");
   EXPECT_EQ(text_of(at("kept.off")), "kept");
   EXPECT_EQ(state().dialog, Dialog::Export);
-  type_into("export:file", "other.off");  // another name, another question
+  type_into("export:file", "other.off");  // another name needs another question
   EXPECT_FALSE(shows("export:replace"));
   type_into("export:file", "kept.off");
   good("key Enter");
   good("click export:replace");
   EXPECT_EQ(state().dialog, Dialog::None);
   EXPECT_NE(text_of(at("kept.off")), "kept");
-  good("dialog export");  // the answer held for once
+  good("dialog export");  // the answer held only once
   good("key Enter");
   EXPECT_EQ(state().dialog, Dialog::Export);
   EXPECT_TRUE(shows("export:replace"));
@@ -104,7 +104,7 @@ TEST_F(FileDialogs, ARefusedNameStaysWithTheReason) {
     good("key Ctrl+C");
     EXPECT_EQ(window_->clipboard(), name);
   }
-  type_into("export:file", "/proc/x.off");  // what fails only when it is written
+  type_into("export:file", "/proc/x.off");  // a file that fails only when it is written
   (void)window_->run("key Enter");
   ASSERT_EQ(state().dialog, Dialog::Error);
   good("key Escape");
@@ -148,7 +148,7 @@ TEST_F(FileDialogs, BrowseGoesThroughFoldersAndPlaces) {
   EXPECT_TRUE(fs::exists(at("b/c/a-smoothed.off")));
   good("dialog export");
   good("click export:folder");
-  good("click place:0");  // beside the mesh
+  good("click place:0");  // the folder of the mesh
   good("click export:go");
   EXPECT_TRUE(fs::exists(at("a-smoothed.off")));
 }
@@ -184,7 +184,7 @@ TEST(SaveTarget, KnowsWholePathsAndWhatStandsInTheWay) {
   EXPECT_EQ(judge(target, {"a mesh", {".off"}, true}), ui::SaveVerdict::Ready);
 }
 
-/// A program by the name of zenity or kdialog, first on the path.
+/// Puts a program with the name zenity or kdialog first on the path.
 class DesktopsDialog : public FileDialogs {
  protected:
   void SetUp() override {
@@ -210,7 +210,7 @@ class DesktopsDialog : public FileDialogs {
                         << body << "\n";
     fs::permissions(file, fs::perms::owner_all);
   }
-  /// Frames until it has come to what is waited for, while the stand-in runs in its own time.
+  /// Draws frames until a condition holds, while the stand-in runs in its own time.
   template <class Wanted>
   [[nodiscard]] bool comes(const Wanted& wanted) {
     for (int k = 0; k < 500; ++k) {
@@ -261,7 +261,7 @@ TEST_F(DesktopsDialog, TheWindowGoesOnWhileItIsOpenAndEndsIt) {
   good("click step-iteration");
   EXPECT_EQ(session()->frame->moment.iteration, 1U);
   const std::string words = text_of(at("zenity.args"));
-  EXPECT_NE(words.find("--filename=" + folder_.path().string() + "/"), std::string::npos) << words;  // beside the mesh
+  EXPECT_NE(words.find("--filename=" + folder_.path().string() + "/"), std::string::npos) << words;  // the folder of the mesh
   const int pid = std::stoi(text_of(at("pid")));
   EXPECT_TRUE(fs::exists(fmt::format("/proc/{}", pid)));
   window_.reset();

@@ -17,12 +17,12 @@ TEST(ChangeJudge, WaitsUntilAFileHasComeToRest) {
   ChangeJudge judge;
   judge.start(stamp(1, 100));
   EXPECT_FALSE(judge.look(stamp(1, 100), 0.0));
-  EXPECT_FALSE(judge.look(stamp(2, 40), 1.0));  // being written
+  EXPECT_FALSE(judge.look(stamp(2, 40), 1.0));  // the file is being written
   EXPECT_TRUE(judge.expecting());
   EXPECT_FALSE(judge.look(stamp(2, 80), 1.4));
   EXPECT_FALSE(judge.look(stamp(2, 80), 1.8));
   EXPECT_TRUE(judge.look(stamp(2, 80), 1.9));
-  EXPECT_FALSE(judge.look(stamp(2, 80), 2.9));  // once
+  EXPECT_FALSE(judge.look(stamp(2, 80), 2.9));  // reported only once
   EXPECT_FALSE(judge.expecting());
 }
 
@@ -35,7 +35,7 @@ TEST(ChangeJudge, AFileThatGoesAndComesBackIsNewAndOneThatIsTheSameIsNot) {
   EXPECT_FALSE(judge.look(std::nullopt, 4.0));
   EXPECT_FALSE(judge.look(stamp(5, 100), 5.0));
   EXPECT_TRUE(judge.look(stamp(5, 100), 6.0));
-  // One that was not there when the watching began is new when it comes.
+  // A file that did not exist when the watching began is new when it comes.
   judge.start(std::nullopt);
   EXPECT_FALSE(judge.look(stamp(5, 100), 7.0));
   EXPECT_TRUE(judge.look(stamp(5, 100), 8.0));
@@ -48,7 +48,7 @@ TEST(FileWatch, TellsOfAFileWrittenAnew) {
   FileWatch watch([&woken] { ++woken; });
   EXPECT_FALSE(watch.take_change());
   watch.follow(file.string());
-  // The state that is known is the one at the first look, which comes at once; a file system's clock may be coarse.
+  // The known state is the one at the first look, which comes at once; a file system's clock may be coarse.
   std::this_thread::sleep_for(std::chrono::milliseconds(200));
   std::ofstream(file) << "another";
   bool changed = false;

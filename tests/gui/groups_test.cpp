@@ -1,4 +1,4 @@
-// The list of groups, and what becomes of interfaces, in the window.
+// The list of groups, and the treatment of interfaces, in the window.
 
 #include <gmock/gmock.h>
 

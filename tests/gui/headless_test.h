@@ -13,7 +13,7 @@ namespace dmoscope::app {
 class HeadlessTest : public testing::Test {
  protected:
   void SetUp() override { open(); }
-  /// A fresh window instead of the one before, whose start page has no pictures; skips the test where there is no OpenGL.
+  /// Opens a fresh window instead of the one before, without pictures on its start page; skips the test without OpenGL.
   void open(int width = 1280, int height = 800, Backend backend = Backend::Auto) {
     window_.reset();
     try {
@@ -30,7 +30,7 @@ class HeadlessTest : public testing::Test {
   [[nodiscard]] ui::ViewState& state() { return window_->app().state(); }
   [[nodiscard]] std::shared_ptr<const SessionView> session() { return window_->app().engine().view(); }
 
-  /// For tests of what holds the minimum, which otherwise is most of the work.
+  /// Opens a window that finds what holds the minimum, which the other tests leave out because it is most of the work.
   void open_explaining(int width = 1280, int height = 800) {
     explains_ = true;
     open(width, height);

@@ -1,4 +1,4 @@
-// What is seen of a volume mesh, chosen in the panel and in the view; told, saved and done again.
+// The visible part of a volume mesh, chosen in the panel and in the view; as commands, saved and restored.
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -26,7 +26,7 @@ class InsidePanel : public HeadlessTest {
     HeadlessTest::SetUp();
     if (!IsSkipped()) open_block();
   }
-  /// 4 x 4 x 4 hexahedra over the unit cube.
+  /// Opens 4 x 4 x 4 hexahedra over the unit cube.
   void open_block() {
     const Mesh mesh = test::volume_grid(4, test::Fill::Hexahedra, 0.2);
     Progress progress;
@@ -36,13 +36,13 @@ class InsidePanel : public HeadlessTest {
   [[nodiscard]] const ClippingView& inside() { return state().inside; }
   [[nodiscard]] std::array<float, 4> box(const std::string& item) { return window_->app().items().find(item); }
   [[nodiscard]] bool has(const std::string& item) { return window_->app().items().boxes().contains(item); }
-  /// From the middle of an item.
+  /// Drags from the middle of an item.
   void drag(const std::string& item, float dx, float dy) {
     const auto at = box(item);
     const float x = (at[0] + at[2]) / 2, y = (at[1] + at[3]) / 2;
     good(fmt::format("drag {} {} {} {}", x, y, x + dx, y + dy));
   }
-  /// Commands in the log whose first word it is.
+  /// Commands in the log with this first word.
   [[nodiscard]] std::size_t told(const std::string& verb) {
     const auto& lines = state().commands.lines();
     return static_cast<std::size_t>(std::ranges::count_if(
@@ -121,23 +121,23 @@ TEST_F(InsidePanel, ASliderIsSeenAsItMovesAndToldOnce) {
 }
 
 TEST_F(InsidePanel, TheClipPlaneIsDraggedAlongItsNormal) {
-  good("view-from +z");  // x goes to the right
+  good("view-from +z");  // x points to the right
   good("clip x");
   const std::size_t before = told("clip");
   const render::OrbitCamera camera = state().orbit;
   drag("clip-handle", 50, 30);
   const double unit = camera.height / state().viewport.y;
-  EXPECT_NEAR(inside().clip.offset, 0.5 + 50 * unit, 1e-3);  // told to four digits
+  EXPECT_NEAR(inside().clip.offset, 0.5 + 50 * unit, 1e-3);  // commands have four digits
   EXPECT_EQ(told("clip"), before + 1);
   EXPECT_EQ(state().orbit, camera);
   drag("clip-handle", 5000, 0);
-  EXPECT_NEAR(inside().clip.offset, 1.0, 1e-12);  // never out of the mesh
+  EXPECT_NEAR(inside().clip.offset, 1.0, 1e-12);  // never outside the mesh
 }
 
 TEST_F(InsidePanel, APlaneSeenFromAboveIsDraggedUpAndDown) {
   good("view-from +z");
   good("clip z");
-  drag("clip-handle", 0, -40);  // up: towards the eye
+  drag("clip-handle", 0, -40);  // up is towards the eye
   EXPECT_NEAR(inside().clip.offset, 0.5 + 40 * state().orbit.height / state().viewport.y, 1e-3);
 }
 
@@ -153,7 +153,7 @@ TEST_F(InsidePanel, ANewPlaneUncoversWhatTheEyeSees) {
   good("clip on");
   EXPECT_TRUE(inside().clip.flip);
   EXPECT_DOUBLE_EQ(inside().clip.offset, 0.5);
-  good("clip x:0.3");  // as it is said
+  good("clip x:0.3");  // as the command says it
   EXPECT_FALSE(inside().clip.flip);
 }
 
@@ -164,7 +164,7 @@ TEST_F(InsidePanel, ARangeThatNoSliderTellsIsSaidAndTakenBack) {
   EXPECT_FALSE(inside().isolate.has_value());
   EXPECT_FALSE(has("inside:kept"));
   good("keep-quality 0.2 1");
-  EXPECT_FALSE(has("inside:kept"));  // "hide worse" tells it
+  EXPECT_FALSE(has("inside:kept"));  // "hide worse" shows the range
 }
 
 TEST_F(InsidePanel, IsOfVolumesAlone) {

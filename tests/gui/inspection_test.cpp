@@ -1,4 +1,4 @@
-// What grid inspection shows of a vertex of a real mesh is what the smoother then does to it, bit for bit.
+// The visit of a vertex of a real mesh that grid inspection shows is the one that the smoother then makes, bit for bit.
 #include <bit>
 #include <filesystem>
 #include <fstream>
@@ -38,7 +38,7 @@ class Inspection : public HeadlessTest {
   }
   [[nodiscard]] const RunView& run() { return session()->runs[session()->active]; }
 
-  /// Picks the vertex, compares what is shown with a search of its own, then lets `move` visit it and compares with what was stored.
+  /// Picks the vertex, compares the shown trace with a search of its own, then lets `move` visit it and compares with the stored position.
   void expect_the_truth(Index vertex, const std::string& move) {
     SCOPED_TRACE(fmt::format("vertex {}", vertex));
     good(fmt::format("pick vertex {}", vertex));
@@ -80,7 +80,7 @@ class Inspection : public HeadlessTest {
     EXPECT_TRUE(same_bits(shown.to, own.to) && same_bits(shown.found, own.found));
   }
 
-  /// The qualities of the candidates, by the judges of whole meshes.
+  /// Compares the qualities of the candidates with those of whole meshes.
   void expect_true_qualities(const VisitTrace& shown, const Frame& frame) {
     const InputMesh& input = *frame.input;
     std::vector<Vec3> positions = frame.positions;
@@ -127,7 +127,7 @@ TEST_F(Inspection, ShowsWhatAVisitOfAnyVertexDoes) {
   }
 }
 
-/// Sixteen squares of two triangles, their middle vertex far out.
+/// Sixteen squares of two triangles, with a middle vertex far out.
 class InspectionOfAStray : public HeadlessTest {
  protected:
   static constexpr Index kStray = 12;
@@ -147,7 +147,7 @@ class InspectionOfAStray : public HeadlessTest {
 TEST_F(InspectionOfAStray, NeighboursAreSaidToWaitAndNotToBeFixed) {
   open_it();
   const auto before = session()->frame;
-  const Index sound = 18;  // in no element of the stray one
+  const Index sound = 18;  // in no element of the stray vertex
   const ui::Inspection& inspection = look(sound);
   ASSERT_NE(inspection.visit(), nullptr) << inspection.trouble;
   EXPECT_EQ(inspection.visit()->end, VisitEnd::Waits);

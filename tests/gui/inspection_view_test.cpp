@@ -1,4 +1,4 @@
-// Grid inspection in the very window, off screen: what the verbs show, and what the levels lead to.
+// Grid inspection in the real window, off screen: effects of its commands, and the result of the levels.
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -34,7 +34,7 @@ class InspectionView : public HeadlessTest {
     for (const render::OverlayDot& dot : marks.dots) sum += std::find(shapes.begin(), shapes.end(), dot.shape) != shapes.end() ? 1U : 0U;
     return sum;
   }
-  /// The elements of a vertex, by the table of elements alone.
+  /// Elements of a vertex, found only by the table of elements.
   [[nodiscard]] std::vector<Index> star_of(Index vertex) {
     std::vector<Index> star;
     const ElementTable& elements = session()->input->mesh.elements;
@@ -71,7 +71,7 @@ TEST_F(InspectionView, AnElementIsLookedIntoAtItsWorstFreeCorner) {
   ASSERT_NE(vertex, kNoIndex);
   const auto view = session();
   const auto& fixed = view->runs[0].fixed;
-  // By all elements: the worst with a free corner, lowest quality first.
+  // The worst of all elements with a free corner, lowest quality first.
   Index worst = kNoIndex;
   for (Index e = 0; e < view->frame->element_count(); ++e) {
     const auto corners = view->input->mesh.elements.corners(e);
@@ -166,7 +166,7 @@ TEST_F(InspectionView, LStepsThroughTheLevelsAndThroughTheRun) {
   good("key Shift+L");  // takes the move back
   EXPECT_FALSE(inspection().applied);
   EXPECT_EQ(session()->frame->moment.visits, 2U);
-  // The run is what it would be without anybody looking.
+  // The run is the same as without any inspection.
   good("key L");
   good("step iteration");
   const auto looked_into = session()->frame->positions;
@@ -189,12 +189,12 @@ TEST_F(InspectionView, OutOfTurnTheVertexIsVisitedAlone) {
   EXPECT_EQ(after[vertex], to);
   after[vertex] = before[vertex];
   EXPECT_EQ(after, before);
-  good("level next");  // the same vertex again, from where it stands now
+  good("level next");  // the same vertex again, from its present place
   EXPECT_EQ(inspection().vertex, vertex);
   EXPECT_EQ(inspection().level, 1);
   EXPECT_EQ(look().trace->from, to);
   good("apply-move");
-  good("level back");  // takes that back, too
+  good("level back");  // takes that move back, too
   EXPECT_FALSE(inspection().applied);
   EXPECT_EQ(session()->frame->positions[vertex], to);
 }
@@ -300,7 +300,7 @@ TEST_F(InspectionView, TheTraceIsCopiedAndWritten) {
 
 TEST_F(InspectionView, AStuckVertexIsExplained) {
   good("generate annulus");
-  good("inspect vertex 0");  // on the boundary
+  good("inspect vertex 0");  // a vertex on the boundary
   EXPECT_NE(ui::stuck_sentence(look()).find("fixed"), std::string::npos);
   EXPECT_TRUE(look().trace->levels.empty());
   good("key L");

@@ -1,4 +1,4 @@
-// Grid inspection of a volume in the very window, off screen.
+// Grid inspection of a volume in the real window, off screen.
 #include <algorithm>
 #include <array>
 #include <bit>

@@ -1,4 +1,4 @@
-// Corners and feature edges that a person says, in the window: seen, clicked, taken back.
+// Corners and feature edges that a person sets in the window: shown, clicked, undone.
 #include <string>
 
 #include <gmock/gmock.h>
@@ -34,7 +34,7 @@ class KindsInTheWindow : public HeadlessTest {
   }
   [[nodiscard]] const Kinds& kinds() { return active().parameters.kinds; }
   [[nodiscard]] std::vector<std::uint8_t> picture() { return window_->picture().rgba; }
-  /// Of the mesh alone, without the title and what the panels say.
+  /// Picture of the mesh alone, without the title and the panels.
   [[nodiscard]] std::vector<std::uint8_t> mesh_picture() {
     const auto whole = window_->picture();
     std::vector<std::uint8_t> part;
@@ -101,7 +101,7 @@ TEST_F(KindsInTheWindow, EdgesAreTurnedOneByOneAndByChains) {
 TEST_F(KindsInTheWindow, MarksAndColoursFollowAtOnce) {
   good("view-from iso");
   good("features on");
-  Index seen = kNoIndex;  // on the side that is looked at
+  Index seen = kNoIndex;  // on the side towards the eye
   for (Index v = 0; v < active().fixed.size() && seen == kNoIndex; ++v) {
     const Vec3 p = session()->frame->positions[v];
     if (p.z == 1.0 && active().domain->on_surface(v)) seen = v;
@@ -121,7 +121,7 @@ TEST_F(KindsInTheWindow, MarksAndColoursFollowAtOnce) {
   EXPECT_TRUE(mesh_picture() != before);
 }
 
-/// The edge below the mouse in the inspector is seen in the mesh.
+/// The edge below the mouse in the inspector is marked in the mesh.
 TEST_F(KindsInTheWindow, TheMouseFindsAnEdge) {
   good("pick vertex 2");
   (void)picture();
@@ -136,7 +136,7 @@ TEST_F(KindsInTheWindow, TheMouseFindsAnEdge) {
   EXPECT_FALSE(state().edge_under_mouse);
 }
 
-/// A right click offers the edge that is nearest to the mouse.
+/// A right click offers the edge nearest to the mouse.
 TEST_F(KindsInTheWindow, AMenuTurnsTheNearestEdge) {
   good("view-from +z");
   good("fit");

@@ -145,7 +145,7 @@ TEST_F(LayoutWindow, AClickOnPlusMovesNoControl) {
   good("move 5 5");
   const auto before = boxes();
   const int grid = session()->runs[0].parameters.search.grid_points;
-  // At one place, as a person does who wants three more: the first click makes a new run.
+  // Clicks at one place, as by a person who wants three more: the first click makes a new run.
   const Box plus = box("grid+");
   const std::string click = fmt::format("click {} {}", (plus[0] + plus[2]) / 2, (plus[1] + plus[3]) / 2);
   for (int k = 0; k < 3; ++k) good(click);
@@ -155,7 +155,7 @@ TEST_F(LayoutWindow, AClickOnPlusMovesNoControl) {
   std::size_t same = 0;
   for (const auto& [name, at] : boxes()) {
     // The legend above the plot has two runs now.
-    if (name == "minimum") continue;  // a number, as wide as it is
+    if (name == "minimum") continue;  // a number, whose width varies
     if (name.starts_with("plot") || name.starts_with("legend") || name.starts_with("status") || !before.contains(name)) continue;
     EXPECT_EQ(before.at(name), at) << name;
     ++same;

@@ -1,4 +1,4 @@
-// Every letter that the program prints is in its fonts; letters of others are shown by fonts that have them, or by name.
+// Every letter that the program prints is in its fonts; letters of files are shown by fonts that have them, or by name.
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using Letters = std::map<std::uint32_t, std::string>;  // and where it was met first
+using Letters = std::map<std::uint32_t, std::string>;  // letters, with the place of their first use
 
 void collect(std::string_view text, const std::string& where, Letters& out) {
   while (!text.empty()) {
@@ -80,7 +80,7 @@ TEST_F(LettersShown, AllOfEveryTable) {
   for (const ui::Action& action : ui::actions()) collect(action.title, std::string(action.id), letters);
   for (const CommandInfo& command : session_commands()) collect(command.usage + command.doc, command.name, letters);
   for (const CommandInfo& command : ui::view_command_infos()) collect(command.usage + command.doc, command.name, letters);
-  EXPECT_TRUE(letters.contains(0x1d62));  // the formulas have such
+  EXPECT_TRUE(letters.contains(0x1d62));  // used by formulas
   EXPECT_TRUE(letters.contains(0x2154));
   expect_in_all_fonts(letters);
 }
@@ -97,7 +97,7 @@ TEST_F(LettersShown, AllOfEveryString) {
       collect(literals(text.str()), entry.path().string(), letters);
     }
   }
-  EXPECT_TRUE(letters.contains(0x275a));  // of the button that pauses
+  EXPECT_TRUE(letters.contains(0x275a));  // used by the button that pauses
   EXPECT_GT(letters.size(), 20U);
   expect_in_all_fonts(letters);
 }
@@ -120,7 +120,7 @@ TEST_F(LettersShown, NamesOfFilesWhateverTheirLetters) {
     collect(shown, name, letters);
     expect_in_all_fonts(letters);
     EXPECT_NE(window_->app().title().find(name), std::string::npos);
-    // Its field keeps them through an edit.
+    // The field keeps the letters through an edit.
     good("dialog export");
     good("click export:file");
     good("key End");

@@ -1,4 +1,4 @@
-// What is only looked at changes while a run computes.
+// Displays that do not affect the mesh change while a run computes.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -14,7 +14,7 @@ namespace {
 
 class LiveLooks : public HeadlessTest {
  protected:
-  /// A run without end that has been seen to go on.
+  /// Begins a run without end, and waits until it goes on.
   void begin(const char* mesh = "generate random 20000") {
     good(mesh);
     window_->app().submit("run 100000000");
@@ -77,7 +77,7 @@ TEST_F(LiveLooks, WhatComputesGivesWayToWhatDraws) {
   if (testing::own_nice_value() != 0) GTEST_SKIP() << "the tests themselves give way";
   good("generate annulus 400");
   const auto behind = [] { return std::ranges::count_if(testing::nice_values(), [](int value) { return value > 0; }); };
-  const auto before = behind();  // of OpenGL's own threads some do, too
+  const auto before = behind();  // some of OpenGL's own threads have such values, too
   good("run 1");
   EXPECT_GT(behind(), before);
   EXPECT_EQ(testing::own_nice_value(), 0) << "who draws goes first";
@@ -148,7 +148,7 @@ TEST_F(LiveLooks, EveryOtherLookChangesAtOnce) {
   at_once("wireframe off", [&] { return !state().wireframe; });
 }
 
-/// A measurement, by hand: --gtest_also_run_disabled_tests --gtest_filter='*Measure*'
+/// A measurement, run by hand: --gtest_also_run_disabled_tests --gtest_filter='*Measure*'
 TEST_F(LiveLooks, DISABLED_MeasureFramesUntilAnotherMetricIsShown) {
   begin("generate random 1330000");
   for (const char* metric : {"min-angle", "scaled-jacobian", "radius-ratio", "mean-ratio"}) {
@@ -160,7 +160,7 @@ TEST_F(LiveLooks, DISABLED_MeasureFramesUntilAnotherMetricIsShown) {
     const Stopwatch watch;
     const auto begun = std::chrono::steady_clock::now();
     int frames = 0;
-    do {  // sixty a second, as on a screen
+    do {  // sixty frames a second, as on a screen
       window_->frame();
       ++frames;
       std::this_thread::sleep_until(begun + frames * std::chrono::microseconds(16'667));

@@ -1,4 +1,4 @@
-// The window while a run steps on a device: what is drawn, picked and read comes from where the positions are.
+// The window while a run steps on a device: drawing, picks and values come from the device that has the positions.
 #include <memory>
 
 #include <glad/gl.h>
@@ -19,7 +19,7 @@ using ui::Picked;
 
 class LiveWindow : public ::testing::Test {
  protected:
-  /// no_interop: as HeadlessWindow's.
+  /// Opens the window. no_interop: as HeadlessWindow's.
   void open(std::optional<std::string> no_interop) {
     device->pictures = std::make_shared<FakePictureDevice>();
     device->pictures->fill = [](std::uint32_t buffer, std::span<const std::byte> data) {
@@ -111,7 +111,7 @@ TEST_F(LiveWindow, ALostDeviceIsSaidAndCrashesNothing) {
   ASSERT_TRUE(draw_until_live([&] { return drawn->serial > serial; }));
   window->frame();
   EXPECT_EQ(window->app().activity().drawing.reason, "no interop: the device was lost");
-  window->app().submit("goto vertex 12");  // asks the device: an error that is shown
+  window->app().submit("goto vertex 12");  // asks the device, whose error is shown
   EXPECT_EQ(window->app().state().dialog, ui::Dialog::Error);
   stop();
 }

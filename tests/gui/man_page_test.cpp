@@ -1,4 +1,4 @@
-// The man page of a program with a window lists the window's verbs, whichever they are.
+// The man page of a program with a window lists all of the window's commands.
 #include <array>
 #include <cstdio>
 #include <memory>

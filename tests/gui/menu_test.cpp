@@ -1,4 +1,4 @@
-// Every action of the menus, run as a script's line, through the palette, and by its key, comes to the same.
+// Every action of the menus has the same result as a script's line, through the palette, and by its key.
 #include <memory>
 #include <string>
 #include <utility>
@@ -26,7 +26,7 @@ class Menus : public HeadlessTest {
     fresh_ = state();
   }
   void run(const std::string& line) { (void)window_->run(line); }
-  /// Two runs, a history, something picked and marked; the same every time.
+  /// Begins with two runs, a history, a pick and marks; the same every time.
   void begin() {
     state() = fresh_;
     for (const char* line : {"generate grid 100", "then nothing", "joint-gap 0.0002", "pick vertex 40", "show mean-ratio",
@@ -35,7 +35,7 @@ class Menus : public HeadlessTest {
       ASSERT_FALSE(failure.has_value()) << line << ": " << failure->text;
     }
   }
-  /// All of a window that an action can change, in words.
+  /// Everything in a window that an action can change, in words.
   [[nodiscard]] std::string outcome() {
     run("move 3 3");
     const auto view = window_->app().engine().view();
@@ -76,17 +76,17 @@ class Menus : public HeadlessTest {
 };
 
 TEST_F(Menus, EveryActionIsReachedByScriptPaletteAndKeyAlike) {
-  // A frame a letter: with a sanitizer some actions alone are tried, and the palette is opened for some of these.
+  // Every letter takes a frame: with a sanitizer only some actions are tried, and the palette is opened for some of these.
   constexpr std::size_t kTried = testing::kSanitized ? 5 : 1, kStride = testing::kSanitized ? 20 : 1;
   std::size_t count = 0;
   for (const ui::Action& action : ui::actions()) {
     SCOPED_TRACE(std::string(action.id));
     if (count++ % kTried != 0) continue;
     const bool by_hand = (count - 1) % kStride == 0;
-    // Stepping by itself goes on as long as it is let: where it comes to is a matter of time.
+    // Stepping by itself goes on until it is stopped: its result depends on time.
     const bool endless = action.command.starts_with("play-steps");
     begin();
-    // A script is told what goes wrong; a person gets the dialog.
+    // A script gets the error; a person gets the dialog.
     if (window_->run(action.command)) state().dialog = ui::Dialog::Error;
     const std::string by_script = outcome();
     if (!by_hand && action.key.empty()) continue;
@@ -94,7 +94,7 @@ TEST_F(Menus, EveryActionIsReachedByScriptPaletteAndKeyAlike) {
     ASSERT_TRUE(choose_in_palette(action, by_hand));
     if (by_hand) {
       const std::string by_palette = outcome();
-      if (!possible_) {  // greyed; a script is told why
+      if (!possible_) {  // the entry is grey; a script gets the reason
         EXPECT_EQ(state().dialog, ui::Dialog::Palette);
       } else if (!endless) {
         EXPECT_EQ(by_palette, by_script);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr Vec2<double> kPicture{400, 300};
 
-/// A lattice over the unit square, some of whose vertices have moved; seen whole, 250 pixels a unit.
+/// A lattice over the unit square with some vertices moved; all in view, 250 pixels per unit.
 struct Twins {
   std::shared_ptr<const InputMesh> input = dmoscope::testing::input(dmoscope::testing::lattice(12, 0.2, 4));
   std::vector<Vec3> from = input->mesh.positions, to = moved(from);
@@ -53,7 +53,7 @@ struct Twins {
   }
 };
 
-/// Each line and dot of one stands where it does of the other, in pixels.
+/// Compares the places of lines and dots of both, in pixels.
 void expect_alike(const render::Marks& a, const render::SceneView& by_a, const render::Marks& b, const render::SceneView& by_b) {
   const auto near = [&](Vec3 p, Vec3 q) {
     const auto at = by_a.place(p), there = by_b.place(q);
@@ -102,7 +102,7 @@ TEST(OverlaysInPlaneAndSpace, FeaturesAndInvertedElementsAreTheSame) {
   Frame frame;
   frame.input = mesh.input;
   frame.positions = mesh.from;
-  const auto small = mesh.input->mesh.elements.corners(60);  // two pixels and less
+  const auto small = mesh.input->mesh.elements.corners(60);  // an element of two pixels or less
   for (std::size_t k = 0; k < small.size(); ++k)
     frame.positions[small[k]] = mesh.from[small[0]] + Vec3{0.004 * static_cast<double>(k), 0, 0};
   std::vector<Index> all(mesh.input->mesh.elements.size());
@@ -119,7 +119,7 @@ TEST(OverlaysInPlaneAndSpace, FeaturesAndInvertedElementsAreTheSame) {
   expect_alike(flat, mesh.flat.view, marks_of(mesh.space), mesh.space.view);
 }
 
-/// The scenes draw what they are given alike, too: outlines, dots, the ring, lines.
+/// Scenes draw equal marks equally, too: outlines, dots, the ring, lines.
 TEST(OverlaysInPlaneAndSpace, ScenesDrawTheSameMarks) {
   std::unique_ptr<render::Context> context;
   try {
@@ -147,7 +147,7 @@ TEST(OverlaysInPlaneAndSpace, ScenesDrawTheSameMarks) {
   };
   const render::Image one = picture(flat, mesh.above), other = picture(space, mesh.orbit);
   EXPECT_TRUE(render::compare(one, other).alike(0.0005)) << render::compare(one, other).off_share;
-  for_edges(mesh.input->mesh.elements, 3, [&](Index p, Index q) {  // each is drawn
+  for_edges(mesh.input->mesh.elements, 3, [&](Index p, Index q) {  // each edge is drawn
     const Vec2<double> at = *mesh.flat.view.place(0.5 * (mesh.from[p] + mesh.from[q]));
     for (const render::Image* image : {&one, &other})
       EXPECT_GT(image->at(static_cast<int>(0.5 * kPicture.x + at.x), static_cast<int>(0.5 * kPicture.y - at.y)).r, 150) << p << " to " << q;

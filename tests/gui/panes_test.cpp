@@ -1,4 +1,4 @@
-// Viewports side by side: what they show, their cameras, the split view, and colours of differences.
+// Viewports side by side: their contents, their cameras, the split view, and colours of differences.
 
 #include <algorithm>
 #include <fstream>
@@ -114,7 +114,7 @@ TEST_F(PanesTest, ATitleMakesItsRunTheActiveOneAndAClickPicksWhereItIs) {
   good("click pane-title:1");
   EXPECT_EQ(session()->active, 0U);
   EXPECT_EQ(state().panes.focus, 0U);
-  // Where a vertex stands in the second viewport, whose run has moved it.
+  // The place of a vertex in the second viewport, whose run has moved it.
   const auto view = session();
   const auto at = std::ranges::find_if(view->watched, [&](const WatchedFrame& one) { return one.what.run == view->runs[1].id; });
   ASSERT_NE(at, view->watched.end());
@@ -338,7 +338,7 @@ TEST(Differences, AreThoseOfTheQualitiesByHand) {
   EXPECT_EQ(colours.better, 0U);
   EXPECT_EQ(colours.worse, 1U);
   EXPECT_NEAR(colours.range.second, 2 * root / 4 - 6 * root / 16, 1e-6);
-  const auto scaled = std::make_shared<Frame>(*before);  // a mark made while another metric was shown
+  const auto scaled = std::make_shared<Frame>(*before);  // a mark made while another metric was on show
   scaled->shown = Metric::ScaledJacobian;
   scaled->quality = {0.123F, 0.456F};
   request.reference = scaled;

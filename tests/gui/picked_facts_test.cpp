@@ -1,4 +1,4 @@
-// What the window says of a pick, of the worst element, of a run's end, and of what a difference is taken from.
+// Texts of the window on a pick, the worst element, a run's end, and the reference of a difference.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -36,7 +36,7 @@ TEST_F(SaidInTheWindow, AnglesInDegreesOfTheWorstElement) {
     const Vec3 a = frame.positions[corners[static_cast<std::size_t>(i)]], b = frame.positions[corners[static_cast<std::size_t>(k)]];
     return std::hypot(a.x - b.x, a.y - b.y);
   };
-  // By the law of cosines, across from the longest side.
+  // The greatest angle by the law of cosines, opposite the longest side.
   const double a = side(0, 1), b = side(1, 2), c = side(2, 0), longest = std::max({a, b, c});
   const double others = a * a + b * b + c * c - longest * longest, product = a * b * c / longest;
   EXPECT_NEAR(angles->largest, std::acos((others - longest * longest) / (2 * product)) * 180 / std::numbers::pi, 1e-6);

@@ -64,7 +64,7 @@ std::pair<std::vector<SvgLine>, std::vector<SvgText>> read_svg(const std::string
   return {lines, texts};
 }
 
-/// value -> place, from two labels of an axis.
+/// Function from value to place, from two labels of an axis.
 double by_labels(const std::vector<SvgText>& texts, const std::string& a, const std::string& b, double SvgText::*along, double value) {
   const auto find = [&](const std::string& text) {
     return std::find_if(texts.begin(), texts.end(), [&](const SvgText& one) { return one.text == text; });
@@ -93,7 +93,7 @@ TEST(PlotSvg, HasEveryVisibleSeriesWithAllItsPointsWhereTheLabelsSay) {
     ASSERT_EQ(line.points.size(), 101U);
     for (const std::size_t k : {0U, 17U, 50U, 100U}) {
       const double x = by_labels(texts, "20", "80", &SvgText::x, static_cast<double>(k));
-      // A label's baseline lies as far below its value as every other's.
+      // Every label's baseline lies equally far below its value.
       const double shift = 0.36 * 12.0;
       const double y = by_labels(texts, "0.12", "0.20", &SvgText::y, session.runs[r].records[k].statistics.minimum) - shift;
       EXPECT_NEAR(line.points[k].first, x, 0.02);

@@ -1,4 +1,4 @@
-// What plots show at first: their width is for what changes.
+// First range of plots: their width is for what changes.
 #include <algorithm>
 #include <cmath>
 
@@ -16,7 +16,7 @@ namespace {
 
 constexpr PlotArea kArea{0, 0, 1000, 300, 12};
 
-/// A run of 220 iterations whose minimum rises for 20.
+/// A session with a run of 220 iterations whose minimum rises for 20.
 SessionView converged_run() {
   SessionView session = session_of(1, 1);
   std::vector<IterationRecord> records;
@@ -138,7 +138,7 @@ TEST(PlotHome, ARightClickAsksForTheMenuAndARightDragDoesNot) {
   }
 }
 
-/// A session whose histogram has these elements.
+/// A session with a histogram of these elements.
 SessionView histogram_session(const std::vector<std::pair<std::size_t, Index>>& bins) {
   SessionView session = session_of(1, 1);
   auto frame = std::make_shared<Frame>();

@@ -1,4 +1,4 @@
-// Plots under the mouse: how they are moved, brushed and read.
+// Plots under the mouse: moving, brushing and reading.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -13,7 +13,7 @@
 namespace dmoscope::ui {
 namespace {
 
-/// A plot of its own size and a mouse over it.
+/// A plot of fixed size and a mouse over it.
 class PlotMice : public testing::Test {
  protected:
   void show(PlotTab tab) {
@@ -31,7 +31,7 @@ class PlotMice : public testing::Test {
     mouse.over = true;
     return handle_mouse(mouse, drag_, plot_, state_.plot_view(), layout_, 1.0);
   }
-  /// All commands of a press, three moves and a release.
+  /// Commands of a press, three moves and a release.
   std::vector<std::string> drag(double x0, double y0, double x1, double y1, bool right = false, bool shift = false) {
     PlotMouse mouse;
     mouse.shift = shift;
@@ -75,7 +75,7 @@ TEST_F(PlotMice, BrushingTheHistogramFiltersWholeBars) {
   show(PlotTab::Histogram);
   lines = drag(at(0.9), 100, at(5.0), 120);
   EXPECT_EQ(lines, std::vector<std::string>{"filter 0.875 1"});
-  EXPECT_TRUE(drag(at(0.5), 100, at(0.5) + 1, 100).empty());  // a click, and nothing is brushed
+  EXPECT_TRUE(drag(at(0.5), 100, at(0.5) + 1, 100).empty());  // a click brushes nothing
   plot_.brush = Range{0.2, 0.4};
   EXPECT_EQ(drag(at(0.5), 100, at(0.5) + 1, 100), std::vector<std::string>{"filter off"});
 }
@@ -112,7 +112,7 @@ TEST_F(PlotMice, TheWheelKeepsTheValueUnderTheCursor) {
   EXPECT_NEAR(ends[1] - ends[0], 0.8 * 50, 1e-6);
   lay();
   EXPECT_NEAR(layout_.x.value(px), 30, 1e-6);
-  wheel.wheel = -9;  // out again
+  wheel.wheel = -9;  // zooms out again
   EXPECT_EQ(move(px, 100, wheel).commands, std::vector<std::string>{"plot-zoom x all"});
   wheel.wheel = 1;
   const double py = layout_.y.place(0.4);
@@ -130,7 +130,7 @@ TEST_F(PlotMice, ADragMovesWhatIsZoomedAndStaysInside) {
   EXPECT_TRUE(drag(400, 100, 500, 100).empty());
   state_.plot_view().x_range = Range{20, 30};
   lay();
-  const double pixels = (layout_.right - layout_.left) / 10.0;  // an iteration
+  const double pixels = (layout_.right - layout_.left) / 10.0;  // pixels per iteration
   PlotMouse held;
   held.left_pressed = held.left_down = true;
   EXPECT_TRUE(move(500, 100, held).commands.empty());

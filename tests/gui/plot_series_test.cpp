@@ -1,4 +1,4 @@
-// Plots as data: what they are made of, and where it is placed.
+// Plots as data: their series, and the places of values.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -143,7 +143,7 @@ TEST(PlotSeries, OtherRunsShowTheirSummariesOfTheShownMetric) {
   const Plot sorted = build_plot(*state, session, {own, own}, colours());
   EXPECT_EQ(series_named(sorted, "2 dmo", "now").y, (std::vector<double>{0.25, 0.5, 1.0}));
   EXPECT_EQ(series_named(sorted, "2 dmo", "now").x, (std::vector<double>{0, 50, 100}));
-  summary->metric = Metric::MaxAngle;  // of another metric: not beside these
+  summary->metric = Metric::MaxAngle;  // another metric, which is not plotted beside these
   EXPECT_THROW((void)series_named(plot_of(*state, session), "2 dmo", "now"), std::out_of_range);
 }
 
@@ -172,7 +172,7 @@ TEST(PlotLayout, PlacesAndValuesAreInverse) {
     EXPECT_NEAR(axis.place(high), 20.0, 1e-9);
     for (const double t : {0.1, 0.5, 0.9}) EXPECT_NEAR(axis.place(axis.value(400.0 - 380.0 * t)), 400.0 - 380.0 * t, 1e-6);
   }
-  // A tenth of the distance to the ideal is as far wherever it is.
+  // A tenth of the distance to the ideal is equally long everywhere.
   const Axis distance{0.0, 0.999, 300.0, 0.0, ValueAxis::LogDistance};
   EXPECT_NEAR(distance.place(0.9) - distance.place(0.99), distance.place(0.0) - distance.place(0.9), 1e-9);
   EXPECT_LT(distance.place(0.99), distance.place(0.9));  // better is higher

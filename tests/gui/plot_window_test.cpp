@@ -1,4 +1,4 @@
-// Plots in the very window, off screen, and as files.
+// Plots in the real window, off screen, and as files.
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -25,7 +25,7 @@ class PlotWindow : public HeadlessTest {
     return text.str();
   }
   [[nodiscard]] const ui::Items::Box& box(const std::string& name) { return window_->app().items().find(name); }
-  /// A pixel of the plot, from shares of its width and height.
+  /// Pixel of the plot at shares of its width and height.
   [[nodiscard]] std::string at(double x, double y) {
     const auto& b = box("plot");
     const auto mix = [](float from, float to, double t) { return static_cast<double>(from) + t * static_cast<double>(to - from); };
@@ -193,7 +193,7 @@ TEST_F(PlotWindow, ControlsStayInTheWindowWhateverItsSizeAndScale) {
       const bool roomy = window_->app().items().boxes().contains("plot-copy");
       const auto& last = box(roomy ? "plot-save" : "plot-more");
       EXPECT_LE(last[2], width) << size << " " << tab;
-      const bool has_axis = window_->app().items().boxes().contains("plot-axis");  // else it is in the menu of the last
+      const bool has_axis = window_->app().items().boxes().contains("plot-axis");  // otherwise it is in the menu of the last one
       EXPECT_GT((has_axis ? box("plot-axis") : last)[0], box("plot-time")[2]) << size << " " << tab;
     }
   }

@@ -1,5 +1,5 @@
 #pragma once
-// Plots and the sessions that they are of, for their tests.
+// Plots, and the sessions that they show, for tests of plots.
 
 #include <memory>
 #include <stdexcept>
@@ -38,7 +38,7 @@ void change(RunView& run, std::size_t k, Change how) {
   set_records(run, std::move(records));
 }
 
-/// A session without a mesh: its runs' records are all that these plots need.
+/// A session without a mesh, for plots that need only the runs' records.
 inline SessionView session_of(std::size_t runs, std::size_t records) {
   SessionView session;
   for (std::size_t r = 0; r < runs; ++r) {
@@ -62,7 +62,7 @@ inline Plot plot_of(const SessionView& session) {
   return plot_of(*state, session);
 }
 
-/// Its iterations lie evenly, so that places are easy to tell.
+/// A plot whose iterations lie evenly, so that places are easy to tell.
 inline Plot even_plot_of(const SessionView& session) {
   const auto state = std::make_unique<ViewState>();
   state->plot_options.x_axis = XAxis::Linear;

@@ -1,4 +1,4 @@
-// What the pointer finds over a mesh.
+// The value under a pointer that rests over a mesh, and clicks on axes.
 #include <cmath>
 
 #include <gtest/gtest.h>

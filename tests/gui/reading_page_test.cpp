@@ -1,4 +1,4 @@
-// What is seen while the first mesh is on its way.
+// The page that is shown while the first mesh is being read.
 #include <chrono>
 #include <fstream>
 #include <memory>
@@ -45,7 +45,7 @@ class ReadingPage : public testing::Test {
 TEST_F(ReadingPage, StandsInTheViewportsPlaceAtOnceAndCancels) {
   window->frame();
   EXPECT_TRUE(shows("start:open"));
-  window->app().execute("generate grid 4000000");  // seconds
+  window->app().execute("generate grid 4000000");  // takes seconds
   window->frame();
   EXPECT_TRUE(shows("reading:name"));
   EXPECT_TRUE(shows("reading:bar"));

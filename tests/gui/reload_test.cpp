@@ -1,4 +1,4 @@
-// A file that is read again, by hand and because it was written anew.
+// Reading a file again, by hand and because it has changed.
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -23,7 +23,7 @@ class Reload : public HeadlessTest {
     write(0.0);
     good("open \"" + file_.string() + "\"");
   }
-  /// A square of nine vertices whose middle one is off by `x`; `more`: with one vertex more.
+  /// Writes a square of nine vertices whose middle one is off by `x`; `more`: with one vertex more.
   void write(double x, bool more = false) {
     std::ofstream file(file_);
     file << "OFF\n" << (more ? 10 : 9) << (more ? " 9 0\n" : " 8 0\n");
@@ -45,7 +45,7 @@ class Reload : public HeadlessTest {
 TEST_F(Reload, KeepsParametersSelectionAndCamera) {
   good("grid 9");
   good("step iteration");
-  good("metric min-angle");  // a run of its own
+  good("metric min-angle");  // makes a run of its own
   good("fix 4");
   good("select-run 1");
   good("pick vertex 4");
@@ -86,7 +86,7 @@ TEST_F(Reload, AFailureKeepsWhatIsOpenAndSaysSo) {
   EXPECT_EQ(session()->frame->moment.iteration, 1U);
   good("dialog none");
   good("generate annulus");
-  EXPECT_TRUE(window_->run("reload").has_value());  // no file
+  EXPECT_TRUE(window_->run("reload").has_value());  // there is no file
 }
 
 TEST_F(Reload, AWatchedFileIsReadAgainByItself) {

@@ -1,4 +1,4 @@
-// What a person did, recorded, saved as a script and done again in a fresh window.
+// A person's actions, recorded, saved as a script and repeated in a fresh window.
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -25,7 +25,7 @@ class Replay : public HeadlessTest {
  protected:
   [[nodiscard]] Reached reached() {
     const auto view = window_->app().engine().view();
-    add_message(state(), {Message::Kind::Info, "reached", 0});  // what was said before is not compared
+    add_message(state(), {Message::Kind::Info, "reached", 0});  // messages from before are not compared
     window_->settle();
     return {view->frame->positions, view->frame->moment, window_->picture()};
   }
@@ -37,7 +37,7 @@ class Replay : public HeadlessTest {
     window_->app().submit("cancel");
     window_->settle();
   }
-  /// The script's text; fills lines_.
+  /// Text of the script; fills lines_.
   std::string saved() {
     const auto path = folder_ / "recorded session.txt";
     good("save-script \"" + path.string() + "\"");
@@ -48,7 +48,7 @@ class Replay : public HeadlessTest {
     for (std::string line; std::getline(text, line);) lines_.push_back(line);
     return text.str();
   }
-  /// The saved script in a fresh window comes to the same.
+  /// Checks that the saved script in a fresh window has the same result.
   void replays_to(const Reached& wanted) {
     open();
     for (const std::string& line : lines_) good(line);
@@ -197,7 +197,7 @@ TEST(CommandLog, ANumberedCommandEndsAsItsOwn) {
     log.end({});
   }
   log.ended({1, CommandEnd::Kind::Done, {5, 0}, true});
-  log.ended({3, CommandEnd::Kind::Dropped, {}, false});  // told of before the one at work
+  log.ended({3, CommandEnd::Kind::Dropped, {}, false});  // reported before the one at work
   log.ended({2, CommandEnd::Kind::Cancelled, {7, 12}, true, {"seek 7 12 0"}});
   EXPECT_EQ(log.script({}),
             "# A recorded session: dmoscope script FILE [--headless]\nrun 5\n# cancelled: run 5\nseek 7 12 0\n# cancelled before it began: "

@@ -1,4 +1,4 @@
-// The list of runs: numbers, names, eyes, and a place that stays as high as it is.
+// The list of runs: numbers, names, eyes, and constant height.
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -85,7 +85,7 @@ TEST_F(RunList, ADoubleClickRenamesARunEverywhere) {
   std::string text(std::filesystem::file_size(file), ' ');
   std::ifstream(file).read(text.data(), static_cast<std::streamsize>(text.size()));
   EXPECT_THAT(text, HasSubstr("\nby hand,1,"));
-  good("key Ctrl+Z");  // the iteration
+  good("key Ctrl+Z");  // undoes the iteration
   good("key Ctrl+Z");
   EXPECT_EQ(session()->runs[1].name, "") << "a name can be undone";
   good("key Ctrl+Y");
@@ -156,7 +156,7 @@ TEST_F(RunList, AnEyeTakesARunOutOfPlotsAndViewports) {
   EXPECT_THAT(legend(), ElementsAre("1 dmo", "2 laplace", "3 dvr"));
   good("hide-run others");
   EXPECT_THAT(legend(), ElementsAre("3 dvr"));
-  good("pane 1 run 2");  // who asks for it sees it
+  good("pane 1 run 2");  // a run that was asked for is shown
   EXPECT_THAT(legend(), ElementsAre("2 laplace", "3 dvr"));
   good("hide-run none");
   EXPECT_EQ(legend().size(), 3U);

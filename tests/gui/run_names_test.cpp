@@ -1,4 +1,4 @@
-// What runs are called in legends and over viewports, and what is left of a plot whose legend has many of them.
+// Names of runs in legends and over viewports, and the room for a plot whose legend has many of them.
 
 #include "ui/state/run_names.h"
 

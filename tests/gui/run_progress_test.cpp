@@ -1,4 +1,4 @@
-// What is said of a run while it goes on, and of a command when it is done.
+// Texts about a run at work, and about a finished command.
 #include "ui/state/run_progress.h"
 
 #include <cmath>

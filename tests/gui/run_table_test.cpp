@@ -36,7 +36,7 @@ class RunTable : public HeadlessTest {
 
 TEST_F(RunTable, StandsInTheOrderThatAClickOnAColumnAsksFor) {
   const std::vector<std::size_t> as_made = order();
-  // A run for each metric that triangles have; the condition is of other elements.
+  // One run for each metric of triangles; the condition is for other elements.
   const auto of_triangles =
       std::ranges::count_if(metric_table(), [](const MetricInfo& one) { return one.defined_for(ElementKind::Triangle); });
   ASSERT_EQ(as_made.size(), static_cast<std::size_t>(of_triangles));
@@ -68,7 +68,7 @@ TEST_F(RunTable, AllRowsAreJudgedByTheMetricThatIsShown) {
     good("wait");
     for (const RunRow& row : rows()) {
       EXPECT_EQ(row.judged, metric);
-      EXPECT_GT(row.minimum, 0.0);  // every row has a value, whatever its run optimises
+      EXPECT_GT(row.minimum, 0.0);  // every row has a value, whichever metric its run optimises
       EXPECT_LE(row.minimum, row.p1);
       EXPECT_LE(row.p1, row.p5);
       EXPECT_EQ(row.iterations, 3U);

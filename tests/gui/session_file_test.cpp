@@ -47,7 +47,7 @@ TEST_F(SessionFile, GoesOnInAnotherWindowWithTheSameMeshAndPicture) {
                            "move 2 2"})
     good(line);
   const auto before = window_->app().engine().view();
-  add_message(state(), {Message::Kind::Info, "reached", 0});  // what was said before is not compared
+  add_message(state(), {Message::Kind::Info, "reached", 0});  // messages from before are not compared
   window_->settle();
   const render::Image picture = window_->picture();
   good("save-session \"" + file_ + "\"");

@@ -96,7 +96,7 @@ TEST_F(SeveralMeshesWindow, ToLookAtAnotherKeepsCamerasMarksAndSizes) {
   good("select-run 1");
   EXPECT_EQ(state().camera, camera);
   EXPECT_TRUE(state().timeline.a.frame) << "the mark is of a mesh that is still open";
-  good("pick vertex 150");  // the other has not so many
+  good("pick vertex 150");  // the other mesh has fewer vertices
   good("select-run 2");
   EXPECT_EQ(state().picked, ui::Picked{});
   good("open " + other_.string());

@@ -1,4 +1,4 @@
-// Colours about what slides, and what holds the minimum: in data, and in the window.
+// Colours about sliding, and about what holds the minimum: as data, and in the window.
 #include <array>
 #include <cmath>
 #include <set>
@@ -57,7 +57,7 @@ TEST(SlidingColours, FreedomIsOfTheLeastFreeVertex) {
   std::size_t none_moves = 0;
   for (Index e = 0; e < fixed.frame->element_count(); ++e) {
     bool any = false;
-    for (const Index v : fixed.frame->input->mesh.elements.corners(e)) any = any || v == 13;  // the middle, which is free
+    for (const Index v : fixed.frame->input->mesh.elements.corners(e)) any = any || v == 13;  // vertex 13 in the middle is free
     none_moves += any ? 0 : 1;
   }
   EXPECT_EQ(fixed.colours(ColourBy::Freedom).categories[0].count, none_moves);

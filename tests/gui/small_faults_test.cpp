@@ -17,7 +17,7 @@ namespace {
 class SmallFaults : public HeadlessTest {
  protected:
   [[nodiscard]] ui::Items::Box box(const std::string& item) { return window_->app().items().find(item); }
-  /// The mouse goes there, and the window is drawn for as long as it asks to be.
+  /// Moves the mouse to an item, and draws the window for as long as it asks to be drawn.
   void rest_on(const std::string& item) {
     const auto at = box(item);
     state().requests.input.push_back({ui::SimulatedInput::Kind::Move, (at[0] + at[2]) / 2, (at[1] + at[3]) / 2, 0, {}, {}});
@@ -29,7 +29,7 @@ class SmallFaults : public HeadlessTest {
       if (window->Active && (window->Flags & ImGuiWindowFlags_Tooltip) != 0) return window;
     return nullptr;
   }
-  /// Its window is as large as what is in it.
+  /// Checks that a window is as large as its contents.
   static void expect_fits(const ImGuiWindow& window) {
     EXPECT_FALSE(window.Hidden);
     const ImVec2 end = window.DC.CursorMaxPos;
@@ -94,7 +94,7 @@ TEST_F(SmallFaults, NoFrameStaysRoundThePlot) {
   const auto plot = box("plot");
   good(fmt::format("right-click {} {}", plot[2] - 20, plot[1] + 5));
   good("key Down");
-  good("key Escape");  // its menu, in which the keyboard was
+  good("key Escape");  // closes its menu, which had the keyboard
   good("key Escape");
   good("move 5 5");
   EXPECT_TRUE(render::compare(before, window_->picture()).alike());
@@ -109,7 +109,7 @@ TEST_F(SmallFaults, WhyAndTheNumberStandApart) {
   good("tab worst");
   const auto why = box("why:0"), row = box("worst:0");
   EXPECT_LT(row[2], why[0]);
-  const float right = 1280.0F - 12.0F - 11.0F - 4.0F;  // of the numbers: the panel's padding, its bar
+  const float right = 1280.0F - 12.0F - 11.0F - 4.0F;  // right end of the numbers: without the panel's padding and its bar
   EXPECT_GE(right - why[2], ImGui::CalcTextSize("0.003610").x + 6.0F) << "room for the longest number, and a gap";
 }
 

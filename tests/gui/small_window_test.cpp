@@ -50,7 +50,7 @@ TEST_F(SmallWindow, FactsDoNotCoverWhatTheyAreAbout) {
       const Vec2<double> at = *pane.view->place(ui::ScenePoints::of(*pane.frame()->input).at(pane.frame()->positions[vertex]));
       return pane.rect.x + pane.rect.w / 2 + static_cast<float>(at.x) > box("tab:mesh")[0];
     };
-    // What lies farthest to the right, and what a command brings to the middle.
+    // The vertex farthest to the right, and a command that brings it to the middle.
     const auto& positions = session()->frame->positions;
     const auto last = static_cast<Index>(std::ranges::max_element(positions, {}, &Vec3::x) - positions.begin());
     good(fmt::format("pick vertex {}", last));

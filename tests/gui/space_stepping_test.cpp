@@ -1,4 +1,4 @@
-// Arrows, ghosts, dots and labels over volume meshes: where they begin and end, and that the window draws them of what is seen.
+// Arrows, ghosts, dots and labels over volume meshes: their ends, and that the window draws them for visible vertices.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,7 +16,7 @@
 namespace dmoscope::ui {
 namespace {
 
-/// 1000 pixels for 10 units, looked at from +x: y goes to the right and z up.
+/// A view of 1000 pixels for 10 units from +x: y points to the right and z up.
 MarkView seen_from_x() {
   render::OrbitCamera camera;
   camera.look_from(render::ViewPreset::PlusX);
@@ -32,10 +32,10 @@ const std::vector<Vec3> kFrom{{0, 0, 0}, {0, 2, 0}, {0, -3, 0}, {0, 0, 3}, {0, 0
 TEST(SpaceArrows, LeadFromWhereVerticesWereLongestFirstWhereThereIsRoom) {
   std::vector<Vec3> to = kFrom;
   to[0].y += 0.5;   // 50 pixels
-  to[1].x += 2.0;   // towards the eye: nothing of it is seen
+  to[1].x += 2.0;   // towards the eye, so that nothing of it can be seen
   to[2].z += 0.03;  // 3 pixels
   to[3].z += 0.2;   // 20 pixels
-  to[4].z += 0.1;   // 10 pixels, from where another one begins
+  to[4].z += 0.1;   // 10 pixels, from the begin of another one
   const std::vector<Index> all{0, 1, 2, 3, 4};
   render::Marks marks;
   const ArrowsAdded added = add_arrows(marks, seen_from_x(), Displacements({}, kFrom, to, all), 1.0, {{1, 2, 3, 255}, {4, 5, 6, 255}});
@@ -46,11 +46,11 @@ TEST(SpaceArrows, LeadFromWhereVerticesWereLongestFirstWhereThereIsRoom) {
   EXPECT_EQ(marks.lines[0].to, to[0]);
   EXPECT_EQ(marks.lines[3].from, kFrom[3]);
   EXPECT_EQ(marks.lines[6].colour, (render::Rgba{1, 2, 3, 255}));
-  // The head: 7 pixels back from the tip, and as much apart.
+  // The head reaches 7 pixels back from the tip, and is equally wide.
   EXPECT_NEAR(marks.lines[1].to.y, 0.5 - 0.07, 1e-12);
   EXPECT_NEAR(std::abs(marks.lines[1].to.z), 0.035, 1e-12);
   EXPECT_NEAR(marks.lines[1].to.z, -marks.lines[2].to.z, 1e-12);
-  // Arrows for some vertices alone.
+  // Arrows are drawn for some vertices only.
   marks = {};
   EXPECT_EQ(add_arrows(marks, seen_from_x(), Displacements({}, kFrom, to, std::vector<Index>{3}), 2.0, {}).drawn, 1U);
   EXPECT_NEAR(marks.lines[0].to.z, 3.4, 1e-12);
@@ -59,7 +59,7 @@ TEST(SpaceArrows, LeadFromWhereVerticesWereLongestFirstWhereThereIsRoom) {
 TEST(SpaceArrows, AreFortyPixelsLongWhereNothingElseIsWanted) {
   std::vector<Vec3> to = kFrom;
   to[0].y += 0.5;
-  to[5].y += 100.0;  // not among those that are seen
+  to[5].y += 100.0;  // not among the visible ones
   MarkView view = seen_from_x();
   view.unhidden = {{0, 3}, {}};
   EXPECT_NEAR(arrow_factor(view, Displacements({}, kFrom, to), 0.0) * 0.5 * 100.0, 40.0, 1e-9);
@@ -167,7 +167,7 @@ TEST_F(VolumeStepping, AFittedMeshStaysFittedInPerspective) {
   good("fit");
   const double height = state().orbit.height;
   good("perspective on");
-  EXPECT_NE(state().orbit.height, height);  // what is near looks larger: it stands farther away
+  EXPECT_NE(state().orbit.height, height);  // perspective makes near parts larger, so the eye is farther away
   good("perspective off");
   EXPECT_NEAR(state().orbit.height, height, 1e-12);
   good("zoom 2");

@@ -1,5 +1,5 @@
 #pragma once
-// A mesh file to open in a window, small enough to know every vertex of.
+// A mesh file to open in a window, small enough to know every vertex.
 
 #include <string>
 #include <string_view>
@@ -8,7 +8,7 @@
 
 namespace dmoscope::app {
 
-/// OFF: n x n unit squares of two triangles each, vertex x + (n + 1) y at (x, y); but `moved` stands at `place` ("x y z").
+/// Text of an OFF file: n x n unit squares of two triangles each, vertex x + (n + 1) y at (x, y); but `moved` stands at `place` ("x y z").
 [[nodiscard]] inline std::string squares_with(int n, int moved, std::string_view place) {
   const int row = n + 1;
   std::string text = fmt::format("OFF\n{} {} 0\n", row * row, 2 * n * n);

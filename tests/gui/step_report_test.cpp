@@ -1,4 +1,4 @@
-// What a step did, in words and for a moment in the picture.
+// The effect of a step, in words and for a moment in the picture.
 #include "ui/analysis/step_report.h"
 
 #include <cmath>
@@ -90,7 +90,7 @@ TEST_F(StepWindow, TheStatusBarSaysItUntilSomethingElseIsSaid) {
 }
 
 TEST_F(StepWindow, TheStatusBarShowsItWhole) {
-  open(1920, 1080);  // with room for it all
+  open(1920, 1080);  // has room for everything
   good("generate annulus 400");
   for (const char* step : {"step vertex", "step class", "key N"}) {
     good(step);
@@ -99,7 +99,7 @@ TEST_F(StepWindow, TheStatusBarShowsItWhole) {
     const bool iteration = session()->runs[0].moment.visits == 0;
     EXPECT_EQ(window_->app().items().boxes().contains("message"), !iteration) << "of iterations the facts have it";
     if (iteration) continue;
-    const auto said = window_->app().items().find("message");  // over the mesh, since the status is as narrow as the column
+    const auto said = window_->app().items().find("message");  // over the mesh, because the status is as narrow as the column
     EXPECT_NEAR(said[2] - said[0], ImGui::CalcTextSize(news().sentence.c_str()).x, 1.0F) << step;
   }
 }

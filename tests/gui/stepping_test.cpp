@@ -1,4 +1,4 @@
-// What the view shows of stepping, and the selection: on plain positions, and in the very window.
+// Display of stepping, and the selection: on plain positions, and in the real window.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -94,7 +94,7 @@ TEST(Arrows, LeadFromWhereVerticesWereLongestFirst) {
 
   render::Marks marks;
   const std::size_t crowded = add_arrows(marks, unit_view(), moved, 1.0, {}).left_out;
-  // Pixels are thousandths: those of four and more are drawn, each with two lines for its head, all twice.
+  // Pixels are thousandths: arrows of four and more are drawn, each with two lines for its head, all twice.
   const auto long_ones = static_cast<std::size_t>(std::count_if(lengths.begin(), lengths.end(), [](double l) { return l >= 0.004; }));
   EXPECT_GT(long_ones, 50U);
   EXPECT_EQ(marks.lines.size(), 6 * (long_ones - crowded));
@@ -155,7 +155,7 @@ TEST(Dots, AreThereForEveryVertexInViewOrForAnEvenSample) {
   EXPECT_LE(marks.dots.size(), kMostMarks);
   EXPECT_GE(marks.dots.size(), kMostMarks / 2);
   marks = {};
-  view = unit_view({{0.501, 0.501}, 1e-5});  // a hundredth of it: 2 x 2 vertices
+  view = unit_view({{0.501, 0.501}, 1e-5});  // a hundredth of the view: 2 x 2 vertices
   add_dots(marks, view, *input, input->mesh.positions, all, {}, 8.0);
   ASSERT_EQ(marks.dots.size(), 4U);
   for (const auto& dot : marks.dots) EXPECT_EQ(dot.diameter, 8.0F) << "there is room";
@@ -174,7 +174,7 @@ class Stepping : public app::HeadlessTest {
     state().error_text.clear();
   }
   [[nodiscard]] std::shared_ptr<const Frame> frame() { return window_->app().engine().view()->frame; }
-  /// Where a vertex is in the window.
+  /// Pixel of a vertex in the window.
   [[nodiscard]] Vec2<double> pixel_of(Index vertex) {
     const auto box = window_->app().items().find("viewport");
     const Vec2<double> p = state().camera.to_pixel({frame()->positions[vertex].x, frame()->positions[vertex].y}, state().viewport);
@@ -196,7 +196,7 @@ TEST_F(Stepping, TheBrushSelectsWhatLiesUnderItAndTheMeshStays) {
     const Vec2<double> p = pixel_of(v);
     const double along = std::clamp(p.x, middle.x - 50, middle.x + 50);
     const double away = std::hypot(p.x - along, p.y - middle.y);
-    if (away <= 29.0) expected.push_back(v);  // dabs half a radius apart
+    if (away <= 29.0) expected.push_back(v);  // the brush dabs every half radius
     if (away > 31.0) {
       EXPECT_FALSE(state().selection.contains(v)) << v;
     }

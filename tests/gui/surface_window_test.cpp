@@ -1,4 +1,4 @@
-// A curved surface in the window: seen in space, stepped, picked, with its feature edges.
+// A curved surface in the window: shown in space, stepped, picked, with its feature edges.
 #include <fstream>
 #include <string>
 
@@ -84,10 +84,10 @@ TEST_F(SurfaceWindow, TheUpAxisIsGuessedAndCanBeSwitched) {
   EXPECT_EQ(state().orbit.up.y, 1.0);
 }
 
-/// What concerns sliding can be told to every run of a surface, and its name says it.
+/// Every run of a surface takes parameters of sliding, and its name tells them.
 TEST_F(SurfaceWindow, SaysWhatItsRunsReadOfSliding) {
   const auto has = [&](const char* item) { return window_->app().items().boxes().contains(item); };
-  good("size 1280 1500");  // so that nothing is scrolled away
+  good("size 1280 1500");  // nothing is scrolled away
   good("settings on");
   (void)picture();
   for (const char* item : {"feature-angle", "corner-angle", "max-deviation"}) EXPECT_TRUE(has(item)) << item;
@@ -143,13 +143,13 @@ TEST_F(SurfaceWindow, SlidesOnTheSurfaceOfAnotherMesh) {
   EXPECT_EQ(session()->frame->input->surface, nullptr);
 }
 
-/// A cube's twelve edges of n segments and its eight corners, however many of them are seen.
+/// Marks of a cube: twelve edges of n segments and eight corners, however many of them are visible.
 TEST(FeatureMarks, OfACube) {
   constexpr Index n = 5;
   const auto mesh = dmoscope::testing::input(cube(n));
   const Domain domain(*mesh, {});
   EXPECT_EQ(domain.feature_edges().size(), 12U * n);
-  // Seen from the front, as if it were of glass, and with a front that hides all.
+  // The view is from the front, as if the cube were of glass, and with a front that hides everything.
   render::OrbitCamera camera;
   render::Bounds3 box;
   for (const Vec3& position : mesh->mesh.positions) box.include(position);

@@ -1,4 +1,4 @@
-// Targets over picked elements: the drawn ellipses against the stretch and direction that were asked for.
+// Targets over picked elements: the drawn ellipses against the wanted stretch and direction.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -21,7 +21,7 @@ Frame frame_of(Mesh mesh) {
   return frame;
 }
 
-/// Of the outline that is drawn widest but for its casing: lengths from the centre, and the way to the farthest point.
+/// The widest outline except for its casing: lengths from the centre, and the direction of the farthest point.
 struct Outline {
   double least = HUGE_VAL, most = 0.0;
   Vec3 farthest{};
@@ -46,7 +46,7 @@ TEST(TargetMarks, AnEllipseHasTheTargetsStretchAndDirection) {
   const Outline ellipse(marks.lines, centre);
   EXPECT_NEAR(ellipse.most / ellipse.least, 3.0, 0.02);
   const double angle = std::atan2(ellipse.farthest.y, ellipse.farthest.x) * 180.0 / std::numbers::pi;
-  EXPECT_NEAR(std::fmod(angle + 180.0, 180.0), 30.0, 4.0);  // a corner of 48
+  EXPECT_NEAR(std::fmod(angle + 180.0, 180.0), 30.0, 4.0);  // one of 48 corners
 }
 
 double volume_of(const Frame& frame, Index element) {
@@ -69,8 +69,8 @@ TEST(TargetMarks, AnEllipsoidToo) {
   EXPECT_NEAR(ellipsoid.most / ellipsoid.least, 4.0, 0.05);
   const Vec3 along = (1.0 / std::sqrt(14.0)) * Vec3{3.0, 1.0, 2.0};
   EXPECT_NEAR(std::abs(dot(ellipsoid.farthest, along)) / ellipsoid.most, 1.0, 1e-6);
-  // As large as the element: half axes of 4 a, a and a, whose product is that of the element's own ellipsoid, 0.28^3 times its volume
-  // against the ideal one's.
+  // The ellipsoid is as large as the element: half axes of 4 a, a and a, whose product is that of the element's own ellipsoid, 0.28^3 times
+  // its volume against the ideal one's.
   const double expected = volume_of(frame, element) / (std::numbers::sqrt2 / 12.0);
   EXPECT_NEAR(ellipsoid.most * ellipsoid.least * ellipsoid.least / (0.28 * 0.28 * 0.28), expected, 0.03 * expected);
 }

@@ -114,7 +114,7 @@ TEST_F(Timeline, PlaysTheHistoryToItsEnd) {
   const auto& lines = window_->app().state().commands.lines();
   for (const char* line : {"seek 3", "seek 4", "seek 5", "seek 6"})
     EXPECT_EQ(std::ranges::count(lines, line, &ui::LogLine::text), 1) << line;
-  good("play");  // from its end: again from the start
+  good("play");  // starts again, because it was at its end
   EXPECT_EQ(std::ranges::count(lines, "seek 0", &ui::LogLine::text), 1);
   EXPECT_EQ(std::ranges::count(lines, "seek 1", &ui::LogLine::text), 1);
   EXPECT_EQ(shown().moment.iteration, 6U);
@@ -145,7 +145,7 @@ TEST(Playback, IsDueEveryIntervalAndNeverCatchesUp) {
   EXPECT_EQ(ui::next_command(play, session, 1.0), "step class");
   EXPECT_FALSE(ui::next_command(play, session, 1.24).has_value());
   EXPECT_EQ(ui::next_command(play, session, 9.0), "step class");
-  EXPECT_EQ(play.due, 9.0);  // not 32 of them at once
+  EXPECT_EQ(play.due, 9.0);  // skipped moments are not made up for
 }
 
 TEST_F(Timeline, ASequenceIsAPictureOfEveryIterationAskedFor) {
@@ -169,11 +169,11 @@ TEST_F(Timeline, ASequenceIsAPictureOfEveryIterationAskedFor) {
     const render::Image a = render::read_png(folder / name), b = render::read_png(single.string() + ".png");
     EXPECT_TRUE(render::compare(a, b).alike()) << name;
   }
-  EXPECT_TRUE(window_->run("sequence \"" + folder.string() + "\"").has_value());  // frames are there
+  EXPECT_TRUE(window_->run("sequence \"" + folder.string() + "\"").has_value());  // frames exist already
   good("dialog none");
   good("sequence \"" + folder.string() + "\" --to 1 --overwrite --window");
   EXPECT_TRUE(fs::exists(folder / "frame-0001.png"));
-  EXPECT_FALSE(fs::exists(folder / "frame-0002.png"));  // of the older sequence
+  EXPECT_FALSE(fs::exists(folder / "frame-0002.png"));  // removed with the older sequence
   EXPECT_EQ(render::read_png(folder / "frame-0000.png").width, 1280);
   const std::string& said = window_->app().state().log.back().text;
   EXPECT_NE(said.find("ffmpeg -framerate 10 "), std::string::npos) << said;
@@ -182,7 +182,7 @@ TEST_F(Timeline, ASequenceIsAPictureOfEveryIterationAskedFor) {
 TEST_F(Timeline, ASequenceCanBeCancelledAndRefusesNonsense) {
   const fs::path folder = fs::path(testing::TempDir()) / "dmoscope pictures cancelled";
   fs::remove_all(folder);
-  EXPECT_TRUE(window_->run("sequence \"" + folder.string() + "\"").has_value());  // no mesh
+  EXPECT_TRUE(window_->run("sequence \"" + folder.string() + "\"").has_value());  // there is no mesh
   good("dialog none");
   good("generate annulus");
   good("step iteration 30");

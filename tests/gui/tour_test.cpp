@@ -1,4 +1,4 @@
-// The tour: its steps wait for the person, and point at what they are about.
+// The tour: its steps wait for the person, and point at the right controls.
 #include <string>
 #include <vector>
 
@@ -17,7 +17,7 @@ class TourTest : public HeadlessTest {
     return tour.on ? std::string(tour.now().title) : "off";
   }
   [[nodiscard]] bool on_screen(std::string_view item) { return window_->app().items().boxes().contains(item); }
-  /// One of the step's controls is there to be pointed at.
+  /// Whether one of the step's controls is on screen.
   [[nodiscard]] bool points_somewhere() {
     for (const std::string_view item : state().tour.now().items)
       if (!item.empty() && on_screen(item)) return true;
@@ -46,7 +46,7 @@ TEST(TourState, EachStepWaitsUntilItIsDone) {
   now.busy = false;
   tour.follow(now);
   EXPECT_EQ(tour.step, 2U);
-  now.iteration = 0;  // taken back
+  now.iteration = 0;  // undone
   now.inspecting = true;
   tour.follow(now);
   EXPECT_EQ(tour.step, 3U);

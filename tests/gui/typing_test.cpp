@@ -1,4 +1,4 @@
-// Typed faster than frames are drawn: nothing is lost, nothing acts twice, nothing that was typed into a field is a command.
+// Typing faster than frames are drawn: nothing is lost, nothing acts twice, and nothing typed into a field becomes a command.
 #include <string>
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 using ui::Dialog;
 using ui::KeyChord;
 
-/// As a keyboard sends it: press, character, release.
+/// Sends a letter as a keyboard does: press, character, release.
 void strike(KeyQueue& keys, char c) {
   const int code = c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c;
   keys.press({code});
@@ -71,7 +71,7 @@ TEST_F(Typing, WhatIsTypedBehindEnterInADialogIsNoCommand) {
   ASSERT_EQ(state().dialog, Dialog::Find);
   strike(keys(), '7');
   strike(keys(), KeyChord{ui::key::kEnter});
-  for (const char c : std::string("rsnw")) strike(keys(), c);  // all before the dialog was seen to close
+  for (const char c : std::string("rsnw")) strike(keys(), c);  // all before the dialog was drawn as closed
   strike(keys(), KeyChord{ui::key::kLeft});
   window_->settle();
   EXPECT_EQ(state().dialog, Dialog::None);
@@ -79,7 +79,7 @@ TEST_F(Typing, WhatIsTypedBehindEnterInADialogIsNoCommand) {
   EXPECT_EQ(iteration(), 3U);
   EXPECT_FALSE(state().brush.on);
   EXPECT_TRUE(state().wireframe);
-  strike(keys(), 'w');  // and now it is one again
+  strike(keys(), 'w');  // now it is a command again
   window_->settle();
   EXPECT_FALSE(state().wireframe);
 }
@@ -89,7 +89,7 @@ TEST_F(Typing, ModifiersAreThoseOfThePress) {
   const auto with_ctrl = [&](int letter) {
     keys().press({ui::key::kLeftControl, true});
     keys().press({letter, true});
-    keys().release(ui::key::kLeftControl);  // before the letter, and all within one frame
+    keys().release(ui::key::kLeftControl);  // released before the letter, and all within one frame
     keys().release(letter);
     window_->settle();
   };
@@ -102,7 +102,7 @@ TEST_F(Typing, ModifiersAreThoseOfThePress) {
   EXPECT_EQ(iteration(), 0U);
   with_ctrl('Y');
   EXPECT_EQ(iteration(), 2U);
-  strike(keys(), 'n');  // without Ctrl, though this was held in the frame before
+  strike(keys(), 'n');  // without Ctrl, though it was held in the frame before
   window_->settle();
   EXPECT_EQ(iteration(), 3U);
 }
@@ -113,12 +113,12 @@ TEST_F(Typing, NoKeyIsLostAndNoneActsTwice) {
   window_->settle();
   EXPECT_EQ(iteration(), 5U);
   keys().press({'N'});
-  frames(200);  // held for seconds by a window that was never told of it again
+  frames(200);  // still held for a window that was not told of its release
   keys().release('N');
   window_->settle();
   EXPECT_EQ(iteration(), 6U);
   keys().press({'W'});
-  for (int k = 0; k < 4; ++k) keys().press({'W'}, true);  // the desktop repeats it
+  for (int k = 0; k < 4; ++k) keys().press({'W'}, true);  // repeated by the desktop
   keys().release('W');
   window_->settle();
   EXPECT_FALSE(state().wireframe);
@@ -163,7 +163,7 @@ TEST_F(Typing, TabMovesTheFocusWithARingAndEscapeEndsIt) {
   EXPECT_TRUE(ImGui::GetIO().NavVisible);
   const render::Image first = window_->picture();
   good("key Tab");
-  EXPECT_NE(first.rgba, window_->picture().rgba);  // the ring is elsewhere
+  EXPECT_NE(first.rgba, window_->picture().rgba);  // the ring has moved
   good("key Shift+Tab");
   EXPECT_EQ(first.rgba, window_->picture().rgba);
   EXPECT_EQ(state().commands.lines().size(), before);
@@ -171,7 +171,7 @@ TEST_F(Typing, TabMovesTheFocusWithARingAndEscapeEndsIt) {
   EXPECT_FALSE(ImGui::GetIO().NavVisible);
   good("key N");
   EXPECT_EQ(iteration(), 1U);
-  EXPECT_FALSE(ImGui::GetIO().NavVisible);  // a command brings none
+  EXPECT_FALSE(ImGui::GetIO().NavVisible);  // a command brings no ring
   good("key Alt+A");
   EXPECT_FALSE(ImGui::GetIO().NavVisible);
 }
@@ -223,7 +223,7 @@ TEST_F(Typing, TabGoesThroughADialogAndStaysInIt) {
   good("type abc");
   good("key Tab");
   good("key Shift+Tab");
-  good("type xyz");  // all of it was selected
+  good("type xyz");  // the whole text was selected
   good("key Ctrl+A");
   good("key Ctrl+C");
   EXPECT_EQ(window_->clipboard(), "xyz");

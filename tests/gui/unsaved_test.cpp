@@ -1,4 +1,4 @@
-// What is in no file is marked, and nobody gives it up by mistake.
+// Unsaved work is marked, and nobody gives it up by mistake.
 #include "ui/state/unsaved.h"
 
 #include <filesystem>
@@ -84,7 +84,7 @@ TEST_F(Unsaved, ScriptsAreNotAsked) {
   EXPECT_EQ(state().dialog, ui::Dialog::None);
   good("run 1");
   good("ask-unsaved on");
-  good("quit");  // the command, not the key
+  good("quit");  // by the command, not the key
   EXPECT_TRUE(window_->quit());
 }
 

@@ -14,7 +14,7 @@
 namespace dmoscope::ui {
 namespace {
 
-/// The verbs on plain state, with a session of nine vertices and what was posted to it.
+/// The commands on plain state, with a session of nine vertices and the lines posted to it.
 class ViewCommands : public testing::Test {
  protected:
   ViewCommands() {
@@ -62,8 +62,8 @@ TEST_F(ViewCommands, OfAnUnknownCommandTheClosestIsNamedWhoseverItIs) {
     }
     return "";
   };
-  EXPECT_EQ(refusal("wirefame on"), "unknown command 'wirefame'; did you mean wireframe?");  // of the view
-  EXPECT_EQ(refusal("setp class"), "unknown command 'setp'; did you mean step?");            // of the session
+  EXPECT_EQ(refusal("wirefame on"), "unknown command 'wirefame'; did you mean wireframe?");  // a command of the view
+  EXPECT_EQ(refusal("setp class"), "unknown command 'setp'; did you mean step?");            // a command of the session
   EXPECT_EQ(refusal("frobnicate"), "unknown command 'frobnicate'");
   EXPECT_EQ(refusal("step class"), "");
   EXPECT_EQ(refusal("wireframe on"), "");
@@ -220,7 +220,7 @@ TEST(Settings, TheScaleIsOverTheMonitorsAndFollowsTheWindow) {
   move_to_monitor(other, 1.5);
   ASSERT_TRUE(apply_settings(settings_text(state), other));
   EXPECT_EQ(other.scale, 1.875);
-  move_to_monitor(other, 0.0);  // no monitor says so
+  move_to_monitor(other, 0.0);  // no monitor gives a scale
   EXPECT_EQ(other.monitor_scale, 1.5);
 }
 

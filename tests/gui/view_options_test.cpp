@@ -215,7 +215,7 @@ TEST(ViewOptions, TickWhatIsSo) {
   state.range_mode = RangeMode::Percentile;
   EXPECT_TRUE(ticked("range-percentile"));
   state.inside.clip.on = state.inside.clip.flip = true;
-  EXPECT_FALSE(ticked("inside-clip"));  // of a planar mesh there is no inside
+  EXPECT_FALSE(ticked("inside-clip"));  // a planar mesh has no inside
   state.in_space = true;
   EXPECT_TRUE(ticked("inside-clip"));
   EXPECT_TRUE(ticked("inside-flip"));

@@ -1,4 +1,4 @@
-// Commands of the view come to the saved views, settings and scripts of an earlier program, byte for byte.
+// Commands of the view give the saved views, settings and scripts of an earlier version, byte for byte.
 #include <algorithm>
 #include <array>
 #include <fstream>
@@ -19,13 +19,13 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
-/// A line a value, as JSON writes it: "view/panels/left true".
+/// Lists values one a line, as JSON writes them: "view/panels/left true".
 void list_values(const nlohmann::json& value, const std::string& name, Lines& lines) {
   if (!value.is_object()) return lines.push_back(name + ' ' + value.dump());
   for (const auto& [key, member] : value.items()) list_values(member, name + '/' + key, lines);
 }
 
-/// All that is written of a view; JSON itself is what the library makes of these values, and nothing else.
+/// Everything that is written of a view; the library writes these values as JSON.
 Lines written(const ViewState& state) {
   Lines lines;
   const auto view = nlohmann::json::parse(view_json(state)), settings = nlohmann::json::parse(settings_text(state));
@@ -34,7 +34,7 @@ Lines written(const ViewState& state) {
   list_values(view, "view", lines);
   list_values(settings, "settings", lines);
   for (const std::string& line : view_lines(state, true)) lines.push_back("script " + line);
-  std::ranges::sort(lines);  // of a script's lines each is about something else
+  std::ranges::sort(lines);  // order does not matter: each line of a script is about something else
   return lines;
 }
 
@@ -48,7 +48,7 @@ class ViewsOfBefore : public testing::Test {
       sessions_[mesh] = engine.view();
     }
   }
-  /// What the commands, parted by semicolons, make of a new view.
+  /// State of a new view after commands separated by semicolons.
   [[nodiscard]] ViewState state_after(const std::string& mesh, const std::string& commands) const {
     ViewState state;
     CommandHost host;
@@ -66,7 +66,7 @@ class ViewsOfBefore : public testing::Test {
   std::map<std::string, std::shared_ptr<const SessionView>> sessions_;
 };
 
-/// What the second of two sorted lists has of its own, and the names that it alone has not.
+/// Lines that only the second of two sorted lists has, and "no NAME" for names that only the first has.
 Lines difference(const Lines& first, const Lines& second) {
   Lines lines;
   std::ranges::set_difference(second, first, std::back_inserter(lines));
@@ -77,7 +77,7 @@ Lines difference(const Lines& first, const Lines& second) {
   return lines;
 }
 
-/// Panels stand elsewhere since, have other sizes at first, and there are tabs, folds and the up axis.
+/// Whether a line is about panels: they have other places and sizes since, and there are tabs, folds and the up axis.
 bool is_of_panels(const std::string& line) {
   constexpr std::array<std::string_view, 19> kNew{"panel-size", "_width",          "_height",       "/layout",       "dock ",
                                                   "_side",      "script settings", "/settings ",    "script tab",    "/tab ",
@@ -91,7 +91,7 @@ Lines without_panels(Lines lines) {
   return lines;
 }
 
-/// The left panel is setup now, the right one facts.
+/// Replaces old names: the left panel is now setup, the right one facts.
 Lines with_names_of_then(Lines lines) {
   for (std::string& line : lines)
     for (const auto& [name, before] :
@@ -104,7 +104,7 @@ Lines with_names_of_then(Lines lines) {
 TEST_F(ViewsOfBefore, AreWrittenAsTheyWere) {
   std::ifstream file(DMOSCOPE_SOURCE_DIR "/tests/data/views/views.txt");
   ASSERT_TRUE(file.is_open());
-  std::map<std::string, Lines> fresh;  // by mesh
+  std::map<std::string, Lines> fresh;  // values of a new view, by mesh
   std::size_t count = 0;
   for (std::string line; std::getline(file, line);) {
     if (!line.starts_with('[')) continue;

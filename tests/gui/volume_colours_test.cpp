@@ -1,4 +1,4 @@
-// What volume elements are coloured by, against sizes that are known; and their samples on the start page.
+// Colours of volume elements against known sizes; and their samples on the start page.
 #include <array>
 #include <cmath>
 #include <memory>
@@ -30,7 +30,7 @@ ElementColours volume_colours_of(ColourBy by, const std::shared_ptr<Frame>& fram
   return colour_elements({by, frame, nullptr, render::ColourMap::Viridis, false});
 }
 
-/// Two cubes side by side, of sides 1 and 1, the second twice as long.
+/// Two boxes side by side, a cube of side 1 and one twice as long.
 Mesh a_cube_and_a_bar() {
   Mesh mesh;
   for (const double x : {0.0, 1.0, 3.0})

@@ -1,4 +1,4 @@
-// A volume mesh in the window: seen, turned, clipped and picked by commands and by the mouse.
+// A volume mesh in the window: drawn, turned, clipped and picked by commands and by the mouse.
 #include <algorithm>
 #include <string>
 
@@ -70,7 +70,7 @@ TEST_F(VolumeWindow, ADragTurnsItAndAClickPicks) {
   good("drag 600 300 660 320");
   EXPECT_NE(state().orbit.right, before.right);
   EXPECT_EQ(state().orbit.centre, before.centre);
-  EXPECT_EQ(state().picked.kind, ui::Picked::Kind::None);  // a drag is no click
+  EXPECT_EQ(state().picked.kind, ui::Picked::Kind::None);  // a drag is not a click
   good("click 640 330");
   EXPECT_NE(state().picked.kind, ui::Picked::Kind::None);
 }
@@ -88,7 +88,7 @@ TEST_F(VolumeWindow, ARightDragPansAndOpensNoMenu) {
   EXPECT_GT(window_->app().items().boxes().size(), items) << "a click without a drag opens it";
 }
 
-/// Within its viewport, and as large as title and colour bar let it be.
+/// A fitted mesh lies within its viewport, as large as title and colour bar allow.
 TEST_F(VolumeWindow, AFitFillsViewportsOfEveryShape) {
   const double em = 15.0;
   for (const char* size : {"800 600", "1280 800", "700 1000"}) {

@@ -1,4 +1,4 @@
-// The very window, off screen: keys, clicks by name and by pixel, pictures.
+// The real window, off screen: keys, clicks by name and by pixel, pictures.
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -83,7 +83,7 @@ TEST_F(Window, TheShownMetricChangesWithoutLoadingAgain) {
   EXPECT_EQ(before->frame->positions, after->frame->positions);
 }
 
-/// Where a point of the mesh is on the window.
+/// Place of a point of the mesh in the window.
 std::pair<double, double> on_window(HeadlessWindow& window, Vec2<double> point) {
   const auto& state = window.app().state();
   const auto pixel = state.camera.to_pixel(point, state.viewport);

@@ -12,7 +12,7 @@
 namespace dmoscope::render {
 namespace {
 
-/// OKLab by its definition (Ottosson 2020), implemented apart by way of CIE XYZ (D65).
+/// OKLab by its definition (Ottosson 2020), computed independently by way of CIE XYZ (D65).
 struct Lab {
   double l, a, b;
 };
@@ -39,7 +39,7 @@ TEST(ColourMap, LightnessChangesEvenly) {
     // If the low end is bright, colours keep away from the darkest and the lightest, which backgrounds have.
     EXPECT_GT(low_is_bright(info.map) ? first - last : last - first, low_is_bright(info.map) ? 0.33 : 0.5) << info.name;
     for (int i = 0; i <= 100; ++i) {
-      // 8 bits a channel round lightness, most of all in dark colours.
+      // Rounding to 8 bits a channel changes lightness, most of all in dark colours.
       EXPECT_NEAR(oklab(sample(info.map, i / 100.0)).l, first + i / 100.0 * (last - first), 0.012) << info.name << " at " << i;
     }
   }

@@ -1,4 +1,4 @@
-// A mesh put in order for drawing.
+// A mesh in drawing order.
 #include "render/draw_order.h"
 
 #include <algorithm>
@@ -55,7 +55,7 @@ TEST(DrawOrder, BoxesOfBlocksAreThoseOfTheirElements) {
 
 TEST(DrawOrder, FindsTheSameBoundaryWhereItIsKnownAtWhichVerticesItRuns) {
   Mesh mesh = wavy_sheet(30, 20);
-  // An element apart from the others, and a third one on an edge.
+  // Adds an element apart from the others, and a third one on an edge.
   const Index loose = mesh.vertex_count();
   for (const Vec3 p : {Vec3{50, 0, 0}, Vec3{51, 0, 0}, Vec3{50, 1, 0}}) mesh.positions.push_back(p);
   const Index apart[] = {loose, loose + 1, loose + 2}, third[] = {40, 41, loose};

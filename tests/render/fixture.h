@@ -20,7 +20,7 @@ namespace dmoscope::render {
 inline constexpr double kWidth = 200, kHeight = 120;
 inline constexpr Vec2<double> kViewport{kWidth, kHeight};
 
-/// One pixel a unit, (0, 0) in the middle of the viewport.
+/// Camera with one pixel per unit, (0, 0) in the middle of the viewport.
 inline Camera2D unit_camera(Vec2<double> centre = {0, 0}) {
   Camera2D camera;
   camera.centre = centre;
@@ -65,7 +65,7 @@ inline Mesh wavy_sheet(int columns, int rows) {
   return mesh;
 }
 
-/// No lines at all: every pixel inside an element has the element's colour, and it alone.
+/// A style without lines: every pixel inside an element has exactly the element's colour.
 inline Style flat_style() {
   Style style = Style::dark();
   style.wireframe = false;

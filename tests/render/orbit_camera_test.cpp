@@ -195,7 +195,7 @@ TEST(OrbitCamera, APartOfThePictureIsThatPart) {
   const Projection whole = camera.projection(kSize, kBox), cut = camera.projection(kSize, kBox, part);
   const Vec3 point{0.3, -0.4, 0.2};
   const Vec2<double> a = *whole.place(point), b = *cut.place(point);
-  // In pixels of the whole from its upper left corner.
+  // Places are in pixels of the whole from its upper left corner.
   EXPECT_NEAR(150 + a.x, 110 + b.x, 1e-9);
   EXPECT_NEAR(100 - a.y, 70 - b.y, 1e-9);
   EXPECT_EQ(cut.viewport().x, 100.0);
@@ -220,7 +220,7 @@ TEST(OrbitCamera, AnotherAxisCanBeUp) {
     expect_straight(camera);
   }
   camera.look_from(ViewPreset::PlusZ);
-  expect_near(camera.right, {1, 0, 0});  // as it is drawn on paper
+  expect_near(camera.right, {1, 0, 0});  // the usual axes on paper
   camera.look_from(ViewPreset::PlusY);
   expect_near(camera.back(), {0, 1, 0});
   camera.look_from(ViewPreset::Isometric);
@@ -251,13 +251,13 @@ TEST(OrbitCamera, TurningFollowsTheMouseAndStaysUpright) {
   OrbitCamera camera;
   camera.look_from(ViewPreset::MinusY);
   camera.turn({10, 0}, kSize);
-  EXPECT_LT(camera.back().x, 0.0);  // the eye went left, so that the mesh turned right
+  EXPECT_LT(camera.back().x, 0.0);  // the eye went left, so the mesh turned right
   EXPECT_NEAR(camera.back().z, 0.0, 1e-12);
   camera.turn({0, 20}, kSize);
   EXPECT_GT(camera.back().z, 0.0);  // the eye went up
   EXPECT_NEAR(camera.right.z, 0.0, 1e-12);
   camera.turn({0, 1e5}, kSize);
-  EXPECT_NEAR(camera.back().z, 1.0, 1e-12);  // no farther than straight above
+  EXPECT_NEAR(camera.back().z, 1.0, 1e-12);  // not beyond straight above
   const Vec3 right = camera.right;
   camera.turn({0, -20}, kSize);
   expect_near(camera.right, right, 1e-9);  // comes back the same way

@@ -26,7 +26,7 @@ TEST_F(WithContext, ElementsHaveTheirColours) {
   EXPECT_TRUE(near_colour(image.at(112, 22), quadrilateral));  // (12, 38): its left upper corner
   EXPECT_TRUE(near_colour(image.at(188, 108), quadrilateral));
   const Rgb background = Style::dark().background;
-  EXPECT_TRUE(near_colour(image.at(105, 60), background, 0));  // between the two
+  EXPECT_TRUE(near_colour(image.at(105, 60), background, 0));  // between both elements
   EXPECT_TRUE(near_colour(image.at(24, 20), background, 0));   // above the triangle's left corner: y is up
   EXPECT_TRUE(near_colour(image.at(60, 15), triangle));        // its tip is above
 }
@@ -92,7 +92,7 @@ TEST_F(WithContext, WireframeFollowsEdgesWithoutDiagonals) {
   for (int x = 115; x < 185; ++x) {
     EXPECT_TRUE(near_colour(image.at(x, 109 - (x - 110) * 90 / 80), sample(ColourMap::Viridis, 0.8))) << "along the diagonal at " << x;
   }
-  // Zoomed out until elements are a few pixels big, the edges are gone.
+  // Edges are gone when elements are a few pixels big.
   Camera2D far = unit_camera();
   far.units_per_pixel = 50;
   const Image with = picture(far, style), without = picture(far, flat_style());
@@ -102,7 +102,7 @@ TEST_F(WithContext, WireframeFollowsEdgesWithoutDiagonals) {
 TEST_F(WithContext, ConcaveQuadrilateralIsFilledInsideOnly) {
   for (const int turn : {0, 1, 2, 3}) {
     Mesh mesh;
-    // An arrowhead, its reflex corner at (0, -10).
+    // The element is an arrowhead with its reflex corner at (0, -10).
     mesh.positions = {{-60, -50, 0}, {0, -10, 0}, {60, -50, 0}, {0, 50, 0}};
     Index c[4];
     for (int i = 0; i < 4; ++i) c[i] = static_cast<Index>((i + turn) % 4);

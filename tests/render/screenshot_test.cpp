@@ -50,7 +50,7 @@ TEST_F(Screenshot, TransparentOutsideOpaqueInside) {
 }
 
 TEST_F(Screenshot, TilesFitTogether) {
-  // Wider than one tile: the same part of the mesh in a picture of one tile and in one of several.
+  // The picture is wider than one tile: the same part of the mesh in one tile and in several.
   load(wavy_sheet(40, 20), std::vector<float>(wavy_sheet(40, 20).elements.size(), 0.5F));
   Shot whole;
   whole.width = 1500;
@@ -62,7 +62,7 @@ TEST_F(Screenshot, TilesFitTogether) {
   const Image single = render_image(*scene, camera, Style::dark(), {}, whole).image;
   const Difference difference = compare(tiled, single);
   EXPECT_TRUE(difference.alike(0.06)) << difference.off_share;
-  // No seam at the border of the tiles: columns there look like their neighbours.
+  // The border of the tiles has no seam: columns there look like their neighbours.
   const auto brightness = [&](int x) {
     double sum = 0;
     for (int y = 0; y < tiled.height; ++y) sum += tiled.at(x, y).g;

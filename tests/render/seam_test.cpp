@@ -53,7 +53,7 @@ TEST_F(WithContext, WhatLiesAcrossTheSeamDoesNotCoverTheRest) {
     plain.update(mesh.positions, quality, inverted);
     EXPECT_EQ(plain.pick(camera, kViewport, pixel(-15.0, 11.0)).element, 11U) << "taken plainly it covers all";
   }
-  // Its edges belong to the boundary, too: without them the rims are those of the others, which end at 150 degrees.
+  // Its edges belong to the boundary, too: without them the rims are those of the other elements, which end at 150 degrees.
   style.boundary = true;
   style.boundary_width = 3.0F;
   scene->update(mesh.positions, quality, {});

@@ -188,7 +188,7 @@ TEST_F(WithContext, SlicesMakeTheSamePicture) {
   std::vector<std::uint8_t> inverted(quality.size(), 0);
   for (std::size_t e = 11; e < inverted.size(); e += 97) inverted[e] = 1;
   load(mesh, quality, inverted);
-  for (const double margin : {4.0, -60.0}) {  // all of it, a part of it
+  for (const double margin : {4.0, -60.0}) {  // all of the mesh, then a part of it
     const Camera2D camera = Camera2D::fit(scene->bounds(), kViewport, margin);
     Style style = Style::dark();
     style.vertices = true;

@@ -79,7 +79,7 @@ TEST_F(WithContext, BigMeshesAreMadeReadyInTheBackground) {
   EXPECT_EQ(scene->element_count(), big->quality.size());
   const Camera2D camera = Camera2D::fit(scene->bounds(), kViewport);
   EXPECT_TRUE(near_colour(picture(camera, flat_style()).at(100, 60), sample(ColourMap::Viridis, 0.4)));
-  // Another mesh while one is being prepared: the last one asked for wins.
+  // Another mesh is shown while one is being prepared: the latest request wins.
   const auto other = frame_of(wavy_sheet(330, 330), 4, 0.6F);
   (void)scene->show(other, Loading::Background);
   const auto small = frame_of(triangle_and_quadrilateral(), 5, 0.6F);

@@ -1,4 +1,4 @@
-// Pictures of surfaces: both sides are visible; of a closed surface the outside alone.
+// Pictures of surfaces: both sides are visible; of a closed surface only the outside.
 
 #include <array>
 #include <cmath>
@@ -12,7 +12,7 @@ namespace {
 
 using SurfacePicture = VolumePicture;
 
-/// A square in the plane x = 1 that looks along +x, in triangles and at a quality of a half.
+/// A square in the plane x = 1 that looks along +x, in triangles of quality 0.5.
 Mesh square_towards_x() {
   Mesh square;
   square.positions = {{1, 0, 0}, {1, 1, 0}, {1, 1, 1}, {1, 0, 1}};

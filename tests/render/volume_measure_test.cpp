@@ -17,7 +17,7 @@ class VolumeSpeed : public WithContext {
   void measure(ThreadPool* pool);
 };
 
-/// Measures on the window's thread alone, or with others.
+/// Measures on the window's thread alone, or with other threads.
 void VolumeSpeed::measure(ThreadPool* pool) {
   std::printf("%u threads\n", pool == nullptr ? 1U : pool->size());
   const Mesh mesh = test::volume_grid(100, test::Fill::Hexahedra, 0.2);

@@ -41,7 +41,7 @@ class VolumePicture : public WithContext {
     const auto place = camera.projection(kViewport, space->bounds()).place(point);
     return image.at(static_cast<int>(0.5 * kWidth + place->x), static_cast<int>(0.5 * kHeight - place->y));
   }
-  /// Lit colour of a face that looks along +x, towards the eye: the lamp is over the left shoulder.
+  /// Lit colour of a face that looks along +x, towards the eye: the light comes from over the left shoulder.
   static Rgb by_lamp(Rgb colour) {
     const double brightness = 0.70 + 0.30 / std::sqrt(1.0 + 0.45 * 0.45 + 0.3 * 0.3);
     const auto channel = [&](std::uint8_t c) { return static_cast<std::uint8_t>(std::lround(brightness * c)); };

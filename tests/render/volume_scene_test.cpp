@@ -146,7 +146,7 @@ TEST_F(VolumePicture, PositionsAndQualitiesAreChangedInPlace) {
   show();
   const Image after = shot();
   EXPECT_TRUE(near_colour(at(after, {1, 0.25, 0.25}), of_quality(0.9)));
-  // Magenta, plain or in a dark stripe.
+  // Hatching is magenta, plain or in a dark stripe.
   const Rgba hatch = at(after, {1, 0.75, 0.25});
   EXPECT_TRUE(hatch.g < 10 && hatch.r > 70 && hatch.b == hatch.r);
   EXPECT_EQ(at(after, {1, 0.75, 0.75}), at(before, {1, 0.75, 0.75}));
@@ -336,7 +336,7 @@ TEST_F(VolumePicture, ALivePictureComesToRestAtTheFullOne) {
   ASSERT_TRUE(live.complete());
   plain.triad = true;
   EXPECT_TRUE(compare(live.picture(), shot(Style::dark())).alike(0.0005));
-  // A new camera: a coarse picture at once, and no full one during movement.
+  // After a new camera there is a coarse picture at once, and no full one during movement.
   std::get<OrbitCamera>(wish.camera).turn({5, 3}, kViewport);
   wish.refine = false;
   for (int turn = 0; turn < 5; ++turn) live.update(*space, wish);

@@ -102,7 +102,7 @@ bool DepthMap::shows(Vec3 point) const {
   if (!at || at->x < 0.0 || at->y < 0.0 || at->x >= width_ || at->y >= height_) return false;
   const int column = static_cast<int>(at->x), row = static_cast<int>(at->y);
   // On a face that is seen obliquely, some pixel beside the point's own is as far away as the point. Empty pixels prove nothing: they may
-  // be beside what hides the point.
+  // be beside the face that hides the point.
   bool all_empty = true;
   for (int y = std::max(0, row - 1); y <= std::min(height_ - 1, row + 1); ++y) {
     for (int x = std::max(0, column - 1); x <= std::min(width_ - 1, column + 1); ++x) {

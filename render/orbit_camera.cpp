@@ -12,7 +12,7 @@
 namespace dmoscope::render {
 namespace {
 
-constexpr double kSmallest = 1e-150, kLargest = 1e150;  // size of what a viewport shows, so that its square stays finite and above 0
+constexpr double kSmallest = 1e-150, kLargest = 1e150;  // limits of a viewport's size in units, so that its square stays finite and above 0
 constexpr double kDragTurn = std::numbers::pi;          // angle of a drag over the shorter side of the viewport
 constexpr double kNearest = 1e-4;                       // share of the farthest depth; everything nearer to the eye is not seen
 

@@ -70,7 +70,7 @@ struct OrbitCamera {
 
   Vec3 centre{0, 0, 0};              // point in the middle of the viewport, about which the camera turns
   double height = 1.0;               // units from the lower to the upper border of the viewport, at the centre; > 0
-  Vec3 right{1, 0, 0}, up{0, 1, 0};  // of length 1 and at right angles
+  Vec3 right{1, 0, 0}, up{0, 1, 0};  // orthonormal directions
   bool perspective = false;
   UpAxis up_axis = UpAxis::Z;
   friend bool operator==(const OrbitCamera&, const OrbitCamera&) = default;

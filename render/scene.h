@@ -35,7 +35,7 @@ struct Pick {
 struct Label {
   Vec2<double> point;  // middle of the text: pixels from the middle of the viewport, y up
   Index id = kNoIndex;
-  bool vertex = false;  // else an element
+  bool vertex = false;  // whether the id is a vertex's; else an element's
 };
 struct LabelWish {
   bool vertices = false, elements = false;

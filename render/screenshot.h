@@ -28,7 +28,7 @@ struct Legend {
   bool has_categories = false;       // swatches instead of the bar
   std::vector<LegendEntry> categories;
   std::vector<LegendEntry> beside;  // swatches of further categories
-  std::string selection;            // which elements count: "120 of 5,000 elements"; may be empty
+  std::string selection;            // choice of elements that count: "120 of 5,000 elements"; may be empty
 };
 
 struct Shot {

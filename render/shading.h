@@ -20,7 +20,7 @@ struct Shading {
   By by = By::Elements;
   std::vector<float> values;  // NaN: not defined. With a palette: index of a category, or -1 for none
   bool edges = false;         // boundary edges between two vertices of one category have its colour, too
-  std::vector<Rgb> palette;   // of categories, at most 256; empty: values go through Style::colours
+  std::vector<Rgb> palette;   // colours of categories, at most 256; empty: values go through Style::colours
 };
 
 /// Choice of the elements that count. The default: all.

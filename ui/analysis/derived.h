@@ -22,8 +22,8 @@ struct Derived {
   std::uint64_t input_serial = 0, frame_serial = 0;
   std::vector<Metric> metrics;          // defined for every element
   std::vector<std::string> mesh_facts;  // sentences of the report
-  std::string interfaces;               // sentence on what stays while the active run's interfaces are fixed; empty for nothing
-  std::string free_interfaces;          // sentence on what may move while they are free
+  std::string interfaces;               // sentence on vertices that stay while the active run's interfaces are fixed; empty for none
+  std::string free_interfaces;          // sentence on vertices that may move while they are free
   std::vector<GroupLine> groups;
   std::vector<bool> groups_fixed;      // for each group whether all its vertices are among groups_fixed_by
   std::vector<Index> groups_fixed_by;  // vertices that the active run's user has fixed

@@ -112,7 +112,7 @@ void by_inverted(Work& work) {
   work.out.note = "all others are grey";
 }
 
-/// Of one or several elements.
+/// Sum and number of the edge lengths of one or several elements.
 struct Edges {
   Plane plane{};  // measures how far two positions are apart
   double sum = 0.0;

@@ -43,15 +43,15 @@ struct ElementColours {
 struct ColourRequest {
   ColourBy by = ColourBy::Kind;
   std::shared_ptr<const Frame> frame;
-  std::shared_ptr<const Colouring> classes;            // for ColourBy::Class
+  std::shared_ptr<const Colouring> classes;            // colour classes, for ColourBy::Class
   render::ColourMap map = render::ColourMap::Viridis;  // map of ordered categories
   bool reversed = false;
-  std::shared_ptr<const SizeField> size{};     // for ColourBy::SizeOverTarget; null: the run has none
-  std::shared_ptr<const Frame> reference{};    // for ColourBy::Difference: the reference as a whole frame
-  bool comparable = true;                      // the reference has the same elements
-  std::shared_ptr<const Domain> domain{};      // for ColourBy::Deviation, Tilt and Freedom; null: nothing slides
-  SharedVector<std::uint8_t> fixed{};          // for ColourBy::Freedom; see Run::fixed
-  std::shared_ptr<const JointCluster> hold{};  // for ColourBy::Multiplier: the joint move that holds the minimum; null: not known
+  std::shared_ptr<const SizeField> size{};   // wanted sizes, for ColourBy::SizeOverTarget; null: the run has none
+  std::shared_ptr<const Frame> reference{};  // whole frame that differences are taken from, for ColourBy::Difference
+  bool comparable = true;                    // the reference has the same elements
+  std::shared_ptr<const Domain> domain{};    // domain of sliding vertices, for ColourBy::Deviation, Tilt and Freedom; null: nothing slides
+  SharedVector<std::uint8_t> fixed{};        // flags of fixed vertices, for ColourBy::Freedom; see Run::fixed
+  std::shared_ptr<const JointCluster> hold{};  // joint move that holds the minimum, for ColourBy::Multiplier; null: not known
 };
 
 /// Whether colours depend on positions: then they are worked out for every frame, but not for a light one.

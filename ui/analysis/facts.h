@@ -24,7 +24,7 @@ struct PickedFacts {
   // Facts of a vertex
   Vec3 at;
   double now = 0.0, before = 0.0;   // minimum over its star of the shown metric; +infinity without elements
-  std::vector<RankedElement> star;  // its elements in the star's order
+  std::vector<RankedElement> star;  // elements of the star, in its order
 
   // Facts of an element
   struct Row {

@@ -10,7 +10,7 @@ namespace dmoscope::ui {
 /// axes in their order, from the left and from below.
 struct GridSlice {
   int points = 0;           // points of the grid per axis
-  std::optional<int> axis;  // at right angles to the slice (0 x, 1 y, 2 z); none: the grid is flat
+  std::optional<int> axis;  // axis at right angles to the slice (0 x, 1 y, 2 z); none: the grid is flat
   int number = 0;           // number of the slice along it, from 0
 
   /// Index of the candidate at a place of the map.

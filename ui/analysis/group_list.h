@@ -20,7 +20,7 @@ inline constexpr std::size_t kMostGroupCategories = 8;
 struct GroupLine {
   GroupFacts facts;
   std::string word;                   // name that `fix` takes, "elements:steel"
-  std::optional<render::Rgb> colour;  // its colour in the mesh coloured by group; none: it is not coloured
+  std::optional<render::Rgb> colour;  // colour in the mesh coloured by group; none: it is not coloured
 };
 /// One line for each of the mesh's groups, in their order.
 [[nodiscard]] std::vector<GroupLine> group_lines(const Mesh& mesh);

@@ -28,7 +28,7 @@ struct FieldPicture {
     double value = 0.0;
     std::vector<ContourPiece> pieces;
   };
-  std::vector<Line> lines;             // at round values
+  std::vector<Line> lines;             // lines at round values
   std::vector<ContourPiece> outline;   // border of the region in which no element is inverted
   double lowest = 0.0, highest = 0.0;  // least and greatest quality in that region
 };
@@ -50,15 +50,15 @@ struct Inspection {
   std::string other_method;
   std::optional<VisitTrace> trace;         // for a planar mesh, and for a vertex that slides on a surface
   std::optional<SurfaceGrid> grid;         // places of the candidates of a vertex that slides on a surface
-  std::optional<VolumeTrace> solid;        // for a volume, in place of `trace`
+  std::optional<VolumeTrace> solid;        // trace for a volume, in place of `trace`
   Vec3 origin;                             // place of the vertex before its visit, a point of the scene. Everything below is relative to it
   std::vector<std::array<Vec3, 2>> edges;  // edges of the star, each once
   render::Bounds3 box;                     // box of the star
-  std::optional<LocalOptimum> optimum;     // for a planar mesh
+  std::optional<LocalOptimum> optimum;     // best place of the vertex; for a planar mesh
   std::optional<FieldPicture> field;
   StarSlice field_slice;         // plane of the field
   std::vector<Index> corners;    // corners of the star without the vertex, ascending
-  std::vector<Vec3> corners_at;  // their places
+  std::vector<Vec3> corners_at;  // their places before the visit
 
   /// Summary of the visit, for any mesh; null: there is no trace.
   [[nodiscard]] const VisitSummary* visit() const { return trace ? &*trace : solid ? static_cast<const VisitSummary*>(&*solid) : nullptr; }

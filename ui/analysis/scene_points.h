@@ -11,7 +11,7 @@ namespace dmoscope::ui {
 
 /// Maps positions of a mesh to points of its scene.
 struct ScenePoints {
-  std::optional<Plane> plane{};  // for a planar mesh; none: the points are the positions
+  std::optional<Plane> plane{};  // plane of a planar mesh; none: the points are the positions
 
   [[nodiscard]] static ScenePoints of(const InputMesh& input) {
     return {input.in_space() ? std::nullopt : std::optional(input.geometry.plane)};

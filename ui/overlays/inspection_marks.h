@@ -16,7 +16,7 @@ struct InspectionLook {
   render::ColourScale colours;   // colours of candidates, as of the elements
   render::Rgba ink, casing;      // colours of lines and of their casings
   render::Rgba accent;           // colour of the best place
-  double units_per_pixel = 1.0;  // for the camera that draws them
+  double units_per_pixel = 1.0;  // units per pixel of the camera that draws them
   double scale = 1.0;            // factor of lengths in pixels at scale 1
 };
 

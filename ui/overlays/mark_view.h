@@ -22,7 +22,7 @@ struct MarkView {
   std::optional<render::Unhidden> unhidden{};  // visible part in space; none: nothing hides anything
 
   [[nodiscard]] double units(double pixels_at_scale_one) const { return pixels_at_scale_one * scale * view.units_per_pixel(); }
-  [[nodiscard]] double pixels(Vec3 a, Vec3 b) const { return view.pixels(a, b) / scale; }  // at scale 1
+  [[nodiscard]] double pixels(Vec3 a, Vec3 b) const { return view.pixels(a, b) / scale; }  // pixels at scale 1
   /// Whether something else covers a vertex, or one of the two ends of an edge.
   [[nodiscard]] bool hides(Index vertex) const;
   [[nodiscard]] bool hides(const EdgeEnds& edge) const;

@@ -10,7 +10,7 @@
 namespace dmoscope::ui {
 namespace {
 
-constexpr float kLeastFacts = 14.0F, kFactsBesideSettings = 7.0F, kLeastSetup = 12.0F;  // in heights of the font
+constexpr float kLeastFacts = 14.0F, kFactsBesideSettings = 7.0F, kLeastSetup = 12.0F;  // heights in units of the font's height
 
 struct TabInfo {
   FactsTab tab;

@@ -94,7 +94,7 @@ class LevelMap {
       const double quality = level_.quality[static_cast<std::size_t>(slice_.index(place[0], place[1]))];
       const auto [a, b] = box(place);
       list_.AddRectFilled(a, b, is_valid(quality) ? colour(colours.colour(quality)) : colour(context_.palette.raised));
-      // Inverted candidates are the fainter, the less inverted they are, which is what untangling goes by.
+      // Inverted candidates are drawn the fainter, the less inverted they are: untangling goes by that.
       if (!is_valid(quality))
         list_.AddRectFilled(a, b, colour(kInvalidCandidate, 0.4F - 0.4F * static_cast<float>(part_of(invalid, quality))));
       if (!is_valid(quality)) cross(a, b);

@@ -89,7 +89,7 @@ struct SplitterEdge {
   const char* panel;     // panel of the command panel-size
   Rect rect;             // area that takes the mouse
   bool upright;          // whether it is dragged sideways
-  double direction;      // +1 if dragging right or down makes the panel larger, else -1
+  double direction;      // member of Panels with the size, in em
   double Panels::*size;  // in em
   double least, most;
 };

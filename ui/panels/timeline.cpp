@@ -43,7 +43,7 @@ float buttons_width(const PanelContext& context) {
 
 /// Places of the active run's iterations in the groove.
 struct Groove {
-  Axis axis;                   // from `x` to pixels
+  Axis axis;                   // maps `x` to pixels
   std::vector<double> course;  // x of every record
   bool by_seconds = false;
   [[nodiscard]] float place(std::uint64_t iteration) const {

@@ -19,7 +19,7 @@ struct Series {
   std::string run;   // name of its run in the legend; empty: there is only one, or it belongs to none
   std::string name;  // name of the quantity in the legend; empty: the plot has only one
   render::Rgb colour;
-  std::vector<double> x, y;  // the same size, x ascending; a NaN in y is a gap
+  std::vector<double> x, y;  // x and y of the same size, x ascending; a NaN in y is a gap
   Kind kind = Kind::Line;
   double bar_width = 0.0;
   double width = 1.5;     // width of the line, pixels at scale 1
@@ -50,7 +50,7 @@ struct AxisUnit {
 struct Plot {
   PlotTab tab = PlotTab::Convergence;
   std::string title;             // title of a file's picture
-  std::string x_title, y_title;  // with units
+  std::string x_title, y_title;  // titles of the axes, with units
   std::string x_name;            // one word, for the readout and a table's column
   std::string strip_title;       // title of the strip below, which has values of another kind over the same x
   double strip_share = 0.0;      // share of the height; 0: none

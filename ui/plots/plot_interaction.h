@@ -26,7 +26,7 @@ struct PlotDrag {
   double x0 = 0.0, y0 = 0.0;  // place where it was pressed
   double x = 0.0, y = 0.0;    // present place
   bool moved = false;         // far enough not to be a click
-  bool right = false;         // with the right button
+  bool right = false;         // whether the drag is with the right button
 };
 
 struct PlotOutcome {

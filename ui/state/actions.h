@@ -21,7 +21,7 @@ struct Action {
   std::string_view command;  // one line of the command language
   Needs needs = Needs::Nothing;
   bool separator = false;    // a line above it in the menu
-  std::string_view about{};  // what it does, where the title does not say it: for tooltips
+  std::string_view about{};  // explanation for tooltips, if the title does not tell enough
 };
 
 /// All actions, in the order of the menus.
@@ -37,7 +37,7 @@ struct Action {
 struct Situation {
   bool mesh = false, busy = false, picked = false;
   std::size_t runs = 0;
-  bool selected = false;       // at least one vertex; see Selection
+  bool selected = false;       // at least one vertex is selected; see Selection
   std::string undo{}, redo{};  // title of what they take back or repeat ("run 10"); empty: nothing
   bool volume = false;         // the mesh is one of volume elements
   bool better = false;         // the active run is not at its best iteration

@@ -25,9 +25,9 @@ struct InspectionState {
   int level = 1;            // level whose grid is shown; 0: none
   bool all_levels = false;  // the grids of all levels at once
   bool applied = false;     // the vertex has been moved to where its visit takes it
-  std::string take_back;    // the command that undoes what was applied; empty: nothing moved
+  std::string take_back;    // command that undoes the applied move; empty: nothing moved
   Moment applied_from;      // moment of the run before that
-  bool in_order = false;    // it is the vertex that the run visits next, so that applying is the run's own step
+  bool in_order = false;    // whether the run visits this vertex next, so that applying is the run's own step
   bool zoom = true;         // whether the view goes as close as a level's grid needs
   bool field = true;        // whether the inspector shows the quality around the vertex
   bool field_in_view = false;

@@ -24,8 +24,8 @@ enum class PaneLayout { One, Two, Four, Split };
 struct PaneContent {
   enum class Kind { Free, Active, Run, Input, MarkA, MarkB };
   Kind kind = Kind::Free;
-  std::uint64_t run = 0;                     // for Kind::Run: RunView::id
-  std::optional<std::uint64_t> iteration{};  // for Kind::Run: the iteration at whose end; none: its present state
+  std::uint64_t run = 0;                     // id of the run (RunView::id), for Kind::Run
+  std::optional<std::uint64_t> iteration{};  // iteration at whose end the run is shown, for Kind::Run; none: its present state
   friend bool operator==(const PaneContent&, const PaneContent&) = default;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Finds what of a session is not saved in a file, and the question to ask before it is given up.
+// Finds unsaved parts of a session, and the question to ask before it is given up.
 
 #include <cstddef>
 #include <string>

@@ -35,7 +35,7 @@ namespace dmoscope::ui {
 enum class Theme { Dark, Light, Contrast };
 /// Role of a file that is opened.
 enum class OpenFor : std::uint8_t {
-  Alone,   // in place of all that is open
+  Alone,   // in place of all open meshes
   Beside,  // another mesh beside those that are open
   Surface  // surface that the active mesh slides on
 };
@@ -140,7 +140,7 @@ struct Requests {
   std::optional<bool> full_screen;
   std::optional<std::pair<int, int>> size;
   std::deque<ScreenshotOptions> screenshots;
-  bool screenshot_failed = false;  // set when one fails, until somebody resets it
+  bool screenshot_failed = false;  // set when one fails, until it is reset by the caller
   std::deque<PlotSave> plots;
   std::deque<SimulatedInput> input;
   std::optional<std::string> clipboard;
@@ -167,8 +167,8 @@ struct ViewState {
   bool occlusion = true;  // darkens volumes in their corners and along their edges
   render::ColourMap colour_map = render::ColourMap::Beacon;
   RangeMode range_mode = RangeMode::Input;
-  double range_low = 0.0, range_high = 1.0;                   // for RangeMode::Given
-  double range_low_percent = 2.0, range_high_percent = 98.0;  // for RangeMode::Percentile
+  double range_low = 0.0, range_high = 1.0;                   // range for RangeMode::Given
+  double range_low_percent = 2.0, range_high_percent = 98.0;  // percentiles for RangeMode::Percentile
   ColouringState colouring;
 
   // Interface

@@ -22,8 +22,8 @@ struct ChooserWish {
 struct ChooserOutcome {
   enum class Kind { Chosen, Cancelled, Failed };
   Kind kind = Kind::Cancelled;
-  std::vector<std::filesystem::path> paths{};  // for Chosen: at least one
-  std::string trouble{};                       // for Failed: a sentence
+  std::vector<std::filesystem::path> paths{};  // chosen files: at least one for Chosen
+  std::string trouble{};                       // a sentence for Failed
 };
 
 /// The program that shows the desktop's file dialog, found on $PATH: kdialog first if $XDG_CURRENT_DESKTOP names KDE, else zenity. Empty if

@@ -1,5 +1,5 @@
 #pragma once
-// The interface's fonts, with every letter that is to be shown.
+// The interface's fonts, with every letter to be shown.
 
 #include <imgui.h>
 

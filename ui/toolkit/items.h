@@ -47,7 +47,7 @@ class Items {
     Box box;
     bool takes_text;
   };
-  std::vector<Stop> stops_;  // in the order of drawing
+  std::vector<Stop> stops_;  // controls that take the keyboard, in the order of drawing
   std::map<std::string, Box, std::less<>> boxes_;
   std::string scroll_to_;
 };

@@ -7,11 +7,11 @@
 namespace dmoscope::ui {
 
 struct Layout {
-  Rect menu, toolbar;            // in one row if there is room
+  Rect menu, toolbar;            // menus and tools, in one row if there is room
   Rect left, right;              // columns of docks
   Rect viewport, bottom;         // the plots stand below the viewport only
-  Rect timeline, status;         // in one row, the lowest
-  Rect left_strip, right_strip;  // in place of the columns if the window is too small
+  Rect timeline, status;         // the lowest row
+  Rect left_strip, right_strip;  // strips in place of the columns if the window is too small
   bool folded = false;           // columns are strips, and open over the mesh
 };
 

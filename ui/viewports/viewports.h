@@ -16,7 +16,7 @@ namespace dmoscope::ui {
 
 /// A viewport as panels draw it; alive until the next Viewports::draw.
 struct PaneFacts {
-  std::size_t number = 0;                         // from 0
+  std::size_t number = 0;                         // index of the viewport, from 0
   Rect rect;                                      // place of its picture
   Rect clip;                                      // visible part of that: all of it except in a split view
   std::shared_ptr<const SessionView> session;     // session with its frame and its run in place of the active ones; the frame may be null
@@ -32,7 +32,7 @@ struct PaneFacts {
   bool focus = false;                     // whether it is the active one
   bool inspected = false;                 // the inspected search is shown here
   bool reduced = false;                   // drawn with fewer elements just now
-  bool current = false;                   // its mesh is drawn; false while the mesh is made ready for that
+  bool current = false;                   // whether its mesh is drawn; false while the mesh is made ready for that
   bool lacks_room = false;                // there is no room for labels
   std::optional<std::size_t> cells_seen;  // number of visible elements of a volume mesh
   render::Bounds3 box;                    // box of a volume mesh
@@ -141,14 +141,14 @@ class Viewports {
   /// not wait for these. Declared before the viewports, which use them.
   std::unique_ptr<ThreadPool> pool_;
   std::shared_ptr<const SessionView> session_;
-  std::array<std::unique_ptr<PaneView>, Panes::kMost> views_;  // as many as there are viewports on show
+  std::array<std::unique_ptr<PaneView>, Panes::kMost> views_;  // one for each viewport on show
   std::array<Content, Panes::kMost> shown_;
   std::array<Marked, 2> marked_;  // marks A and B
   std::vector<std::shared_ptr<const Frame>> frames_;
   std::vector<PaneFacts> facts_;
   std::optional<render::Camera2D> fitted_;  // camera of the last fit, until it is moved
   std::array<std::optional<render::Camera2D>, Panes::kMost>
-      fitted_others_;  // the same for viewports that show another mesh by a camera of their own
+      fitted_others_;  // last fits of viewports that show another mesh by a camera of their own
   std::optional<render::OrbitCamera> fitted_orbit_;
   // State at the last follow(): a command may have changed it since.
   PaneLayout layout_ = PaneLayout::One;

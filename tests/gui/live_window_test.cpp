@@ -35,7 +35,7 @@ class LiveWindow : public ::testing::Test {
     }
     ASSERT_FALSE(window->run("generate annulus 1500").has_value());
   }
-  /// Draws frames of a run without end until a light one is drawn (and `more` is so).
+  /// Draws frames of a run without end until a light one is drawn and `more` holds.
   template <class More>
   bool draw_until_live(More more) {
     if (!window->app().engine().busy()) window->app().submit("run 100000000");

@@ -1,4 +1,4 @@
-// First range of plots: their width is for what changes.
+// First range of plots: it gives most of the width to changes.
 #include <algorithm>
 #include <cmath>
 

@@ -34,7 +34,7 @@ TEST_F(KeptSettings, AreWrittenOnceTheyStandStill) {
   EXPECT_FALSE(std::filesystem::exists(settings_)) << "nothing has changed";
   state.theme = Theme::Light;
   EXPECT_GT(keeper.look(state, 2.0), 0.0);
-  state.panels.left_width = 21;  // as if dragged
+  state.panels.left_width = 21;  // dragging the panel
   EXPECT_FALSE(std::isinf(keeper.look(state, 2.2)));
   EXPECT_FALSE(std::isinf(keeper.look(state, 2.4)));
   EXPECT_FALSE(std::filesystem::exists(settings_));

@@ -36,7 +36,7 @@ TEST_F(VolumePicture, ColoursTellTheirValuesAloneUnlessALampIsAskedFor) {
   Style lamp = flat_style();
   lamp.shading = true;
   EXPECT_TRUE(near_colour(at(shot(lamp), {1, 0.25, 0.25}), by_lamp(of_quality(0.2))));
-  // From a corner three sides are seen; each face has the colour of its own cell, whichever way it looks.
+  // Three sides are seen from a corner; each face has the colour of its own cell, whichever way it looks.
   camera.look_from(ViewPreset::Isometric);
   camera.fit(space->bounds(), kViewport, 10.0);
   const Image image = shot();

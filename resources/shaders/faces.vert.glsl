@@ -45,7 +45,7 @@ void main() {
   vec3 here = local == 0u ? a : local == 1u ? b : c;
   gl_Position = u_to_clip_space * vec4(here, 1.0);
   gl_ClipDistance[0] = kept_by_plane(here);
-  // Where elements overlap, inverted ones lie above the others, and of cuts in one plane always the same one. At the outline of a closed
+  // Inverted elements lie above those that they overlap, and of cuts in one plane always the same one is on top. At the outline of a closed
   // surface its back lies beneath its front.
   float above = is_inverted ? 4e-5 : u_sides == 2 && away ? -4e-5 : 0.0;
   gl_Position.z -= gl_Position.w * (above + u_cut * 2e-6 * float(face.element & 7u));

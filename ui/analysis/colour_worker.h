@@ -35,9 +35,9 @@ class ColourWorker {
   std::shared_ptr<const ElementColours> colours_;
   std::future<std::shared_ptr<const ElementColours>> pending_;
   std::shared_ptr<const Colouring> classes_;  // kept, so that the key's pointer stays its own
-  std::shared_ptr<const Domain> domain_;      // kept for the same reason
-  SharedVector<std::uint8_t> fixed_;          // kept for the same reason
-  std::shared_ptr<const JointCluster> hold_;  // kept for the same reason
+  std::shared_ptr<const Domain> domain_;      // kept like classes_
+  SharedVector<std::uint8_t> fixed_;          // kept like classes_
+  std::shared_ptr<const JointCluster> hold_;  // kept like classes_
 };
 
 }  // namespace dmoscope::ui

@@ -24,7 +24,7 @@ void begin_save(PanelContext& context, SaveRows& rows, const std::string& name);
 [[nodiscard]] bool draw_save_rows(PanelContext& context, const SaveForm& form);
 /// Draws trouble or question, and the buttons. True: the target is to be written now, and the dialog is closed.
 [[nodiscard]] bool draw_save_buttons(PanelContext& context, const SaveForm& form, const char* verb, bool entered);
-/// As much of the end of a path as there is room for.
+/// A path, cut to its end if there is not enough room.
 [[nodiscard]] std::string fit_path(const std::string& path, float width);
 /// Draws a text field for a file's name, whatever letters that has.
 [[nodiscard]] bool path_field(PanelContext& context, const char* label, std::string& text);

@@ -57,7 +57,7 @@ std::vector<std::string> progress_said(const PanelContext& context, const RunVie
   return parts;
 }
 
-/// As many of the parts as there is room for, at least the first one.
+/// The first parts that there is room for, at least one.
 std::string fit_parts(const std::vector<std::string>& parts, float room) {
   std::string text;
   for (const std::string& part : parts) {
@@ -196,7 +196,7 @@ void draw_message(PanelContext& context, const Rect& viewport) {
   const bool within = run != nullptr && run->moment.visits > 0;
   const bool ended = run != nullptr && has_converged(*run);
   const bool is_step =
-      (within || ended) && message->text == context.state.stepping.news.sentence && !context.state.tour.on;  // the note tells it already
+      (within || ended) && message->text == context.state.stepping.news.sentence && !context.state.tour.on;  // its card is there
   if (message->kind == Message::Kind::Info && !is_step) return;
   const std::string text = first_line(context, *message);
   const float pad = context.px(10), axes = context.state.in_space ? 6 * context.em() : 0.0F;

@@ -93,7 +93,7 @@ void integer(PanelContext& context, const char* item, int value, int least, int 
 void metric_combo(PanelContext& context, const char* item, Metric current, const char* command);
 /// Text cut with "…" so that it is at most `width` pixels wide.
 [[nodiscard]] std::string fit_text(const std::string& text, float width);
-/// As many whole clauses of a sentence as fit; if none does, the result of fit_text.
+/// The first clauses of a sentence that fit whole; if none does, the result of fit_text.
 [[nodiscard]] std::string fit_clauses(const std::string& text, float width);
 
 }  // namespace dmoscope::ui

@@ -44,7 +44,7 @@ float widest_number(const Frame& frame) {
   return widest;
 }
 
-/// As much of "element 1234" as there is room for.
+/// The text "element 1234", shortened to the room.
 std::string id_text(Index element, float room) {
   std::string text = fmt::format("element {}", element);
   return ImGui::CalcTextSize(text.c_str()).x <= room ? text : fmt::to_string(element);

@@ -35,13 +35,13 @@ bool BestState::rises(const IterationRecord& record) const {
   if (record.raises_mean && may_cost_mean_ && keeps_minimum) return true;  // the mean that is raised never falls
   // The worst element may have a part between fixed vertices that nothing changes, so that joint moves raise others alone.
   if (record.joint && record.moved > 0 && keeps_minimum) return true;
-  // As differences: where nothing is movable both are infinite, and that is no rise.
+  // Compares differences: where nothing is movable both are infinite, and that is no rise.
   return now.minimum - minimum_ >= least_rise_ || now.movable_minimum - movable_ >= least_rise_;
 }
 
 bool BestState::is_worse_than_input(const Statistics& now) const {
   if (now.inverted != input_.inverted) return now.inverted > input_.inverted;
-  // A mean is not paid for by what rounding adds to the minimum.
+  // A rise of the minimum by rounding alone does not pay for a lower mean.
   constexpr double kShare = 1e-3;
   const auto rises = [this](double from, double to) {
     return to > from && (use_ == For::NextPhase || to - from >= std::min(kLeastRise, kShare * std::abs(from)));

@@ -1,5 +1,5 @@
 #pragma once
-// Which of the iterations that a run passes through is the best.
+// The best of the iterations that a run passes through.
 
 #include <cstdint>
 #include <span>
@@ -9,20 +9,20 @@
 
 namespace dmoscope {
 
-/// What counts as a rise of a quality over iterations: smaller ones are no reason to go on, nor to give up any of the mean.
+/// Least rise of a quality over iterations that counts: smaller ones are no reason to go on, nor to give up any of the mean.
 inline constexpr double kLeastRise = 1e-6;
 
 /// The best iteration, from records that are told one after another, the input's first.
-/// - Of a method that optimises: the one of greatest mean since an element was last untangled, a minimum last rose by kLeastRise, or joint
+/// - For a method that optimises: the one of greatest mean since an element was last untangled, a minimum last rose by kLeastRise, or joint
 ///   moves raised what they can change. The minimum does not rise noticeably any more there, but goes on to cost the mean. Where another
 ///   phase follows, any rise counts: it begins with the best state, and must not lower the minimum.
-/// - Of another method: fewest inverted elements, then greatest minimum, then greatest movable minimum, then greatest mean.
-/// - Of a run for two aims, which gives up some of the first for the second: the last.
-/// Of a run by one metric, never one that is worse than the input by fewest inverted elements, then greatest minimum (a rise of less than
-/// kLeastRise, or a thousandth where that is less, is none), then greatest mean. Among equals the last.
+/// - For any other method: fewest inverted elements, then greatest minimum, then greatest movable minimum, then greatest mean.
+/// - For a run with two aims, which gives up some of the first for the second: the last. For a run by one metric, never one that is worse
+///   than the input by fewest inverted elements, then greatest minimum (a rise of less than kLeastRise, or a thousandth where that is less,
+///   is none), then greatest mean. Among equals the last.
 class BestState {
  public:
-  /// What is written, or what the next phase begins with: that must not lower the minimum by anything.
+  /// Use of the best state: as the result that is written, or as the begin of the next phase, which must not lower the minimum by anything.
   enum class For : std::uint8_t { Result, NextPhase };
   explicit BestState(const RunParameters& parameters, For use = For::Result);
   void take(const IterationRecord& record);
@@ -33,20 +33,20 @@ class BestState {
   [[nodiscard]] bool is_better(const IterationRecord& record);
   [[nodiscard]] bool rises(const IterationRecord& record) const;
 
-  /// By the number of inverted elements, then the minimum, then the mean.
+  /// Compares by the number of inverted elements, then the minimum, then the mean.
   [[nodiscard]] bool is_worse_than_input(const Statistics& now) const;
 
   Rule rule_;
-  bool may_cost_mean_;  // does the phase that raises another mean than the statistics' cost some of that?
+  bool may_cost_mean_;  // whether the phase that raises another mean than the statistics' may cost some of that
   double least_rise_;   // Rule::MinimumThenMean
   For use_;
   bool first_ = true;
   std::uint64_t best_ = 0;
-  Statistics input_, statistics_;         // of the input and of the best
+  Statistics input_, statistics_;         // statistics of the input and of the best iteration
   double minimum_ = 0.0, movable_ = 0.0;  // Rule::MinimumThenMean: at the last rise
 };
 
-/// Of all these records, which must not be empty.
+/// Best iteration of these records, of which there must be at least one.
 [[nodiscard]] std::uint64_t best_iteration(const RunParameters& parameters, std::span<const IterationRecord> records);
 
 }  // namespace dmoscope

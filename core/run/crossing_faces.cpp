@@ -15,7 +15,7 @@ namespace {
 
 using Triangle = std::array<Vec3, 3>;
 
-/// On which side of the plane through a, b and c the point d lies: 1, -1, or 0 where rounding decides (Shewchuk: Adaptive precision
+/// Side of the plane through a, b and c on which the point d lies: 1, -1, or 0 where rounding decides (Shewchuk: Adaptive precision
 /// floating-point arithmetic and fast robust geometric predicates, 1997).
 int side(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
   a = a - d, b = b - d, c = c - d;

@@ -10,19 +10,19 @@
 
 namespace dmoscope {
 
-/// Pairs of faces without a common vertex of which one goes through the other, certainly: what may be rounding does not count, nor what
-/// merely touches. Quadrilaterals are split by their shorter diagonals.
+/// Number of pairs of faces without a common vertex that certainly cross each other: neither faces that merely touch nor crossings that may
+/// be rounding count. Quadrilaterals are split by their shorter diagonals.
 [[nodiscard]] std::uint64_t count_crossing_faces(const ElementTable& faces, std::span<const Vec3> positions);
 
 struct CrossingFaces {
-  std::uint64_t before = 0, after = 0;  // pairs, in the input and where the run stands
-  double max_deviation = 0.0;           // the run's
+  std::uint64_t before = 0, after = 0;  // pairs, in the input and in the run's present state
+  double max_deviation = 0.0;           // of the run
   /// "12 pairs of faces cross each other, and 3 in the input. The bound of deviation lets parts of a surface meet that are nearer to each
   /// other: a smaller max-deviation than 0.001 keeps them apart."
   [[nodiscard]] std::string sentence() const;
 };
 
-/// None where no faces slide, and where no more of them cross than in the input. Brings the positions.
+/// Returns none where no faces slide, and where no more of them cross than in the input. Brings the positions to the host.
 [[nodiscard]] std::optional<CrossingFaces> find_crossing_faces(const Run& run);
 
 }  // namespace dmoscope

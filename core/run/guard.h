@@ -1,5 +1,5 @@
 #pragma once
-// What a run keeps from falling, whatever it raises: the least of another metric.
+// Guard of a run: a metric whose least falls no further, whatever else is raised.
 
 #include <optional>
 #include <string>
@@ -11,13 +11,13 @@ namespace dmoscope {
 
 struct GuardRule {
   Metric metric = Metric::MeanRatio;
-  std::optional<double> floor{};  // none: the least of the input's elements that can move
+  std::optional<double> floor{};  // none: the least quality of the input's elements that can move
   friend bool operator==(const GuardRule&, const GuardRule&) = default;
 };
 
-/// "mean-ratio:input", "scaled-jacobian:0.2"; "off" of none.
+/// "mean-ratio:input", "scaled-jacobian:0.2"; "off" for none.
 [[nodiscard]] std::string to_text(const std::optional<GuardRule>& rule);
-/// Throws UsageError.
+/// Reads the words of to_text(). Throws UsageError.
 [[nodiscard]] std::optional<GuardRule> parse_guard(std::string_view text);
 
 }  // namespace dmoscope

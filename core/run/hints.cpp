@@ -67,7 +67,7 @@ std::optional<HeldMinimum> what_holds(const Run& run, ThreadPool* pool, Progress
     question.joint_phase = p.then_mean ? "joint,mean" : "joint";
   }
   question.joint = why_no_run(run.shared_input(), jointly).empty();
-  // A run that moves vertices jointly looks at large clusters itself. After any other, and where nobody has asked, the answer is not to
+  // A run that moves vertices jointly looks at large clusters itself. After any other run, and where nobody has asked, the answer is not to
   // take longer than the run.
   constexpr std::size_t kMostInThePlane = 4000, kMostInVolumes = 500;
   if (look.at_rest || !question.joint_phase.empty()) question.joint_at_most = run.input().is_volume() ? kMostInVolumes : kMostInThePlane;

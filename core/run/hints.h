@@ -1,6 +1,6 @@
 #pragma once
-// What is looked for after a run though nobody has asked: whether another method gets further where elements stay inverted, what holds the
-// minimum, and how long that may take.
+// Looks after a run that nobody has asked for: whether another method gets further where elements stay inverted, what holds the minimum,
+// and how long these looks may take.
 
 #include <algorithm>
 #include <cstdint>
@@ -17,23 +17,23 @@
 
 namespace dmoscope {
 
-/// How long may be looked.
+/// Time that a look may take.
 class HintBudget {
  public:
   using Clock = std::function<double()>;  // seconds that have passed
 
-  /// As long as it takes.
+  /// Sets no limit.
   HintBudget() = default;
-  /// From now on.
+  /// Lets `seconds` pass from now on.
   explicit HintBudget(double seconds, Clock clock = since_now()) : clock_(std::move(clock)), end_(clock_() + seconds) {}
-  /// A tenth of what the run took, and at least 0.2 s.
+  /// Gives a tenth of the run's time, and at least 0.2 s.
   [[nodiscard]] static HintBudget of_run(double seconds, Clock clock = since_now()) {
     return HintBudget(std::max(0.2, 0.1 * seconds), std::move(clock));
   }
 
   [[nodiscard]] bool left() const { return !clock_ || clock_() < end_; }
   [[nodiscard]] bool has(double seconds) const { return !clock_ || clock_() + seconds <= end_; }
-  /// Half of what is left of it.
+  /// Gives half of the time that is left.
   [[nodiscard]] HintBudget half() const { return clock_ ? HintBudget(0.5 * (end_ - clock_()), clock_) : HintBudget(); }
 
  private:
@@ -46,30 +46,31 @@ class HintBudget {
 };
 
 struct UntanglingHint {
-  std::string method;            // that gets further
+  std::string method;            // the method that gets further
   Index left = 0;                // elements that it leaves inverted
-  std::uint64_t iterations = 0;  // after so many
+  std::uint64_t iterations = 0;  // number of iterations that it took
   /// "angle-based leaves 0 of them after 12 iterations"
   [[nodiscard]] std::string sentence() const;
 };
 
 struct UntanglingLook {
-  std::optional<UntanglingHint> hint{};  // none where none of those that cost little leaves fewer
+  std::optional<UntanglingHint> hint{};  // none where no method of those that cost little leaves fewer inverted elements
   bool to_the_end = true;
 };
 
-/// Tries each method that can be from the input on, with the run's other parameters; some 2 million visits each at most. A cancel, and
-/// `go_on`, which is asked every now and then, end the look, but not what it has found by then.
+/// Tries each method that can be from the input on, with the run's other parameters; some 2 million visits each at most. A cancel, or a no
+/// of `go_on`, which is asked every now and then, ends the look; it returns what it has found by then.
 [[nodiscard]] UntanglingLook untangling_hint(const Run& run, std::shared_ptr<ThreadPool> pool, Progress& progress,
                                              const std::function<bool()>& go_on = {});
 
 struct HoldLook {
   DomainSource domains{};
   std::function<bool()> go_on{};  // see held_minimum(); empty: to the end
-  bool at_rest = false;           // nobody has asked: it is not to take long, and holders are drawn
+  bool at_rest = false;           // nobody has asked: the look must not take long, and holders are drawn
 };
 
-/// What holds the minimum of the metric that the run optimises, see held_minimum(). Brings the positions. Throws DeviceError.
+/// Finds the holders of the minimum of the metric that the run optimises, see held_minimum(). Brings the positions to the host. Throws
+/// DeviceError.
 [[nodiscard]] std::optional<HeldMinimum> what_holds(const Run& run, ThreadPool* pool, Progress& progress, const HoldLook& look = {});
 
 }  // namespace dmoscope

@@ -17,7 +17,7 @@ constexpr std::size_t kVerticesAtOnce = std::size_t{1} << 16U;
 
 History::Kept copy_of(std::uint64_t iteration, std::span<const Vec3> positions, ThreadPool* pool) {
   const std::size_t count = positions.size();
-  // Not a vector: it would fill its memory on this thread before the others copy.
+  // Raw memory, because a vector would fill it on this thread before the others copy.
   const std::shared_ptr<Vec3> copy(std::allocator<Vec3>().allocate(count),
                                    [count](Vec3* p) { std::allocator<Vec3>().deallocate(p, count); });
   advise_large_pages(copy.get(), positions.size_bytes());
@@ -41,7 +41,7 @@ void History::record(const IterationRecord& record) {
   if (record.iteration == records().size()) records_.change().push_back(record);
 }
 
-// Without a budget nothing, not even of a share without vertices: all processes keep alike.
+// Keeps nothing without a budget, not even positions of a share without vertices: all processes keep alike.
 bool History::wants(std::uint64_t iteration) const {
   return budget_ > 0 && iteration % stride_ == 0 && size_ <= budget_ && !kept(iteration);
 }
@@ -90,7 +90,7 @@ std::size_t History::bytes() const noexcept {
   return sum;
 }
 
-/// Lets positions go until there is room for as many bytes more, or only the input is left.
+/// Lets positions go until there is room for `needed` more bytes, or only the input is left.
 void History::thin(std::size_t needed) {
   while (bytes() + needed > budget_ && kept_.size() > 1) {
     stride_ *= 2;

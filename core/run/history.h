@@ -1,5 +1,5 @@
 #pragma once
-// What a run keeps of its past: statistics of every iteration, and positions within a memory budget.
+// History of a run: statistics of every iteration, and positions within a memory budget.
 
 #include <cstddef>
 #include <cstdint>
@@ -17,14 +17,14 @@
 
 namespace dmoscope {
 
-/// Of an iteration of joint moves, which is one cluster.
+/// Figures of an iteration of joint moves, which is one cluster.
 struct JointFigures {
-  JointState::End end = JointState::End::None;  // not None: there was nothing more to do, and all else is of no account
+  JointState::End end = JointState::End::None;  // not None: there was nothing more to do, and all other figures are meaningless
   bool certified = false, is_push = false;      // see JointCluster
-  double bound = 0.0, gap = 0.0;                // likewise
-  Index vertices = 0;                           // of the cluster
+  double bound = 0.0, gap = 0.0;                // see JointCluster
+  Index vertices = 0;                           // number of vertices of the cluster
   int newton_steps = 0;
-  bool beyond = false;  // likewise
+  bool beyond = false;  // see JointCluster
 };
 
 struct IterationRecord {
@@ -32,15 +32,15 @@ struct IterationRecord {
   Statistics statistics;
   std::uint64_t moved = 0;
   double seconds = 0.0;        // this iteration's smoothing alone
-  std::uint64_t searched = 0;  // vertices visited without those passed over, see Smoother::searched; 0 also where that is not known
+  std::uint64_t searched = 0;  // vertices visited without those passed over, see Smoother::searched; 0 also where unknown
   std::optional<JointFigures> joint{};
   std::optional<double> second{};  // the movable minimum of a combination's second metric, where a phase may come that keeps it
   bool raises_mean = false;        // an iteration of the phase that raises a mean: see Sweep
-  bool raise_follows = false;      // in the next iteration vertices around the worst element move together, within the method's phase
+  bool raise_follows = false;  // whether vertices around the worst element move together in the next iteration, within the method's phase
 };
 
-/// Positions that lie far from the host (on a device) are worth bringing only to keep them where that takes but a modest share of the time:
-/// `bringing` seconds, when the smoothing since positions were last kept took `since`.
+/// Returns whether positions on a device are worth a download only to keep them: it must take but a modest share of the time, `bringing`
+/// seconds against `since` seconds of smoothing since positions were last kept.
 [[nodiscard]] constexpr bool worth_downloading(double bringing, double since) noexcept {
   constexpr double kShare = 0.2;
   return bringing < kShare * since;
@@ -50,9 +50,9 @@ class History {
  public:
   explicit History(std::size_t budget_bytes) : budget_(budget_bytes) {}
 
-  /// Records iteration 0. Its positions are shared, never copied, whatever the budget.
+  /// Records iteration 0. The input's positions are shared, never copied, whatever the budget.
   void record_input(const IterationRecord& record, std::shared_ptr<const std::vector<Vec3>> positions);
-  /// Records the end of the next iteration. One that has a record already keeps it (a repeated iteration gives the same bits).
+  /// Records the end of the next iteration. An iteration that has a record keeps it (a repeated iteration gives the same bits).
   void record(const IterationRecord& record);
   /// Gives the last recorded iteration the statistics of another: the run goes from its end to another state.
   void amend_last(const IterationRecord& other) {
@@ -60,9 +60,10 @@ class History {
     last.statistics = other.statistics;
     last.second = other.second;
   }
-  /// Notes that IterationRecord::raise_follows the last one.
+  /// Sets IterationRecord::raise_follows of the last record.
   void raise_after_last() { records_.change().back().raise_follows = true; }
-  /// Whether keep() would keep the positions of this iteration: those of multiples of stride() are kept, where the budget has room for any.
+  /// Returns whether keep() would keep the positions of this iteration: those of multiples of stride() are kept, where the budget has room
+  /// for any.
   [[nodiscard]] bool wants(std::uint64_t iteration) const;
   /// Keeps positions, unless they are kept already or not wanted. When the budget is full the stride doubles and positions in between are
   /// let go: those iterations are computed again when asked for. `pool`: for the copy, may be null.
@@ -76,16 +77,16 @@ class History {
   [[nodiscard]] const std::vector<IterationRecord>& records() const noexcept { return records_.values(); }
   [[nodiscard]] SharedVector<IterationRecord> shared_records() const { return records_.share(); }
 
-  /// Of the records, as far as anybody worked them out; may be shorter.
+  /// Percentiles of the records, as far as they have been worked out; may be shorter than the records.
   [[nodiscard]] const std::vector<Percentiles>& percentiles() const noexcept { return percentiles_.values(); }
   [[nodiscard]] SharedVector<Percentiles> shared_percentiles() const { return percentiles_.share(); }
-  /// Of a recorded iteration.
+  /// Stores the percentiles of a recorded iteration.
   void note_percentiles(std::uint64_t iteration, const Percentiles& percentiles);
 
   struct Kept {
     std::uint64_t iteration;
     std::span<const Vec3> positions;
-    std::shared_ptr<const void> owner;  // of the positions
+    std::shared_ptr<const void> owner;  // owner of the positions
   };
   /// The latest kept positions at or before `iteration`. The input (iteration 0) is always kept.
   [[nodiscard]] const Kept& nearest(std::uint64_t iteration) const;
@@ -93,11 +94,11 @@ class History {
 
   void set_budget(std::size_t bytes);
   [[nodiscard]] std::size_t budget() const noexcept { return budget_; }
-  /// Of the positions kept, without the input's.
+  /// Memory of the positions kept, without the input's.
   [[nodiscard]] std::size_t bytes() const noexcept;
-  /// Every how many iterations positions are kept: 1 until the budget is first met.
+  /// Number of iterations from one with kept positions to the next: 1 until the budget is first met.
   [[nodiscard]] std::uint64_t stride() const noexcept { return stride_; }
-  /// Empty while every iteration is kept; else a sentence that says which are, and that the others are computed again on demand.
+  /// Sentence that says which iterations are kept, and that the others are computed again on demand; empty while every iteration is kept.
   [[nodiscard]] std::string sentence() const;
 
  private:

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kNoLevel = std::numeric_limits<double>::infinity();
 
-/// The state after an iteration, from that before it.
+/// Makes the state before an iteration the one after it.
 void follow(JointState& state, const JointIteration& done) {
   if (done.anew) state = {};
   JointState next = done.rest;

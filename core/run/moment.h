@@ -1,5 +1,5 @@
 #pragma once
-// Where a run stands.
+// Moment: place of a run on its path.
 
 #include <compare>
 #include <cstdint>
@@ -14,13 +14,13 @@ struct Moment {
   std::uint64_t visits = 0;
   std::uint64_t edits = 0;
   friend auto operator<=>(const Moment&, const Moment&) = default;
-  /// Whether it is the end of an iteration (or the input), which is what the history records and keeps.
+  /// Returns whether this is the end of an iteration (or the input): those moments the history records and keeps.
   [[nodiscard]] bool is_iteration_end() const noexcept { return visits == 0 && edits == 0; }
 };
 
 class Run;
 
-/// A run as it stood: what was found out about it then holds wherever this is equal.
+/// State of a run: findings about it hold wherever this is equal.
 struct StandingRun {
   std::weak_ptr<const Run> run;
   std::uint64_t path = 0;  // see Run::path

@@ -21,7 +21,7 @@ int to_int(const std::string& word) {
   return static_cast<int>(value);
 }
 
-/// A share of something, or an angle: above 0.
+/// Reads a share or an angle: above 0.
 double to_positive(const std::string& word, double most, std::string_view what) {
   const double value = to_number(word);
   if (!(value > 0.0 && value <= most)) throw UsageError(fmt::format("the {} must be above 0 and at most {}, not {}", what, most, word));
@@ -263,7 +263,7 @@ bool ParameterInfo::read_by(const RunParameters& parameters, bool surface) const
 }
 
 std::string ParameterInfo::help() const {
-  constexpr double kAny = 1e9;  // more is no limit that a person meets
+  constexpr double kAny = 1e9;  // more is no practical limit
   std::string text(doc);
   if (kind == ParameterKind::Whole && most < kAny) text += fmt::format(", {} to {}", least, most);
   if (kind == ParameterKind::Real) text += fmt::format(", above {}, up to {}", least, most);

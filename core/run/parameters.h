@@ -1,6 +1,6 @@
 #pragma once
-// What a run can be told, and the table of it: command line, commands, session files, titles and the window's panel loop over the rows. To
-// add a parameter is a field where it is read, and a row.
+// Parameters of a run, and the table of them: command line, commands, session files, titles and the window's panel loop over the rows. A
+// new parameter is a field where it is read, and a row.
 
 #include <cstdint>
 #include <optional>
@@ -22,7 +22,7 @@
 
 namespace dmoscope {
 
-/// In which order an iteration visits the free vertices, before colouring.
+/// Order in which an iteration visits the free vertices, before colouring.
 struct VisitOrder {
   std::optional<std::uint64_t> seed;  // none: natural; else shuffled with this seed
   friend bool operator==(const VisitOrder&, const VisitOrder&) = default;
@@ -30,7 +30,7 @@ struct VisitOrder {
 
 /// "natural" or "shuffle:SEED".
 [[nodiscard]] std::string to_text(const VisitOrder& order);
-/// Throws UsageError.
+/// Reads the words of to_text(). Throws UsageError.
 [[nodiscard]] VisitOrder parse_order(std::string_view word);
 
 struct RunParameters {
@@ -38,22 +38,22 @@ struct RunParameters {
   Metric metric = Metric::MeanRatio;
   SearchParameters search{};
   MethodOptions options{};
-  std::optional<CompositeTerms> combination{};   // of `metric`, the first, with a second aim
+  std::optional<CompositeTerms> combination{};   // a second aim besides `metric`, the first
   std::optional<PhaseBegin> then_joint{};        // a phase of joint moves after the method's
   std::optional<PhaseBegin> then_mean{};         // a phase that raises a mean, the last one
-  MeanKind mean = MeanKind::Harmonic;            // which one
-  std::optional<GuardRule> guard = GuardRule{};  // what falls no further, whatever is raised
+  MeanKind mean = MeanKind::Harmonic;            // the mean that phase raises
+  std::optional<GuardRule> guard = GuardRule{};  // the metric that falls no further, whatever is raised
   VisitOrder order{};
   std::vector<Index> fixed{};  // the user's fixed set, besides boundary and unused vertices and, as `interfaces` says, those on interfaces
   InterfaceRule interfaces = InterfaceRule::Fixed;
   BoundaryRule boundary = BoundaryRule::Fixed;
-  LayerRule layers = LayerRule::Keep;                   // of boundary layers, unless a target is given
+  LayerRule layers = LayerRule::Keep;                   // rule for boundary layers, unless a target is given
   double corner_angle = StandingRule{}.corner_angle;    // degrees; where the boundary slides
-  double feature_angle = StandingRule{}.feature_angle;  // degrees; of volumes, likewise
-  Kinds kinds{};                                        // of vertices and edges, what the user says against angles
-  double joint_gap = JointOptions{}.gap;                // of joint moves, see JointOptions
-  double max_deviation = 1e-3;                          // of the boundary, as a share of the diagonal of the mesh's box
-  FieldRules fields{};                                  // of nodal fields, when the mesh is written
+  double feature_angle = StandingRule{}.feature_angle;  // degrees; where the boundary of a volume slides
+  Kinds kinds{};                                        // kinds of vertices and edges that the user sets against the angles
+  double joint_gap = JointOptions{}.gap;                // of joint moves, see JointOptions::gap
+  double max_deviation = 1e-3;                          // limit for the boundary, as a share of the diagonal of the mesh's box
+  FieldRules fields{};                                  // treatment of nodal fields when the mesh is written
   Backend backend = Backend::Auto;
   friend bool operator==(const RunParameters&, const RunParameters&) = default;
   [[nodiscard]] StandingRule standing() const;
@@ -62,51 +62,52 @@ struct RunParameters {
 enum class ParameterKind { Whole, Real, Choice, Text };
 
 struct ParameterInfo {
-  std::string_view name;   // of its command, its option ("--name") and its key in session files: "grid"
-  std::string_view title;  // in the window: "grid points"
-  std::string_view type;   // in help: "N", "float|double"
-  std::string_view doc;    // one sentence, without a point
+  std::string_view name;   // its command, its option ("--name") and its key in session files: "grid"
+  std::string_view title;  // its title in the window: "grid points"
+  std::string_view type;   // its type in help: "N", "float|double"
+  std::string_view doc;    // one sentence for help, without a full stop
   ParameterKind kind = ParameterKind::Text;
-  double least = 0.0, most = 0.0;                     // of numbers; of Real, `least` is not among them
-  std::span<const std::string_view> choices{};        // of Choice
-  bool MethodInfo::*reader = nullptr;                 // the methods that read it; null: all
-  bool joint_only = false;                            // says nothing where vertices are not moved jointly
-  bool volume_only = false;                           // says nothing of planar meshes
-  bool sliding_only = false;                          // says nothing where no vertex slides
-  bool (*condition)(const RunParameters&) = nullptr;  // besides: whether it is read now; null: always
+  double least = 0.0, most = 0.0;                     // range of numbers; for Real, `least` is not in it
+  std::span<const std::string_view> choices{};        // words of a Choice
+  bool MethodInfo::*reader = nullptr;                 // flag of the methods that read it; null: all do
+  bool joint_only = false;                            // has no effect where vertices are not moved jointly
+  bool volume_only = false;                           // has no effect on planar meshes
+  bool sliding_only = false;                          // has no effect where no vertex slides
+  bool (*condition)(const RunParameters&) = nullptr;  // further condition under which it is read; null: always
   std::string (*to_text)(const RunParameters&);
-  /// Throws UsageError for what is no such value. The range is checked where it is read.
+  /// Sets the parameter. Throws UsageError for words that are no such value. The range is checked where it is read.
   void (*from_text)(RunParameters&, const std::string&);
-  std::string (*in_title)(const RunParameters&) = nullptr;  // what a run's title says where it is not the default; null: nothing
-  std::string_view before{};                                // its value in session files of before it was there; empty: all files have it
-  std::string_view item{};                                  // of its widget in the window, where that is not the name
-  bool in_session = true;                                   // a command, and saved; else an option of the command line alone
+  std::string (*in_title)(const RunParameters&) = nullptr;  // its words in a run's title where it is not the default; null: nothing
+  std::string_view before{};  // its value in session files written before it existed; empty: all files have it
+  std::string_view item{};    // its widget in the window, where that is not the name
+  bool in_session = true;     // is a command, and saved; else an option of the command line alone
 
-  /// `surface`: of a curved surface, where all vertices slide whatever the rule says?
+  /// Returns whether the run reads it. `surface`: whether the mesh is a curved surface, where all vertices slide whatever the rule says.
   [[nodiscard]] bool read_by(const RunParameters& parameters, bool surface) const;
-  /// The doc, with the range of a number and, where not all do, the methods that read it.
+  /// `doc`, with the range of a number and, where not all methods read it, those that do.
   [[nodiscard]] std::string help() const;
 };
-/// All that can be said in one word; method, metric, objectives and fixed vertices have words of their own.
+/// Table of all parameters that are said in one word; method, metric, objectives and fixed vertices have words of their own.
 [[nodiscard]] std::span<const ParameterInfo> parameter_table();
-/// Throws UsageError.
+/// Row of this name. Throws UsageError.
 [[nodiscard]] const ParameterInfo& parameter_info(std::string_view name);
 
 /// Gives the metric a target, and the second one of a combination. Throws UsageError.
 void aim_at(RunParameters& parameters, const Target& target);
-/// "targets: 1204 elements of layers as they were, ...".
+/// Sentence on the metric's targets: "targets: 1204 elements of layers as they were, ...".
 [[nodiscard]] std::string target_sentence(const InputMesh& input, Metric metric);
 
 /// Sets the phases after the method's: "joint", a MeanKind's name, both with a comma between them, or "nothing". Throws UsageError.
 void set_then(RunParameters& parameters, std::string_view words, const PhaseBegin& begin);
-/// The first phase ends no sooner than it would alone.
+/// Makes the first phase end no sooner than it would alone.
 void be_patient(RunParameters& parameters, std::uint64_t patience);
-/// The words of set_then().
+/// Words that set_then() reads.
 [[nodiscard]] std::string then_words(const RunParameters& parameters);
-/// ", then joint, then mean"; empty where the method's phase is the only one.
+/// Later phases in words: ", then joint, then mean"; empty where the method's phase is the only one.
 [[nodiscard]] std::string then_text(const RunParameters& parameters);
 
-/// What tells a run from others by the same method and aims: ", grid 16, shuffle:3"; empty where nothing does. `surface`: see read_by.
+/// Parameters that tell a run from others by the same method and aims: ", grid 16, shuffle:3"; empty where there are none. `surface`: see
+/// read_by.
 [[nodiscard]] std::string other_than_usual(const RunParameters& parameters, bool surface);
 
 }  // namespace dmoscope

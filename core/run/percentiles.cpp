@@ -6,7 +6,7 @@
 namespace dmoscope {
 namespace {
 
-/// The least number of elements that are so many hundredths of all, less one.
+/// Rank, counted from 0, of the last of the fewest elements that are so many hundredths of all.
 std::size_t rank_of(std::size_t hundredths, std::size_t count) { return (hundredths * count + 99) / 100 - 1; }
 
 }  // namespace
@@ -15,7 +15,7 @@ Percentiles percentiles_of(std::vector<double>& qualities) {
   std::erase_if(qualities, [](double q) { return std::isnan(q); });
   if (qualities.empty()) return {};
   const std::size_t count = qualities.size();
-  // From above downwards, so that each search has less to look through.
+  // Searches from above downwards, so that each search has less to look through.
   auto end = qualities.end();
   const auto of = [&](std::size_t hundredths) {
     const auto place = qualities.begin() + static_cast<std::ptrdiff_t>(rank_of(hundredths, count));

@@ -1,5 +1,5 @@
 #pragma once
-// How the worst hundredth, the worst twentieth and the middle of all elements fare.
+// Percentiles of quality: the worst hundredth, the worst twentieth and the median of all elements.
 
 #include <limits>
 #include <span>
@@ -21,10 +21,10 @@ struct Percentiles {
 /// them. NaN is left out. Reorders `qualities`.
 [[nodiscard]] Percentiles percentiles_of(std::vector<double>& qualities);
 
-/// The same of qualities in ascending order, without NaN.
+/// Percentiles of qualities in ascending order, without NaN.
 [[nodiscard]] Percentiles percentiles_of_sorted(std::span<const float> qualities);
 
-/// The same of a mesh.
+/// Percentiles of a mesh.
 [[nodiscard]] Percentiles compute_percentiles(const QualityContext& context, std::span<const Vec3> positions, Metric metric,
                                               ThreadPool* pool);
 

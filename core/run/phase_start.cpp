@@ -24,7 +24,7 @@ std::optional<std::uint64_t> next_phase_start(const RunParameters& parameters, s
   for (const IterationRecord& record : records.first(turn)) best.take(record);
   const std::uint64_t before = best.iteration();
   best.take(records[turn]);
-  // Among equals the one before, so that the answer stays the same once `turn` has its record.
+  // Takes the earlier one of equals, so that the answer stays the same once `turn` has its record.
   if (best.iteration() == turn && !same_state(records[before].statistics, records[turn].statistics)) return std::nullopt;
   const auto since = records.subspan(before + 1, turn - before);
   if (std::ranges::all_of(since, [](const IterationRecord& record) { return record.moved == 0; })) return std::nullopt;

@@ -13,14 +13,14 @@ std::optional<std::uint64_t> PhaseSwitchDetector::find(const PhaseBegin& next, s
   for (std::uint64_t i = seen_ + 1; !turn_ && i < records.size(); ++i) {
     seen_ = i;
     const Statistics& now = records[i].statistics;
-    // As a difference: where nothing is movable both are infinite, and that is no rise.
+    // Compares differences: where nothing is movable both are infinite, and that is no rise.
     if (now.movable_minimum - highest_ >= next.rise) {
       highest_ = now.movable_minimum;
       last_rise_ = i;
     }
     if (now.inverted > 0) {
       if (inverted == Inverted::Wait) last_rise_ = i;
-      // The method's own attempts first: where it cannot finish, it leaves less to do.
+      // Lets the method's own attempts come first: even those that fail leave less to do.
       if (inverted == Inverted::Wait || iterations_since_untangled(records, i) < UntanglingPlan::kEnd) continue;
     }
     const auto rests = [](const IterationRecord& record) { return record.moved == 0; };

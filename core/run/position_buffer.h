@@ -1,5 +1,5 @@
 #pragma once
-// Where a run's positions are: on the host, and, while a device smooths, newer ones there.
+// Positions of a run on the host, and which moment they show while a device smooths ahead of them.
 
 #include <optional>
 #include <span>
@@ -13,32 +13,32 @@
 
 namespace dmoscope {
 
-/// A moment, with what the iteration under way has come to.
+/// Moment, with the progress of the iteration under way.
 struct RunProgress {
   Moment moment{};
   std::uint64_t moved = 0;
-  double seconds = 0.0;        // of smoothing
+  double seconds = 0.0;        // duration of smoothing
   std::uint64_t searched = 0;  // see IterationRecord
   std::optional<JointFigures> joint{};
 };
 
-/// The host's copy of a run's positions, and which moment it shows. A smoother that keeps positions on a device runs ahead of it until
+/// Copy of a run's positions on the host, and the moment that it shows. A smoother that keeps positions on a device runs ahead of it until
 /// download().
 class PositionBuffer {
  public:
-  /// Positions of the run's first moment.
+  /// Begins with the positions of the run's first moment.
   explicit PositionBuffer(std::vector<Vec3> positions) : host_(std::move(positions)) {}
 
   /// The host's copy, whichever moment it shows.
   [[nodiscard]] std::span<Vec3> host() noexcept { return host_; }
   [[nodiscard]] std::span<const Vec3> host() const noexcept { return host_; }
-  /// What the host's copy shows; none: a download failed in its midst, and the copy is of no use.
+  /// Moment that the host's copy shows; none: a download failed in its midst, and the copy is of no use.
   [[nodiscard]] const std::optional<RunProgress>& host_shows() const noexcept { return shows_; }
   [[nodiscard]] bool host_is_at(const Moment& moment) const noexcept { return shows_ && shows_->moment == moment; }
-  /// Seconds that the last download took.
+  /// Duration of the last download.
   [[nodiscard]] double download_seconds() const noexcept { return download_seconds_; }
 
-  /// Makes the host's copy that of `now`, by `store(positions)`, unless it is already. Throws what `store` throws.
+  /// Brings the host's copy up to `now` by `store(positions)`, unless it shows that already. Throws what `store` throws.
   template <class Store>
   void download(const RunProgress& now, const Store& store) {
     if (host_is_at(now.moment)) return;

@@ -1,5 +1,5 @@
 #pragma once
-// Chains of phases that go by one name.
+// Recipes: chains of phases under one name.
 
 #include <optional>
 #include <span>
@@ -15,13 +15,13 @@ struct Recipe {
   std::string_view method, then;  // see set_then()
   double joint_gap;               // see RunParameters
 };
-/// The recommended one first.
+/// Table of all recipes, the recommended one first.
 [[nodiscard]] std::span<const Recipe> recipe_table();
-/// Throws UsageError that lists the known ones.
+/// Recipe of this name. Throws UsageError that lists the known ones.
 [[nodiscard]] const Recipe& recipe(std::string_view name);
 
-/// Sets method and phases, with a PhaseBegin of its own, and the gap of joint moves, where a person has not `said_gap`. Returns what of it
-/// this mesh and metric do not allow, which is left out, in a sentence; usually empty.
+/// Sets method and phases, with a PhaseBegin of its own, and the gap of joint moves unless a person `said_gap`. Leaves out what this mesh
+/// and metric do not allow, and returns a sentence on it; usually empty.
 [[nodiscard]] std::string follow_recipe(const Recipe& recipe, const InputMesh& input, RunParameters& parameters,
                                         std::optional<double> said_gap = {});
 

@@ -38,7 +38,7 @@ struct Qualities {
   double least = 0.0, mean = 0.0;
   Percentiles percentiles;
   std::array<double, kBounds.size()> below{};
-  std::size_t count = 0;  // of the elements that the metric is defined for
+  std::size_t count = 0;  // number of elements that the metric is defined for
 
   Qualities(const InputMesh& input, std::span<const Vec3> positions, Metric metric, ThreadPool* pool) {
     std::vector<double> all(input.mesh.elements.size());
@@ -84,7 +84,7 @@ void for_neighbours(const InputMesh& input, const Visit& visit) {
       if (other != kNoIndex && e < other) visit(e, other);
 }
 
-/// Inverted elements, before and after.
+/// Numbers of inverted elements.
 struct InvertedBeforeAndAfter {
   std::uint64_t before = 0, after = 0;
 };
@@ -138,7 +138,7 @@ class Card {
   }
 
  private:
-  /// A figure of the mesh, the less the better.
+  /// Adds a figure of the mesh, the less the better.
   void add(std::string name, double from, double to, double tolerance, std::string_view kept_by) {
     card_.figures.push_back({"", std::move(name), from, to, opposite(compare(from, to, tolerance)), std::string(kept_by)});
   }
@@ -208,7 +208,7 @@ std::vector<std::string> ReportCard::lines() const {
 std::string ReportCard::sentence(bool as_options) const {
   if (verdict == Verdict::Same) return "The same as the input, within small tolerances";
   if (verdict == Verdict::Better) return "Better than the input, and worse in nothing";
-  // By what keeps them, the figures that nothing keeps first; of each the first few.
+  // Groups the figures by what keeps them, those that nothing keeps first, and names the first few of each group.
   constexpr std::size_t kNamed = 3;
   const auto all = worse();
   std::vector<std::string> keepers, parts;

@@ -1,5 +1,5 @@
 #pragma once
-// What a run made of a mesh as a whole, against its input: not its metric's minimum alone.
+// Report card: what a run made of a mesh as a whole, against its input, besides the minimum of its metric.
 
 #include <span>
 #include <string>
@@ -15,14 +15,14 @@ enum class Verdict { Better, Same, Worse };
 
 /// One figure of a mesh, before and after.
 struct CardFigure {
-  std::string of;    // "mean ratio"; empty of the mesh itself
+  std::string of;    // metric, "mean ratio"; empty for the mesh itself
   std::string name;  // "least", "1 %", "5 %", "mean", "below 0.1"; "inverted", "growth", "wall cells"
   double before = 0.0, after = 0.0;
   Verdict verdict = Verdict::Same;
   std::string kept_by{};  // the option that would have kept it; empty: none does
   /// "mean of mean ratio 0.957 -> 0.844".
   [[nodiscard]] std::string phrase() const;
-  /// The same without what it is of.
+  /// Phrase without the metric.
   [[nodiscard]] std::string short_phrase() const;
 };
 
@@ -37,21 +37,21 @@ struct CardFigure {
 /// than ideal elements the metric that is raised alone tells.
 struct ReportCard {
   std::vector<CardFigure> figures;
-  Verdict verdict = Verdict::Same;  // worse where a figure is; better where one is and none is worse
+  Verdict verdict = Verdict::Same;  // Worse where any figure is; else Better where any is
 
   [[nodiscard]] std::vector<const CardFigure*> worse() const;
-  /// A line a metric and one of the mesh: "mean ratio: least 0.301 -> 0.428, 1 % 0.402 -> 0.520, ...".
+  /// Lines, one for each metric and one for the mesh: "mean ratio: least 0.301 -> 0.428, 1 % 0.402 -> 0.520, ...".
   [[nodiscard]] std::vector<std::string> lines() const;
-  /// "Better than the input, and worse in nothing", "Worse than the input: mean of mean ratio 0.957 -> 0.844 (--then mean keeps it)".
-  /// `as_options`: as the command line has them, else as commands.
+  /// Verdict in words: "Better than the input, and worse in nothing", "Worse than the input: mean of mean ratio 0.957 -> 0.844 (--then mean
+  /// keeps it)". `as_options`: name options of the command line, else commands.
   [[nodiscard]] std::string sentence(bool as_options) const;
 };
 
-/// Where the run stands, against its input. Brings the positions; costs a few looks at each element.
+/// Report card of the run's present state against its input. Brings the positions to the host; costs a few looks at each element.
 [[nodiscard]] ReportCard report_card(const Run& run, ThreadPool* pool);
 
-/// The same of any two states of a mesh. `raised`: the metrics that were, at least one, the first one first; `raises_mean`: whether a phase
-/// did that raises a mean.
+/// Report card of any two states of a mesh. `raised`: the metrics that were raised, at least one, the first aim first; `raises_mean`:
+/// whether a phase raised a mean.
 [[nodiscard]] ReportCard report_card(const InputMesh& input, std::span<const Vec3> before, std::span<const Vec3> after,
                                      std::span<const Metric> raised, bool raises_mean, ThreadPool* pool);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Work that shall be done whatever becomes of the device.
+// Work that shall be done even if the device fails.
 
 #include <string>
 
@@ -8,8 +8,8 @@
 
 namespace dmoscope {
 
-/// Returns work(). When a device fails that nobody asked for by name (Backend::Auto), tells so (tell(std::string)) and does the work once
-/// more: the run has recovered by then and is on the CPU. Throws what work() throws.
+/// Returns work(). When a device fails that nobody asked for by name (Backend::Auto), reports it by tell(std::string) and does the work
+/// once more: the run has recovered by then and is on the CPU. Throws what work() throws.
 template <class Work, class Tell>
 auto retry_on_cpu(const Run& run, const Work& work, const Tell& tell) {
   try {

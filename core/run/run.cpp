@@ -27,12 +27,12 @@ std::vector<std::uint8_t> fixed_vertices(const InputMesh& input, const RunParame
     fixed[on_front(input.mesh, v)] = 1;
   }
   if (input.share) input.share->agree(fixed);
-  for (const Partners& pair : domain != nullptr ? domain->pairs() : std::span<const Partners>())  // who stays holds its partner
+  for (const Partners& pair : domain != nullptr ? domain->pairs() : std::span<const Partners>())  // the fixed one holds its partner
     fixed[pair.first] = fixed[pair.second] = fixed[pair.first] | fixed[pair.second];
   return fixed;
 }
 
-/// But for those that are visited with others.
+/// Free vertices in the order of the visits, without those that are visited with others.
 std::vector<Index> free_vertices(std::span<const std::uint8_t> fixed, const VisitOrder& order, const Domain* domain) {
   std::vector<Index> free;
   reserve_large(free, fixed.size());
@@ -68,7 +68,7 @@ std::optional<Guard> find_guard(const InputMesh& input, const RunParameters& p, 
   const QualityContext context = input.quality_context();
   const Statistics of_input = input.share ? input.share->statistics(context, input.mesh.positions, p.guard->metric, immovable, pool)
                                           : compute_statistics(context, input.mesh.positions, p.guard->metric, immovable, pool);
-  // Where elements are inverted, or none can move, there is nothing to keep.
+  // Returns none where elements are inverted, or none can move: there is nothing to keep.
   if (!(of_input.movable_minimum > 0.0) || std::isinf(of_input.movable_minimum)) return std::nullopt;
   return Guard{p.guard->metric, of_input.movable_minimum};
 }
@@ -110,7 +110,7 @@ Run::Run(std::shared_ptr<const InputMesh> input, RunParameters parameters, std::
       history_(history_bytes),
       first_phase_(parameters_) {
   require_fixed_in_place(*input_, fixed(), begin_);
-  if (begin_ && executor_.smoother) executor_.smoother->positions_replaced();  // it has taken the input's
+  if (begin_ && executor_.smoother) executor_.smoother->positions_replaced();  // the smoother has taken the input's positions
   history_.record_input({.statistics = statistics(), .second = second_minimum()},
                         begin_ ? begin_ : BeginPositions(input_, &input_->mesh.positions));
 }
@@ -228,12 +228,12 @@ BlockPlan Run::block_plan() const {
 
 void Run::ensure_smoother() {
   if (executor_.smoother) return;
-  if (executor_.backend == Backend::Cpu) {  // also where a device failed before
+  if (executor_.backend == Backend::Cpu) {  // also after a failure of a device
     executor_.smoother = make_smoother(task());
   } else {
     executor_ = make_executor(parameters_.backend, acceleration_, task());
   }
-  if (executor_.smoother->positions_on_device()) executor_.smoother->positions_replaced();  // it has taken the input's
+  if (executor_.smoother->positions_on_device()) executor_.smoother->positions_replaced();  // the smoother has taken the input's positions
   blocks_ = block_plan();
   begun_.reset();
 }
@@ -261,7 +261,7 @@ void Run::recover() {
 
 void Run::record(const RunProgress& done) {
   const std::uint64_t iteration = at_.moment.iteration;
-  if (iteration < history_.records().size()) return;  // been here before
+  if (iteration < history_.records().size()) return;  // done before
   const auto mean = mean_since();
   history_.record(
       {iteration, statistics(), done.moved, done.seconds, done.searched, done.joint, second_minimum(), mean && *mean < iteration});
@@ -270,7 +270,7 @@ void Run::record(const RunProgress& done) {
     auto since = first_phase_end();
     if (since == iteration && raises_ && !looked_ && history_.records().back().statistics.inverted == 0) {
       looked_ = true;
-      Progress unwatched;  // the record is not whole before it is known
+      Progress unwatched;  // not to be cancelled: the record is not whole before the outcome is known
       if (raise_follows_look(look_at_worst(unwatched))) {
         turn_.forget_after(iteration - 1);
         since.reset();
@@ -289,7 +289,7 @@ void Run::record(const RunProgress& done) {
   keep();
 }
 
-/// Keeps the positions of an iteration's end, where the host has them anyway.
+/// Keeps the positions of an iteration's end, where the host has them.
 void Run::keep() {
   if (!at_.moment.is_iteration_end() || !positions_.host_is_at(at_.moment)) return;
   history_.keep(at_.moment.iteration, positions_.host(), pool_.get());

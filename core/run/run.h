@@ -36,15 +36,15 @@ struct MeshRegion;
 
 enum class StepUnit { Vertex, Class, Iteration };
 
-/// What a run of iterations that is under way is after: of Run::iterate and Run::until_converged, while they are at work.
+/// Goal of the iterations under way: those of Run::iterate and Run::until_converged, while they are at work.
 struct Pursuit {
-  std::uint64_t from = 0, last = 0;  // it began at the end of iteration `from`, and ends at the latest with that of `last`
+  std::uint64_t from = 0, last = 0;  // the iteration at whose end it began, and that with which it ends at the latest
   bool until_converged = false;
-  /// Of until_converged: it ends after so many more iterations without a gain; none while it does not end by that.
+  /// Number of further iterations without a gain after which until_converged ends; none while patience does not end it.
   std::optional<std::uint64_t> patience_left{};
 };
 
-/// When "until converged" stops.
+/// Limits at which "until converged" stops.
 struct ConvergenceLimits {
   std::uint64_t patience = 200;  // iterations without a rise of either minimum by `rise`
   std::uint64_t max_iterations = 10000;
@@ -61,18 +61,18 @@ struct Outcome {
   std::uint64_t iterations = 0;         // done by this call
   std::uint64_t ended = 0;              // the iteration that it ended with
   std::uint64_t last_rise = 0;          // iteration in which a minimum last rose by limits.rise; 0: never
-  RunPhases phases{};                   // those that were reached
-  Index inverted = 0;                   // elements, at the end
+  RunPhases phases{};                   // the phases that were reached
+  Index inverted = 0;                   // inverted elements at the end
   std::optional<std::uint64_t> best{};  // the iteration that end_at_best() went back to
   ConvergenceLimits limits;
-  bool two_aims = false;     // of a combination
+  bool two_aims = false;     // whether the run had a combination
   std::uint64_t raised = 0;  // iterations in which vertices around the worst element moved together, within the method's phase
-  std::vector<JointUntangling> untanglings{};  // those that turned any
-  /// "converged: no vertex moved any more; the minimum last rose in iteration 9"
+  std::vector<JointUntangling> untanglings{};  // iterations that untangled any elements
+  /// Sentence on the end: "converged: no vertex moved any more; the minimum last rose in iteration 9".
   [[nodiscard]] std::string sentence() const;
 };
 
-/// Where a run stands, and on which path.
+/// Moment at which a run stands, and its path.
 struct RunSnapshot {
   Moment moment{};
   SharedVector<Edit> edits{};
@@ -85,104 +85,104 @@ struct RunSnapshot {
 /// Joint move of the vertices around the worst element, found at the end of an iteration for the next one.
 struct RaiseOfWorst {
   std::uint64_t iteration = 0;
-  bool certified = false;                  // nothing raises it by what is worth it
-  std::vector<JointCluster::Moved> moved;  // empty: that is not known, or it gains too little; those of this process
-  std::uint64_t count = 0;                 // of all processes
+  bool certified = false;                  // no joint move raises it by a worthwhile amount
+  std::vector<JointCluster::Moved> moved;  // vertices of this process; empty: not known, or it gains too little
+  std::uint64_t count = 0;                 // number of vertices in all processes
   JointFigures figures{};
   double seconds = 0.0;
 };
 
-/// Where the vertices of a run that continues another one begin; null: as in the input.
+/// Positions that a run begins with if it continues another one; null: those of the input.
 using BeginPositions = std::shared_ptr<const std::vector<Vec3>>;
 
 class Run {
  public:
   /// Throws UsageError for parameters out of range, an unknown method, a metric not defined for the mesh, or a backend that cannot do it;
-  /// DeviceError when the backend asked for by name fails. `begin`: where the vertices stand in iteration 0; null: as in the input, to
-  /// which reference, fixed vertices and guard belong in any case. Throws UsageError where a fixed vertex does not begin where the input
-  /// has it.
+  /// DeviceError when the backend asked for by name fails. `begin`: positions of the vertices in iteration 0; null: those of the input, to
+  /// which reference, fixed vertices and guard belong in any case. Throws UsageError where a fixed vertex begins elsewhere than in the
+  /// input.
   Run(std::shared_ptr<const InputMesh> input, RunParameters parameters, std::shared_ptr<ThreadPool> pool, std::size_t history_bytes,
       Acceleration acceleration = {}, BeginPositions begin = nullptr);
   ~Run();
   Run(Run&&) noexcept;
   Run& operator=(Run&&) noexcept;
 
-  /// Which of a session's runs it is, given by the session: it stays when the parameters of an untouched run change or its mesh is read
-  /// again. 0: none of them.
+  /// Number of the run within its session, which gives it: it stays when the parameters of an untouched run change or its mesh is read
+  /// again. 0: not part of a session.
   [[nodiscard]] std::uint64_t id() const noexcept { return id_; }
   void set_id(std::uint64_t id) noexcept { id_ = id; }
-  /// What a person called it, given by the session as the id is; empty: nothing.
+  /// Name that a person gave the run, set by the session; empty: none.
   [[nodiscard]] const std::string& given_name() const noexcept { return given_name_; }
   void set_given_name(std::string name) noexcept { given_name_ = std::move(name); }
   [[nodiscard]] const InputMesh& input() const noexcept { return *input_; }
   [[nodiscard]] const std::shared_ptr<const InputMesh>& shared_input() const noexcept { return input_; }
   [[nodiscard]] const RunParameters& parameters() const noexcept { return parameters_; }
   [[nodiscard]] const BeginPositions& begin() const noexcept { return begin_; }
-  /// Its name; where it has none, what it does: "dmo · mean ratio, grid 12".
+  /// Name of the run; if it has none, its method and parameters: "dmo · mean ratio, grid 12".
   [[nodiscard]] std::string title() const;
   [[nodiscard]] RunPhases phases() const;
-  /// See RunPhases; looks at no more than it must.
+  /// Begin of a later phase, see RunPhases; looks at no more records than it must.
   [[nodiscard]] std::optional<std::uint64_t> joint_since() const;
   [[nodiscard]] std::optional<std::uint64_t> mean_since() const;
-  /// What an iteration of joint moves did, as far as that is at hand; else null.
+  /// Joint move that an iteration made; null where it is not at hand.
   [[nodiscard]] std::shared_ptr<const JointIteration> joint_iteration(std::uint64_t iteration) const {
     return joint_course_.find(iteration);
   }
-  /// What joint moves know at the end of the iteration in which the run stands; null outside their phase.
+  /// State of the joint moves at the end of the iteration in which the run stands; null outside their phase.
   [[nodiscard]] std::shared_ptr<const JointStanding> joint_standing() const;
-  /// What the next visits are part of.
+  /// Sweep that the next visits are part of.
   [[nodiscard]] Sweep sweep() const;
-  /// Of a combination with a size function; else null.
+  /// Size function of a combination; null where there is none.
   [[nodiscard]] const std::shared_ptr<const SizeField>& size_field() const noexcept { return size_; }
-  /// What its rule comes to: none where it is off, or says nothing that the metrics that are raised do not.
+  /// Guard in force: none where it is off, or says nothing beyond the metrics that are raised.
   [[nodiscard]] const std::optional<Guard>& guard() const noexcept { return guard_; }
-  /// What smooths, whatever was asked for: never Backend::Auto.
+  /// Backend in use, whatever was asked for: never Backend::Auto.
   [[nodiscard]] Backend backend() const noexcept { return executor_.backend; }
-  /// On a device: which; on the CPU: why not cuda, empty where it was not wanted.
+  /// Name of the device; on the CPU, the reason for not using cuda, empty where it was not wanted.
   [[nodiscard]] const std::string& backend_reason() const noexcept { return executor_.reason; }
-  /// Both together: "cuda: NVIDIA H200, ...", "cpu, 8 threads (no cuda: built without a CUDA toolkit)".
+  /// Backend with its reason: "cuda: NVIDIA H200, ...", "cpu, 8 threads (no cuda: built without a CUDA toolkit)".
   [[nodiscard]] std::string backend_sentence() const;
-  /// What a person should be told about the backend since the last call; usually empty.
+  /// Warning about the backend that has arisen since the last call; usually empty.
   [[nodiscard]] std::string take_warning() { return std::exchange(executor_.warning, {}); }
 
-  /// As they are now; brings them up to date first, so only on the thread that steps. What it returned before a step is out of date.
+  /// Positions at this moment; brings them up to date first, so only on the thread that steps. A later step makes the span out of date.
   /// Throws DeviceError; see recover().
   [[nodiscard]] std::span<const Vec3> positions() const;
   [[nodiscard]] const Moment& moment() const noexcept { return at_.moment; }
-  /// Statistics of the optimised metric at this very moment. Throws DeviceError; see recover().
+  /// Statistics of the optimised metric at this moment. Throws DeviceError; see recover().
   [[nodiscard]] Statistics statistics() const;
-  /// Where the positions live on a device, as Smoother::picture; else null. Throws DeviceError, which need not mean that the device is
-  /// lost.
+  /// Picture of positions that live on a device, see Smoother::picture; null where they do not. Throws DeviceError, which need not mean
+  /// that the device is lost.
   [[nodiscard]] std::shared_ptr<const DevicePicture> picture(Metric shown) const;
-  /// Brings the positions to the host, where they are kept for the history: nothing can take them away then.
+  /// Brings the positions to the host and keeps them in the history, so that no failure of a device can lose them.
   void sync_to_host();
-  /// After a DeviceError of one of the above: goes back to the last moment whose positions the host has, and on from there on the CPU. All
-  /// that changes the run does so by itself when a device fails it, before it throws the DeviceError. Without a failure: does nothing.
+  /// Recovers from a DeviceError of one of the above: goes back to the last moment whose positions the host has, and on from there on the
+  /// CPU. Functions that change the run do so by themselves before they throw the DeviceError. Without a failure: does nothing.
   void recover();
   [[nodiscard]] const Colouring& colouring() const noexcept { return *colouring_; }
   [[nodiscard]] const std::shared_ptr<const Colouring>& shared_colouring() const noexcept { return colouring_; }
   /// 1 where a vertex may not move: boundary, unused, on an interface that is fixed, or the user's.
   [[nodiscard]] std::span<const std::uint8_t> fixed() const noexcept { return fixed_; }
-  /// Where vertices slide; null: none does.
+  /// Curves and facets that vertices slide on; null: no vertex slides.
   [[nodiscard]] const std::shared_ptr<const Domain>& domain() const noexcept { return domain_; }
   [[nodiscard]] const SharedVector<std::uint8_t>& shared_fixed() const noexcept { return fixed_; }
-  /// "it lies on the boundary, which stays"; empty for a free vertex.
+  /// Reason why a vertex is fixed, "it lies on the boundary, which stays"; empty for a free vertex.
   [[nodiscard]] std::string why_fixed(Index vertex) const;
-  /// The elements all of whose corners are fixed, ascending: see compute_statistics.
+  /// Immovable elements, whose corners are all fixed, ascending: see compute_statistics.
   [[nodiscard]] std::span<const Index> immovable() const noexcept { return immovable_; }
   [[nodiscard]] std::uint64_t visits_per_iteration() const noexcept { return colouring_->order.size(); }
   [[nodiscard]] const History& history() const noexcept { return history_; }
   void set_history_budget(std::size_t bytes) { history_.set_budget(bytes); }
   void set_pool(std::shared_ptr<ThreadPool> pool) { pool_ = std::move(pool); }
 
-  /// One vertex, one colour class (the rest of it when in its midst), or one iteration (likewise) forwards. Edits on the way are done
-  /// again; one is a step like a vertex. In a phase of joint moves each is a whole iteration, which is one cluster. Returns vertices moved,
-  /// not counting those that edits moved. On Cancelled the run stands at an exact moment between two visits; nothing is lost. On
-  /// DeviceError (here and in all below) the run has recovered: see there.
+  /// Goes forwards by one vertex, or by one colour class or iteration (the rest of it when in its midst). Edits on the way are done again;
+  /// one is a step like a vertex. In a phase of joint moves each is a whole iteration, which is one cluster. Returns vertices moved, not
+  /// counting those that edits moved. On Cancelled the run stands at an exact moment between two visits; nothing is lost. On DeviceError
+  /// (here and in all below) the run has recovered: see recover().
   std::uint64_t step(StepUnit unit, Progress& progress);
-  /// The reverse: to the previous vertex, class start or iteration start. At the input: does nothing, returns false.
+  /// Goes backwards: to the previous vertex, class start or iteration start. At the input does nothing and returns false.
   bool back(StepUnit unit, Progress& progress);
-  /// To any moment, past or future: restores the nearest kept positions before it and repeats the visits from there (the same bits).
+  /// Goes to any moment, past or future: restores the nearest kept positions before it and repeats the visits from there (the same bits).
   /// Throws UsageError for more visits or edits than there are.
   void seek(const Moment& wanted, Progress& progress);
 
@@ -191,41 +191,43 @@ class Run {
   /// is forgotten. Throws UsageError, with nothing done, for a vertex that is fixed or does not exist. On Cancelled nothing is done.
   std::uint64_t visit_vertices(std::span<const Index> vertices, Progress& progress);
   [[nodiscard]] const Edits& edits() const noexcept { return edits_; }
-  /// Back to the input, or where else it began, and the edits are forgotten.
+  /// Goes back to the begin, the input or BeginPositions, and forgets the edits.
   void reset(Progress& progress);
   [[nodiscard]] RunSnapshot point() const;
-  /// Goes to where this run stood, whatever became of its path since then. On Cancelled the run stands at an exact moment of that path.
+  /// Goes to the moment of a snapshot of this run, even if its path has changed since then. On Cancelled the run stands at an exact moment
+  /// of that path.
   void go_to(const RunSnapshot& point, Progress& progress);
-  /// Gives up what only smoothing needs, some of it on a device; who smooths next makes it again.
+  /// Frees what only smoothing needs, some of it on a device; the next smoothing makes it again.
   void rest();
 
   /// Works out the percentiles (of the optimised metric) of those recorded iterations that lack them and whose positions are known, asking
   /// `go_on`, which gets the share that is done, before each. Returns whether there are new ones.
   bool find_percentiles(const std::function<bool(double)>& go_on);
 
-  /// Takes over what is known of a path from elsewhere, with the positions at the end of iteration point.moment.iteration, and goes to its
-  /// moment. Of a run that is fresh. Throws UsageError for edits or moments that this run cannot have.
+  /// Takes over the known part of a path from elsewhere, with the positions at the end of iteration point.moment.iteration, and goes to its
+  /// moment. Only for a fresh run. Throws UsageError for edits or moments that this run cannot have.
   void adopt(const RunSnapshot& point, std::span<const Vec3> positions, Progress& progress);
 
-  /// Changes whenever a moment may show other positions than it did before: same run, same path, same moment, same bits.
+  /// Number that changes whenever a moment may show other positions than it did before: same run, same path, same moment, same bits.
   [[nodiscard]] std::uint64_t path() const noexcept { return path_; }
 
-  /// Called between two blocks of visits, on the thread that steps, at least every 100 ms or so: to publish what there is to see.
+  /// Sets a function that is called between two blocks of visits, on the thread that steps, at least every 100 ms or so, to publish
+  /// progress.
   void set_observer(std::function<void(const Run&)> observer) { observer_ = std::move(observer); }
 
-  /// Called after every iteration of the two calls below, on the calling thread.
+  /// Function that the two calls below call after every iteration, on the calling thread.
   using AfterIteration = std::function<void(const Run&)>;
   Outcome iterate(std::uint64_t iterations, Progress& progress, const AfterIteration& after = {});
-  /// The two calls as if they had been made at the input and had come to where the run stands, the end of an iteration: they end where, and
-  /// as, they would have ended then. Of a run that was saved on its way (see adopt). What `after` would have heard it does not hear again.
+  /// Go on with a call that was made at the input, from the end of an iteration where the run stands: they end when and as that call would
+  /// have. For a run that was saved on its way (see adopt). `after` is not called again for iterations before it.
   Outcome iterate_from_input(std::uint64_t iterations, Progress& progress, const AfterIteration& after = {});
   Outcome until_converged_from_input(const ConvergenceLimits& limits, Progress& progress, const AfterIteration& after = {});
-  /// Why the last of these two calls stopped; none after any other step.
+  /// Reason why the last of these two calls stopped; none after any other step.
   [[nodiscard]] const std::optional<Outcome>& last_outcome() const noexcept { return last_outcome_; }
   Outcome until_converged(const ConvergenceLimits& limits, Progress& progress, const AfterIteration& after = {});
-  /// After one of these: goes back to the best iteration (see BestState), where that is not the last; last_outcome() says so.
+  /// Goes back to the best iteration (see BestState) after one of these calls, where that is not the last; last_outcome() says so.
   void end_at_best(Progress& progress);
-  /// What the call of one of these four that is under way is after; none while none is.
+  /// Goal of the call of these four that is under way; none while none is.
   [[nodiscard]] const std::optional<Pursuit>& pursuit() const noexcept { return pursuit_; }
 
  private:
@@ -283,7 +285,7 @@ class Run {
   BeginPositions begin_;
   std::shared_ptr<ThreadPool> pool_;
   Acceleration acceleration_;
-  std::shared_ptr<const Domain> domain_;  // where vertices slide; null: none does
+  std::shared_ptr<const Domain> domain_;  // curves and facets that vertices slide on; null: no vertex slides
   SharedVector<std::uint8_t> fixed_;
   std::shared_ptr<const Colouring> colouring_;
   std::vector<Index> immovable_;
@@ -291,29 +293,29 @@ class Run {
   std::optional<Guard> guard_;
   Executor executor_;  // its smoother is null while the run rests
   RunProgress at_;
-  mutable PositionBuffer positions_;  // positions() downloads
-  mutable std::string failure_;       // of the device, until recover()
-  double unkept_seconds_ = 0.0;       // of smoothing since positions were last kept
-  std::uint64_t last_moved_ = 0;      // in the iteration last ended
+  mutable PositionBuffer positions_;  // brought up to date by positions()
+  mutable std::string failure_;       // failure of the device, until recover()
+  double unkept_seconds_ = 0.0;       // duration of smoothing since positions were last kept
+  std::uint64_t last_moved_ = 0;      // vertices moved in the iteration last ended
   BlockPlan blocks_;
   History history_;
   mutable PhaseSwitchDetector turn_;
   BestPositions first_phase_;
   JointCourse joint_course_;
-  std::unique_ptr<JointClusters> joint_clusters_;  // null while nobody needs it
-  std::optional<Sweep> begun_;                     // what the smoother was told last
+  std::unique_ptr<JointClusters> joint_clusters_;  // null while not needed
+  std::optional<Sweep> begun_;                     // sweep that the smoother was told last
   Edits edits_;
   std::uint64_t path_ = 0;
-  std::vector<Index> rank_of_;  // of every vertex in the colouring's order; empty until there is an edit
+  std::vector<Index> rank_of_;  // rank of every vertex in the colouring's order; empty until there is an edit
   std::function<void(const Run&)> observer_;
   std::optional<Outcome> last_outcome_;
   std::optional<Pursuit> pursuit_;
   // State of a run until convergence: joint raises of a stuck worst element are allowed; one was looked for since the minimum last rose.
   bool raises_ = false, looked_ = false;
-  std::optional<RaiseOfWorst> next_raise_;  // the next iteration; none: it is as its kind says
+  std::optional<RaiseOfWorst> next_raise_;  // joint move for the next iteration; none: it is as its kind says
 };
 
-/// Does what may ask a device; a failure is remembered for recover().
+/// Calls a body that may ask a device; a failure is remembered for recover().
 template <class Body>
 auto Run::asking_device(const Body& body) const {
   try {
@@ -324,7 +326,7 @@ auto Run::asking_device(const Body& body) const {
   }
 }
 
-/// Does what may ask a device; after a failure the run has recovered, and the error says so.
+/// Calls a body that may ask a device; after a failure recovers the run before it throws.
 template <class Body>
 auto Run::recovering(const Body& body) {
   try {

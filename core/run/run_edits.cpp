@@ -9,7 +9,7 @@
 
 namespace dmoscope {
 
-/// The ranks of free vertices in the run's order, ascending, each once. Throws UsageError for one that cannot be visited.
+/// Ranks of free vertices in the run's order, ascending, each once. Throws UsageError for a vertex that cannot be visited.
 std::vector<Index> Run::ranks_of(std::span<const Index> vertices) {
   if (rank_of_.empty()) {
     rank_of_.assign(input_->mesh.vertex_count(), kNoIndex);
@@ -41,7 +41,7 @@ std::string Run::why_fixed(Index vertex) const {
   return why.empty() ? "it was fixed by hand" : std::string(why);
 }
 
-/// Visits vertices (distinct, in the order of the visits) and goes one edit on; returns how many moved.
+/// Visits vertices (distinct, in the order of the visits), which makes one edit more; returns how many moved.
 std::uint64_t Run::do_edit(std::span<const Index> vertices) {
   const std::vector<Index> ranks = ranks_of(vertices);
   std::uint64_t moved = 0;
@@ -79,7 +79,7 @@ std::uint64_t Run::visit_vertices(std::span<const Index> vertices, Progress& pro
         edit.vertices.push_back(colouring_->order[rank]);
       moved += recovering([&] { return do_edit(edit.vertices); });
     }
-  } catch (const DeviceError&) {  // it has recovered
+  } catch (const DeviceError&) {  // the run has recovered
     throw;
   } catch (...) {
     if (at_.moment != before.moment) put(positions_before, before);

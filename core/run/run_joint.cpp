@@ -19,9 +19,9 @@ namespace dmoscope {
 
 namespace {
 
-constexpr std::size_t kMostVertices = 1U << 20U;  // of a region
+constexpr std::size_t kMostVertices = 1U << 20U;  // limit for the vertices of a region
 
-/// Elements that the process has.
+/// Elements of this process that satisfy `is_seed`, ascending.
 template <class IsSeed>
 std::vector<Index> elements_that(const InputMesh& input, IsSeed is_seed) {
   std::vector<Index> seeds;
@@ -37,15 +37,15 @@ bool Run::knows_joint_moves() const {
   return method_info(parameters_.method).optimises && !(input_->share ? input_->share->any(cannot) : cannot);
 }
 
-/// Whether the iteration after this one, of the method's phase, moves vertices around inverted elements together. A share's regions know
-/// no targets and fields of the whole mesh.
+/// Returns whether the next iteration, of the method's phase, moves vertices around inverted elements together. A share's regions know no
+/// targets and fields of the whole mesh.
 bool Run::joint_untangling_follows(std::uint64_t iteration) const {
   const bool can =
       method_info(parameters_.method).optimises && !input_->is_surface() && (!input_->share || is_built_in(parameters_.metric));
   return can && untangles_jointly(history_.records(), iteration, input_->has_strays) && !joint_follows(iteration);
 }
 
-/// At the end of an iteration (or after edits there): the next one, in which vertices around inverted elements move together.
+/// Makes an iteration in which vertices around inverted elements move together, from the end of one or after edits there.
 void Run::untangle_jointly(Progress& progress) {
   const std::uint64_t iteration = at_.moment.iteration + 1;
   const Stopwatch watch;
@@ -71,7 +71,7 @@ void Run::untangle_jointly(Progress& progress) {
   record({.moment = {iteration}, .moved = last_moved_, .seconds = watch.seconds()});
 }
 
-/// As far around inverted elements as can be taken together.
+/// Region around inverted elements, as large as can be taken together.
 std::optional<MeshRegion> Run::region_of_inverted(std::span<const Vec3> positions) const {
   constexpr int kMostRings = 254, kFewRings = 6;
   const QualityContext context = input_->quality_context();
@@ -80,20 +80,20 @@ std::optional<MeshRegion> Run::region_of_inverted(std::span<const Vec3> position
   return region ? std::move(region) : region_around(*input_, positions, fixed_, seeds, kFewRings, kMostVertices);
 }
 
-/// Whether look_at_worst() tells what raises the worst element. Where vertices slide it would hold them: a region knows no domain, nor the
-/// targets and fields of the whole mesh that a defined metric may ask for.
+/// Returns whether look_at_worst() can find a raise of the worst element. Where vertices slide it would hold them: a region knows no
+/// domain, nor the targets and fields of the whole mesh that a defined metric may ask for.
 bool Run::can_raise_worst() const {
   const bool is_plain = !method_info(parameters_.method).joint && !parameters_.combination && !domain_;
   return is_plain && is_built_in(parameters_.metric) && knows_joint_moves();
 }
 
-/// Whether a certificate of the minimum ends the run.
+/// Returns whether a certificate of the minimum ends the run.
 bool Run::can_be_certified() const { return !parameters_.then_joint && !parameters_.then_mean && can_raise_worst(); }
 
-/// At an iteration's end: what vertices around the worst element that can move do for it together, on a copy.
+/// Finds the joint move of vertices around the worst element that can move, at an iteration's end, on a copy.
 RaiseOfWorst Run::look_at_worst(Progress& progress) {
-  constexpr std::size_t kAtMost = 500;  // vertices: it is asked while others still move
-  constexpr double kNoGain = 2e-3;      // of the minimum: finer than what single vertices find
+  constexpr std::size_t kAtMost = 500;  // limit for the vertices: it is asked while others still move
+  constexpr double kNoGain = 2e-3;      // rise of the minimum that is too little: finer than what single vertices find
   const int rings = input_->is_volume() ? 6 : 16;
   RaiseOfWorst look;
   look.iteration = at_.moment.iteration;
@@ -130,7 +130,7 @@ RaiseOfWorst Run::look_at_worst(Progress& progress) {
   return look;
 }
 
-/// After a look at the end of the last iteration: if it gains, the next one does what was found.
+/// Makes the next iteration do the joint move that a look at the end of the last one found, if it gains.
 bool Run::raise_follows_look(RaiseOfWorst look) {
   if (look.figures.vertices == 0) return false;
   history_.raise_after_last();
@@ -138,12 +138,12 @@ bool Run::raise_follows_look(RaiseOfWorst look) {
   return true;
 }
 
-/// Whether the iteration after this one, of the method's phase, moves vertices around the worst element together.
+/// Returns whether the next iteration, of the method's phase, moves vertices around the worst element together.
 bool Run::raise_of_worst_follows(std::uint64_t iteration) const {
   return history_.records()[iteration].raise_follows && edits_.count_at({iteration}) == 0;
 }
 
-/// At the end of an iteration: the next one, in which vertices around the worst element move together.
+/// Makes an iteration in which vertices around the worst element move together, from the end of one.
 void Run::raise_worst_jointly(Progress& progress) {
   const bool known = next_raise_ && next_raise_->iteration == at_.moment.iteration;
   const RaiseOfWorst raise = known ? *std::exchange(next_raise_, std::nullopt) : look_at_worst(progress);

@@ -25,7 +25,7 @@ JointOptions joint_options(const RunParameters& parameters, const std::optional<
   return options;
 }
 
-/// How far a cluster is, by how far it still is from its bound.
+/// Progress of a cluster, 0 to 1, by how far it still is from its bound.
 double share_done(double gap, double goal) { return gap > 0.0 ? std::clamp(std::log(gap) / std::log(goal), 0.0, 1.0) : 1.0; }
 
 }  // namespace
@@ -43,7 +43,7 @@ RunPhases Run::phases() const {
   return all;
 }
 
-/// The iteration at whose end the method's phase is over, where another comes after it.
+/// Iteration at whose end the method's phase is over, where another comes after it.
 std::optional<std::uint64_t> Run::first_phase_end() const {
   const PhaseBegin* next = next_phase(parameters_);
   if (next == nullptr) return std::nullopt;
@@ -51,7 +51,7 @@ std::optional<std::uint64_t> Run::first_phase_end() const {
                     parameters_.then_joint ? Inverted::Leave : Inverted::Wait);
 }
 
-/// The iteration to whose state the run goes back there, the best of the first phase; none where it goes on from the last.
+/// Iteration to whose state the run goes back there, the best of the first phase; none where it goes on from the last.
 std::optional<std::uint64_t> Run::first_phase_best() const {
   const auto end = first_phase_end();
   if (!end) return std::nullopt;
@@ -81,7 +81,7 @@ std::optional<std::uint64_t> Run::mean_since() const {
   return over && history_.records()[*over].statistics.inverted == 0 ? over : std::nullopt;
 }
 
-/// Whether the iteration after this one is one of joint moves.
+/// Returns whether the next iteration is one of joint moves.
 bool Run::joint_follows(std::uint64_t iteration) const {
   const auto joint = joint_since();
   if (!joint || *joint > iteration) return false;
@@ -97,7 +97,7 @@ std::shared_ptr<const JointStanding> Run::joint_standing() const {
   return state ? std::make_shared<const JointStanding>(JointStanding{iteration, std::move(*state)}) : nullptr;
 }
 
-/// A guard is a first aim that is reached already.
+/// Aims of joint moves. A guard is a first aim that is reached already.
 JointObjective Run::joint_aims() const {
   if (!guard_ || parameters_.combination) return {parameters_.metric, parameters_.combination};
   const JointObjective guarded(guard_->metric, CompositeTerms{std::nextafter(guard_->floor, 0.0), parameters_.metric});
@@ -111,8 +111,8 @@ JointClusters& Run::joint_clusters() {
   return *joint_clusters_;
 }
 
-/// At the end of an iteration (or after edits there): the next one, which is a cluster. Where too little is known to go on from here, goes
-/// back to the begin of the phase instead.
+/// Makes an iteration of joint moves, which is a cluster, from the end of an iteration or after edits there. Where too little is known to
+/// go on from here, goes back to the begin of the phase instead.
 void Run::move_jointly(Progress& progress) {
   const std::uint64_t iteration = at_.moment.iteration, since = *joint_since();
   const Stopwatch watch;

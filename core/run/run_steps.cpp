@@ -1,4 +1,4 @@
-// How a run goes along its path: steps, seeks, and runs of iterations.
+// Movement of a run along its path: steps, seeks, and runs of iterations.
 
 #include <algorithm>
 #include <memory>
@@ -64,8 +64,8 @@ void Run::visit(std::uint64_t count, Progress& progress) {
   }
 }
 
-/// At the end of the first phase: goes to the state that the next begins from. After it the run stands there for good, whichever way it
-/// has come: the records alone tell which state that is.
+/// Goes to the state that the next phase begins from, at the end of the first phase. After it the run stands there for good, whichever way
+/// it has come: the records alone tell which state that is.
 void Run::begin_next_phase(Progress& progress) {
   if (!at_.moment.is_iteration_end() || first_phase_end() != at_.moment.iteration) return;
   const auto best = first_phase_best();
@@ -78,7 +78,7 @@ void Run::begin_next_phase(Progress& progress) {
     const History::Kept kept = history_.nearest(*best);
     if (kept.iteration == *best) {
       positions.assign(kept.positions.begin(), kept.positions.end());
-    } else {  // of a run that was read, or whose history had no room
+    } else {  // the run was read, or its history had no room
       const std::uint64_t moved = last_moved_;
       restore(*best);
       walk_to({*best}, progress);
@@ -106,7 +106,7 @@ void Run::visit_block(std::uint64_t count) {
 
 void Run::end_iteration() {
   RunProgress done = std::exchange(at_, {{at_.moment.iteration + 1}});
-  if (!executor_.smoother->positions_on_device()) {  // where they are near, storing them is part of the smoothing
+  if (!executor_.smoother->positions_on_device()) {  // storing positions of the host is part of the smoothing
     download();
     done.seconds += positions_.download_seconds();
   }
@@ -132,8 +132,8 @@ void Run::walk_to(const Moment& target, Progress& progress) {
     } else if (now.visits == 0 && raise_of_worst_follows(now.iteration)) {
       raise_worst_jointly(progress);
       begin_next_phase(progress);
-    } else if (whole == 0) {                                                     // nothing is free: an iteration visits nobody
-      recovering([this] { input_->share ? visit_block(0) : end_iteration(); });  // of a share: other processes visit theirs
+    } else if (whole == 0) {                                                     // nothing is free: an iteration visits no vertex
+      recovering([this] { input_->share ? visit_block(0) : end_iteration(); });  // other processes visit the vertices of their shares
       begin_next_phase(progress);
     } else {
       std::uint64_t stop = now.iteration < target.iteration ? whole : target.visits;
@@ -162,7 +162,7 @@ std::uint64_t Run::step(StepUnit unit, Progress& progress) {
   return (at_.moment.iteration > before.moment.iteration ? last_moved_ : at_.moved) - before.moved;
 }
 
-/// Whether the iteration after this one is a joint move, which is one step.
+/// Returns whether the next iteration is a joint move, which is one step.
 bool Run::is_joint(std::uint64_t iteration) const {
   return joint_follows(iteration) || joint_untangling_follows(iteration) || raise_of_worst_follows(iteration);
 }
@@ -196,7 +196,7 @@ bool Run::back(StepUnit unit, Progress& progress) {
 void Run::seek(const Moment& wanted, Progress& progress) {
   const std::uint64_t whole = visits_per_iteration();
   if (wanted.visits > whole) throw UsageError(fmt::format("an iteration has {} visits, not {}", whole, wanted.visits));
-  const bool at_end = wanted.visits == whole && wanted.visits > 0;  // which is the start of the next
+  const bool at_end = wanted.visits == whole && wanted.visits > 0;  // is the start of the next iteration
   const Moment target = at_end ? Moment{wanted.iteration + 1, 0, wanted.edits} : wanted;
   if (const std::uint64_t edits = edits_.count_at(target); target.edits > edits)
     throw UsageError(fmt::format("there {} {} visit{} of chosen vertices at that moment, not {}", edits == 1 ? "was" : "were", edits,
@@ -233,14 +233,14 @@ void Run::restore(std::uint64_t iteration) {
   put(kept.positions, {{kept.iteration}});
 }
 
-/// Stands at a place whose positions are these.
+/// Stands at a place whose positions are given.
 void Run::put(std::span<const Vec3> positions, const RunProgress& place) {
   positions_.assign(positions, place);
   if (executor_.smoother) executor_.smoother->positions_replaced();
   at_ = place;
 }
 
-/// May an iteration after this one untangle what it did not?
+/// Returns whether an iteration after this one may untangle elements that it did not.
 bool Run::attempts_to_untangle(std::uint64_t iteration) const {
   const auto& records = history_.records();
   return records[iteration].statistics.inverted > 0 && method_info(parameters_.method).optimises &&
@@ -275,7 +275,7 @@ void Run::end_at_best(Progress& progress) {
   last_outcome_ = outcome;
 }
 
-/// The positions at the end of an iteration, where the host has them and the history does not; else false, and none.
+/// Copies the positions at the end of an iteration, where the host has them and the history does not; else returns false, and none.
 bool Run::copy_unkept(std::vector<Vec3>& copy) const {
   copy.clear();
   if (history_.kept(at_.moment.iteration) || !positions_.host_is_at(at_.moment)) return false;
@@ -283,7 +283,8 @@ bool Run::copy_unkept(std::vector<Vec3>& copy) const {
   return true;
 }
 
-/// `from`: the iteration that counts as the begin; those behind it that were done before are gone through by their records.
+/// Goes on until convergence or a limit. `from`: the iteration that counts as the begin; later ones that were done before are gone through
+/// by their records.
 Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, std::uint64_t from, Progress& progress,
                      const AfterIteration& after) {
   Outcome outcome{.limits = limits, .two_aims = parameters_.combination.has_value()};
@@ -292,7 +293,7 @@ Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, std:
   if (std::optional<PhaseBegin>& next = parameters_.then_joint ? parameters_.then_joint : parameters_.then_mean;
       stop_when_still && next && !first_phase_end())
     next->patience = std::max(next->patience, limits.patience);
-  // Where we stand now may be the midst of an iteration, of which the history has no record.
+  // Allows for a place in the midst of an iteration, of which the history has no record.
   from = std::min(from, at_.moment.iteration);  // after a failure the run may stand before it
   const Statistics start = from < at_.moment.iteration ? history_.records()[from].statistics : recovering([this] { return statistics(); });
   outcome.inverted = start.inverted;
@@ -309,12 +310,12 @@ Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, std:
     best.take(record);
     best_alone.take(record);
   }
-  std::vector<Vec3> positions_of_best;  // where the history has no room for them, so that nobody need compute them again
+  std::vector<Vec3> positions_of_best;  // kept where the history has no room for them, so that they need not be computed again
   bool has_best = false;
   const auto phase_of = [this](std::uint64_t iteration) {
     return RunPhases{.joint_since = joint_since(), .mean_since = mean_since()}.of(iteration);
   };
-  // What is known of a later phase may come of records behind those that are gone through.
+  // Ignores what records behind those gone through may tell of a later phase.
   const auto phases_reached = [this](Phase phase) {
     RunPhases reached_so_far = phases();
     if (phase == Phase::Joint) reached_so_far.joint_over = reached_so_far.mean_since = reached_so_far.mean_from = std::nullopt;
@@ -349,7 +350,7 @@ Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, std:
     best.take(record);
     best_alone.take(record);
     if (anew && stop_when_still && best.iteration() == reached) has_best = copy_unkept(positions_of_best);
-    // As differences: where nothing is movable both are infinite, and that is no rise.
+    // Compares differences: where nothing is movable both are infinite, and that is no rise.
     if (now.minimum - minimum >= limits.rise || now.movable_minimum - movable >= limits.rise) {
       since_rise = 0;
       outcome.last_rise = reached;
@@ -376,7 +377,7 @@ Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, std:
         is_joint(reached - 1) && !raise_of_worst_follows(reached - 1) && inverted > now.inverted)
       outcome.untanglings.push_back({reached, record.moved, inverted, now.inverted});
     if (since_rise == 0) looked_ = false;
-    if (record.raise_follows) {  // it has been looked then
+    if (record.raise_follows) {  // the look has been made then
       looked_ = true;
       continue;
     }
@@ -392,14 +393,14 @@ Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, std:
     }
     // A phase's end is not the run's; joint moves know themselves when they are over.
     if (phase == Phase::Joint || (phase != last_phase && (now.inverted == 0 || joint_comes))) continue;
-    // The last phase searches as DMO does, whatever the method.
+    // Counts still iterations of DMO in the last phase, which searches as DMO does, whatever the method.
     auto needed = phase == Phase::Mean ? 1 : still_iterations(method_info(parameters_.method), parameters_.options, input_->is_volume());
     if (needed && attempts_to_untangle(reached)) *needed += UntanglingPlan::kCycle;
     quiet = whole && record.moved == 0 ? quiet + 1 : 0;
     const bool still = needed && quiet >= *needed;
     stopped = stop_when_still && (still || since_rise >= limits.patience);
     if (stopped) outcome.reason = still ? StopReason::NothingMoved : StopReason::NoRise;
-    // Once after each time that something was to be had. Where few vertices move, the iterations that are left cost less than the look.
+    // Looks once after each rise. Where few vertices move, the iterations that are left cost less than the look.
     if (certified) {
       stopped = true;
       outcome.reason = StopReason::Certified;

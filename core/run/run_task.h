@@ -1,5 +1,5 @@
 #pragma once
-// What a run asks a smoother for, and whether that can be.
+// Task that a run gives a smoother, and whether it is possible.
 
 #include <memory>
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace dmoscope {
 
-/// As far as the parameters say it, which it looks into: without colouring, sizes, domain and pool.
+/// Task as far as the parameters tell it, which it refers to: without colouring, sizes, domain and pool.
 [[nodiscard]] SmoothingTask task_of(std::shared_ptr<const InputMesh> input, const RunParameters& parameters);
 
-/// Why no run can be by these parameters: what Run refuses them with. Empty: one can.
+/// Reason why these parameters make no run: that for which Run refuses them. Empty: they make one.
 [[nodiscard]] std::string why_no_run(std::shared_ptr<const InputMesh> input, const RunParameters& parameters,
                                      const Acceleration& acceleration = {});
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a person reads of all elements at once. The rules of counting are constexpr, so that a device counts by the very same.
+// Summary of all elements for a person. The rules of counting are constexpr, so that a device counts by the very same.
 
 #include <array>
 #include <cstddef>
@@ -20,7 +20,7 @@ struct Histogram {
   Index above = 0;
 };
 
-/// Where a quality is counted: a bin of a Histogram, or one of the three places after the last bin.
+/// Slot in which a quality is counted: a bin of a Histogram, or one of the three after the last bin.
 inline constexpr std::size_t kSlotBelow = Histogram::kBins, kSlotAbove = kSlotBelow + 1, kSlotNowhere = kSlotAbove + 1;
 [[nodiscard]] DMOSCOPE_ANYWHERE std::size_t histogram_slot(double quality) {
   constexpr double kLowest = 0.0, kHighest = 1.0;
@@ -32,10 +32,10 @@ inline constexpr std::size_t kSlotBelow = Histogram::kBins, kSlotAbove = kSlotBe
   return bin < Histogram::kBins ? bin : Histogram::kBins - 1;
 }
 
-/// Values of a shade that are no quality.
+/// Shades that are no quality.
 inline constexpr float kInvertedShade = -3e38F, kUndefinedShade = 3e38F;
 
-/// What the renderer colours an element by: its quality, or one of the values above. `quality`: NaN where it is not defined.
+/// Shade by which the renderer colours an element: its quality, or one of the values above. `quality`: NaN where it is not defined.
 [[nodiscard]] DMOSCOPE_ANYWHERE float shade_of(float quality, bool inverted) {
   constexpr float kLargest = 1e37F;
   if (inverted) return kInvertedShade;
@@ -50,7 +50,7 @@ struct RankedElement {
   std::optional<Vec3> inside{};  // see inverted_inside()
 };
 
-/// All elements by one metric.
+/// Summary of all elements by one metric.
 struct ElementSummary {
   Statistics statistics;
   Histogram histogram;

@@ -13,7 +13,7 @@ namespace dmoscope {
 
 namespace {
 
-/// "4 7"
+/// Vertices of words like "4 7".
 std::vector<Index> vertices_of(const std::string& words) {
   std::istringstream in(words);
   std::vector<Index> vertices;
@@ -24,7 +24,7 @@ std::vector<Index> vertices_of(const std::string& words) {
 /// Ends the iteration under way, not the trial.
 struct OutOfTime {};
 
-/// The run on a copy, and how far it may go.
+/// Run on a copy within a budget.
 class Trial {
  public:
   Trial(const Run& like, RunParameters parameters, const BeginPositions& begin, const TrialBudget& budget, std::shared_ptr<ThreadPool> pool)
@@ -33,7 +33,7 @@ class Trial {
     most_ = budget.visits / std::max<std::uint64_t>(1, weight * run_.visits_per_iteration());
   }
 
-  /// False: not even one iteration.
+  /// Goes on as the budget allows; false: not even one iteration was done.
   bool go(Progress& progress) {
     run_.set_observer([&](const Run&) { check(progress); });
     const bool waits = run_.parameters().then_joint.has_value();
@@ -43,7 +43,7 @@ class Trial {
         if (iterations() >= most_) throw OutOfTime();
         check(progress);
         if (run_.step(StepUnit::Iteration, progress) == 0 && !next_phase_comes()) break;
-        // Joint moves are tried once they have begun: until then the minimum that the method reaches stands still.
+        // Counts iterations of joint moves once they have begun: until then the minimum that the method reaches stands still.
         if (!waits || run_.joint_since()) ++in_phase;
       }
     } catch (const OutOfTime&) {
@@ -51,12 +51,12 @@ class Trial {
     }
     return iterations() > 0;
   }
-  /// Has it ended for want of time or visits?
+  /// Returns whether it has ended for want of time or visits.
   [[nodiscard]] bool is_cut() const noexcept { return cut_; }
   [[nodiscard]] std::uint64_t iterations() const { return run_.history().records().size() - 1; }
   [[nodiscard]] SwitchTrial result() const {
     const auto& records = run_.history().records();
-    // For the mean a run goes back to a state whose minimum may be less by what is no rise. Two aims give up what lies beyond the
+    // Subtracts the fall of the minimum that the mean phase may make, which counts as none. Two aims give up what lies beyond the
     // threshold.
     double after = records[best_iteration(run_)].statistics.minimum - 2 * kLeastRise;
     const auto& two_aims = run_.parameters().combination;

@@ -1,5 +1,5 @@
 #pragma once
-// A problem's Newton system: sums the atoms' gradients and Hessians by their free vertices, and solves for a step.
+// Newton system of a joint problem: sums the atoms' gradients and Hessians by their free vertices, and solves for a step.
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace dmoscope {
 
-/// Free vertices that share an atom.
+/// Adjacency of the free vertices: neighbours share an atom.
 template <int D>
 [[nodiscard]] Adjacency atom_adjacency(const JointProblem<D>& problem) {
   std::vector<std::vector<Index>> neighbours(problem.free_vertices);
@@ -29,8 +29,8 @@ template <int D>
   return graph;
 }
 
-/// Derivatives by an atom's edges are spread over its vertices: vertex k >= 1 has those of edge k - 1, the first vertex the negative sum.
-/// The problem must outlive it.
+/// Spreads derivatives by an atom's edges over its vertices: vertex k >= 1 has those of edge k - 1, the first vertex the negative sum. The
+/// problem must outlive it.
 template <int D>
 class AtomBlocks {
  public:
@@ -55,7 +55,7 @@ class AtomBlocks {
 
   /// Adds an atom's Hessian to the matrix, and `shift` to the diagonal of its vertices.
   void add_hessian(std::size_t atom, const Hessian& h, const ByVertex& shift) {
-    std::array<double, kD * kEdges> first_row{};  // of the first vertex by the edges
+    std::array<double, kD * kEdges> first_row{};  // rows of the first vertex, columns by the edges
     for (std::size_t i = 0; i < kD; ++i)
       for (std::size_t n = 0; n < kD * kEdges; ++n) first_row[n] -= h[i * kD * kEdges + n];
     for (std::size_t k = 0; k < kVertices; ++k) {
@@ -91,7 +91,7 @@ class AtomBlocks {
     }
   }
 
-  /// Takes a vector of D numbers a free vertex into the directions in which these may go.
+  /// Projects a vector of D numbers a free vertex onto the directions in which these may go.
   void project(std::vector<double>& vector) const {
     if (problem_.path == nullptr) return;
     const auto ways = problem_.path->ways();
@@ -119,7 +119,7 @@ class AtomBlocks {
     }
   }
 
-  /// Scales the matrix's diagonal, for what rounding could take from it.
+  /// Scales the matrix's diagonal, to make up for rounding.
   void scale_diagonal(double factor) {
     for (Index v = 0; v < problem_.free_vertices; ++v) {
       auto& block = cholesky.diagonal(v);
@@ -130,7 +130,7 @@ class AtomBlocks {
   BlockCholesky<D> cholesky;
 
  private:
-  /// A block between two free vertices, in the directions in which these may go.
+  /// Projects a block between two free vertices onto the directions in which these may go.
   void project(Index row, Index column, typename BlockCholesky<D>::Block& block) const {
     const auto ways = problem_.path->ways();
     const auto bound = problem_.path->bound();
@@ -145,7 +145,7 @@ class AtomBlocks {
     if (bound[column] != 0) block = times(block, ways[column]);
   }
 
-  /// Of an atom's free vertices k >= l, at k (k + 1) / 2 + l.
+  /// Slots of the blocks between an atom's free vertices k >= l, at k (k + 1) / 2 + l.
   using Slots = std::array<typename BlockCholesky<D>::Slot, kVertices*(kVertices + 1) / 2>;
   const JointProblem<D>& problem_;
   std::vector<Slots> slots_;

@@ -1,6 +1,6 @@
 #pragma once
-// The metrics of atoms, for any scalar: where a metric is smooth on a whole element or corner its own formula, else what it is the least
-// of.
+// Metrics of atoms, for any scalar: a metric that is smooth on a whole element or corner has its own formula, any other the smooth pieces
+// of which it is the least.
 
 #include "core/mesh/plane.h"
 #include "core/quality/formulas.h"
@@ -9,7 +9,7 @@ namespace dmoscope::pieces {
 
 using formulas::RealOf;
 
-/// The first vertex of a piece, from which its edges lead.
+/// First vertex of a piece, from which its edges lead.
 template <class V>
 [[nodiscard]] V origin(V /*edge*/) {
   return V{};
@@ -19,11 +19,11 @@ template <class R>
   return {{}, edge.normal};
 }
 
-/// What of a simplex counts where a metric has a kink: one of its corners, or one of its edges.
+/// Part of a simplex that a piece belongs to: the whole, or, where a metric has a kink, one of its corners or edges.
 enum class Of { Whole, Corner, Edge };
 
-/// `of`: what it is a piece of. triangle(u, v), tetrahedron(u, v, w): edges from the first vertex to the others; the corner is the first
-/// vertex, the edge is u. For what is not inverted.
+/// Smooth piece of a metric. triangle(u, v), tetrahedron(u, v, w): edges from the first vertex to the others; the corner is the first
+/// vertex, the edge is u. Only for simplices that are not inverted.
 template <Metric M>
 struct Piece {
   static constexpr Of kTriangle = Of::Whole, kTetrahedron = Of::Whole;
@@ -97,7 +97,8 @@ struct Piece<Metric::AspectRatio> {
   }
 };
 
-/// A corner of a quadrilateral between the edges u and v, counter-clockwise; of another volume element.
+/// Quality of a quadrilateral's corner between the edges u and v, counter-clockwise, or of a corner of a volume element that is no
+/// tetrahedron.
 template <Metric M, class V>
 [[nodiscard]] RealOf<V> square_corner(V u, V v) {
   using R = RealOf<V>;

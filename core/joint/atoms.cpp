@@ -14,13 +14,13 @@ namespace {
 
 using pieces::Of;
 
-/// The metric by whose formula an atom goes: several are the mean ratio in the plane.
+/// Metric whose formula an atom uses: several are the mean ratio in the plane.
 Metric joint_metric(Metric metric, int dimension) {
   const bool same = dimension == 2 && (metric == Metric::Condition || metric == Metric::MeanRatioArea);
   return same ? Metric::MeanRatio : metric;
 }
 
-// ---- which atoms an element has ----
+// ---- atoms of an element ----
 
 Of what_counts(Metric metric, ElementKind kind) {
   const bool triangle = kind == ElementKind::Triangle;
@@ -47,9 +47,9 @@ std::span<const CornerTable> volume_atoms(ElementKind kind, Of of) {
   return kEdgesFirst;
 }
 
-// ---- what an atom is worth ----
+// ---- quality of an atom ----
 
-/// The metric of an atom with these edges, in any scalar.
+/// Quality of an atom with these edges, in any scalar.
 template <Metric M, class R>
 R quality_of(AtomShape shape, const std::array<Vec2<R>, 2>& e) {
   return planar_quality<M>(shape == AtomShape::Triangle, e[0], e[1]);

@@ -1,9 +1,8 @@
 #pragma once
-// The smooth pieces of quality that joint moves work with: atoms.
-//
+// Atoms: the smooth pieces of quality that joint moves work with.
 // An element's quality is the least of its atoms', and each atom's is a smooth function of the D edges that leave its first vertex: a
-// triangle or tetrahedron as a whole, each corner of any other element, and of a metric with kinks each corner or edge of a simplex
-// that could be the one that counts. Formulas and targets say themselves which pieces they are the least of (DefinedAtoms).
+// triangle or tetrahedron as a whole, each corner of any other element, and for a metric with kinks each corner or edge of a simplex that
+// may be its least. Formulas and targets name their pieces themselves (DefinedAtoms).
 
 #include <array>
 #include <cstdint>
@@ -20,7 +19,7 @@
 
 namespace dmoscope {
 
-/// The ideal element whose edges an atom's are compared with. The last two belong to curved surfaces, in space.
+/// Ideal element whose edges those of an atom are compared with. The last two belong to curved surfaces, in space.
 enum class AtomShape : std::uint8_t {
   Triangle,
   SquareCorner,
@@ -41,22 +40,22 @@ inline constexpr std::size_t kAtomShapeCount = 8;
   return shape == AtomShape::SurfaceTriangle ? ElementKind::Triangle : ElementKind::Quadrilateral;
 }
 
-/// `vertices`: in an order with the element's orientation; where a corner counts it is the first, where an edge does the first two. On a
-/// curved surface a quadrilateral's opposite corner is the last, which its plane depends on; a triangle has no other, and its first vertex
-/// stands there again.
+/// Atom of an element. `vertices`: in an order with the element's orientation; an atom at a corner begins with that, an atom at an edge
+/// with its two ends. On a curved surface a quadrilateral's opposite corner is the last, which its plane depends on; a triangle has no
+/// other, and repeats its first vertex.
 template <int D>
 struct Atom {
   std::array<Index, D + 1> vertices{};
   Index element = 0;
   AtomShape shape{};
-  std::uint8_t frame = 0;   // of a metric that is defined by a formula or a target: the row of corner_frames() that the vertices are
-  std::uint16_t piece = 0;  // likewise: which of the metric's pieces it is, or kGuardPiece
+  std::uint8_t frame = 0;   // row of corner_frames() that the vertices are; for a metric that is defined by a formula or a target
+  std::uint16_t piece = 0;  // which of such a metric's pieces it is, or kGuardPiece
 };
 
-/// The corners of a kind that have an edge for each dimension, each with the ends of its edges, right-handed; of a simplex one says all.
+/// Corners of a kind that have an edge for each dimension, each with the ends of its edges, right-handed; a simplex has one for all.
 [[nodiscard]] std::span<const CornerTable> corner_frames(ElementKind kind);
 
-/// Can the metric be split into atoms on all these kinds of elements? Empty: it can. Else a sentence that says why not.
+/// Reason why the metric cannot be split into atoms on all these kinds of elements, one sentence; empty where it can.
 [[nodiscard]] std::string joint_obstacle(Metric metric, KindSet kinds);
 [[nodiscard]] inline bool joint_supports(Metric metric, KindSet kinds) { return joint_obstacle(metric, kinds).empty(); }
 
@@ -65,16 +64,16 @@ struct Atom {
 template <int D>
 void append_atoms(const ElementTable& elements, Metric metric, Index element, std::vector<Atom<D>>& atoms);
 
-/// edges[j]: from the first vertex of an atom to vertex j + 1, in any unit of length.
+/// Edges of an atom: edges[j] leads from its first vertex to vertex j + 1, in any unit of length.
 template <int D>
 using AtomEdges = std::array<std::array<double, D>, D>;
 
-/// Exact: the Hessian. Convex: a positive semidefinite one instead, with the determinant taken as linear (1 / mean ratio), or without
-/// negative eigenvalues (1 / any other metric).
+/// Kind of Hessian. Exact: the true one. Convex: a positive semidefinite one instead, with the determinant taken as linear (1 / mean
+/// ratio), or without negative eigenvalues (1 / any other metric).
 enum class Curvature : std::uint8_t { Exact, Convex };
 
-/// By the D * D coordinates of the edges, edge by edge. By the atom's vertices: vertex j + 1 has the part of edge j, the first vertex the
-/// negative sum of all.
+/// Derivatives by the D * D coordinates of the edges, edge by edge. By the atom's vertices: vertex j + 1 has the part of edge j, the first
+/// vertex the negative sum of all.
 template <int D>
 struct AtomDerivatives {
   static constexpr std::size_t kCount = static_cast<std::size_t>(D) * D;
@@ -86,34 +85,35 @@ struct AtomDerivatives {
 template <int D>
 class DefinedAtoms;
 
-/// What of an atom is minimised: 1 / metric, +infinity where that is <= 0. The value at edges of any scale is the same, but of metrics that
-/// are defined by formulas or targets.
+/// Function of an atom that is minimised: 1 / metric, +infinity where that is <= 0. It does not depend on the scale of the edges, unless a
+/// formula or target defines the metric.
 template <int D>
 class AtomFunction {
  public:
-  /// `metric`: must be built in and defined in this dimension.
+  /// Takes a built-in metric that is defined in this dimension.
   explicit AtomFunction(Metric metric);
-  /// Of a built-in metric on a curved surface; D is 3.
+  /// Takes a built-in metric on a curved surface; D is 3.
   AtomFunction(Metric metric, const Curved& frame);
-  /// Of a metric that is defined by a formula or a target.
+  /// Takes a metric that is defined by a formula or a target.
   explicit AtomFunction(std::shared_ptr<const DefinedAtoms<D>> atoms);
-  /// `reference`: for DefinedAtoms see there; else of no account.
+  /// Value at these edges. `reference`: see DefinedAtoms; without these ignored.
   [[nodiscard]] double value(const Atom<D>& atom, const AtomEdges<D>& edges, double reference) const {
     if (defined_) return defined_value(atom, edges, reference);
     if (surface_.value != nullptr) return surface_.value(atom.shape, edges, surface_.frame.of(atom.element));
     return value_[static_cast<std::size_t>(atom.shape)](atom.shape, edges, reference);
   }
-  /// Where the value is finite.
+  /// Derivatives where the value is finite.
   void derive(const Atom<D>& atom, const AtomEdges<D>& edges, double reference, Curvature curvature, AtomDerivatives<D>& result) const {
     if (defined_) return derive_defined(atom, edges, reference, curvature, result);
     if (surface_.value != nullptr) return surface_.derive(atom.shape, edges, surface_.frame.of(atom.element), curvature, result);
     derive_[static_cast<std::size_t>(atom.shape)](atom.shape, edges, reference, curvature, result);
   }
-  /// The metric where 1 / metric is f.
+  /// Quality at which the value is f.
   [[nodiscard]] double quality_of(double f) const noexcept { return 1.0 / f - shift(); }
   [[nodiscard]] double inverse_of(double quality) const noexcept { return 1.0 / (quality + shift()); }
   [[nodiscard]] const DefinedAtoms<D>* defined() const noexcept { return defined_.get(); }
-  /// Whether the Hessian's diagonal says how stiff a vertex is: it never vanishes where the function is convex in each single vertex.
+  /// Returns whether the Hessian's diagonal says how stiff a vertex is: it never vanishes where the function is convex in each single
+  /// vertex.
   [[nodiscard]] bool convex_by_vertex() const noexcept { return convex_by_vertex_; }
 
  private:
@@ -128,14 +128,14 @@ class AtomFunction {
     void (*derive)(AtomShape, const AtomEdges<D>&, const Curved&, Curvature, AtomDerivatives<D>&) = nullptr;
     Curved frame{};
   };
-  OnSurface surface_{};  // of a built-in metric on a curved surface
+  OnSurface surface_{};  // derivation of a built-in metric on a curved surface
   std::array<Value, kAtomShapeCount> value_{};
   std::array<Derive, kAtomShapeCount> derive_{};
-  std::shared_ptr<const DefinedAtoms<D>> defined_;  // null: of a built-in metric
+  std::shared_ptr<const DefinedAtoms<D>> defined_;  // null: the metric is built in
   bool convex_by_vertex_ = false;
 };
 
-/// The determinant of an atom's edges against the ideal ones; positive where the atom is not inverted.
+/// Determinant of an atom's edges against the ideal ones; positive where the atom is not inverted.
 template <int D>
 [[nodiscard]] double atom_jacobian(AtomShape shape, const AtomEdges<D>& edges);
 

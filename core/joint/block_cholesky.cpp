@@ -33,12 +33,12 @@ void BlockCholesky<D>::index_columns(const Adjacency& graph) {
   values_.resize(tree_.order.size() + rows_.size());
 }
 
-/// Splits the heaviest subtree while it is too heavy for one thread among many. The same whatever the pool.
+/// Splits the heaviest subtree while it is too heavy for one thread among many. The result does not depend on the pool.
 template <int D>
 void BlockCholesky<D>::find_branches() {
-  constexpr double kWorthThreads = 3e6;  // multiplications in all
+  constexpr double kWorthThreads = 3e6;  // number of multiplications in all from which threads pay
   constexpr std::size_t kMostBranches = 32;
-  constexpr double kHeavy = 1.0 / 16.0;  // of all
+  constexpr double kHeavy = 1.0 / 16.0;  // share of all multiplications
   const std::size_t n = tree_.nodes.size();
   children_.resize(n);
   std::vector<double> work(n, 0.0);
@@ -75,8 +75,9 @@ void BlockCholesky<D>::find_branches() {
   for (; next < n; ++next) trunk_.push_back(next);
 }
 
-/// Rests go to two stacks, by whether their depth in the tree is even: when a front is begun its children's are on top of the one, and its
-/// own goes to the other. For several threads each branch has two of its own, and what its root leaves stays until the trunk has taken it.
+/// Places the rests on two stacks, by whether their depth in the tree is even: when a front is begun its children's are on top of the one,
+/// and its own goes to the other. For several threads each branch has two of its own, and the rest of its root stays until the trunk has
+/// taken it.
 template <int D>
 void BlockCholesky<D>::place_fronts() {
   const std::size_t n = tree_.nodes.size();
@@ -90,7 +91,7 @@ void BlockCholesky<D>::place_fronts() {
     places_[s].pivots = pivots;
     pivots += tree_.nodes[s].height() * tree_.nodes[s].width() * kD * kD;
   }
-  std::vector<bool> is_kept(n, false);  // what a branch leaves, which is on no stack of the trunk's
+  std::vector<bool> is_kept(n, false);  // marks the rests of branches' roots, which are on no stack of the trunk's
   const auto place = [&](std::span<const std::size_t> nodes) {
     std::array<std::size_t, 2> top{}, most{};
     for (const std::size_t s : nodes) {
@@ -183,7 +184,7 @@ bool BlockCholesky<D>::factorise_front(std::size_t s, std::vector<double>& room,
   return eliminate(dense, room, level_, pool);
 }
 
-/// With the matrix's columns.
+/// Fills a front with the matrix's columns.
 template <int D>
 void BlockCholesky<D>::start_front(std::size_t s, const DenseFront& dense) const {
   const Supernode& node = tree_.nodes[s];
@@ -200,7 +201,7 @@ void BlockCholesky<D>::start_front(std::size_t s, const DenseFront& dense) const
   }
 }
 
-/// What is left of a child to its parent's front.
+/// Adds the rest of a child to its parent's front.
 template <int D>
 void BlockCholesky<D>::add_rest(std::size_t child, const DenseFront& dense) const {
   const Supernode& node = tree_.nodes[child];
@@ -281,7 +282,7 @@ FactorColumns BlockCholesky<D>::columns_of(std::size_t s) const {
   return {factor_.data() + places_[s].pivots, node.height() * kD, node.width() * kD};
 }
 
-/// `aside`: of the branch, none in the trunk.
+/// Solves by the columns of a front. `aside`: that of the branch; null in the trunk.
 template <int D>
 template <std::size_t Q>
 void BlockCholesky<D>::solve_lower_front(std::size_t s, Sides<Q>& y, std::vector<double>& room, Aside<Q>* aside) const {

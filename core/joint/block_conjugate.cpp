@@ -8,14 +8,14 @@ namespace dmoscope {
 
 namespace {
 
-constexpr std::size_t kGrain = 256;  // vertices
+constexpr std::size_t kGrain = 256;  // number of vertices
 constexpr int kMostIterations = 300;
-constexpr double kEnough = 1e-4;  // of the square of the right-hand side's size
+constexpr double kEnough = 1e-4;  // share of the square of the right-hand side's norm
 
-/// The inverse of a symmetric positive definite block; false where it is none.
+/// Inverts a symmetric positive definite block; returns false where it is not positive definite.
 template <std::size_t D>
 bool invert(const std::array<double, D * D>& a, std::array<double, D * D>& inverse) {
-  std::array<double, D * D> l{};  // its Cholesky factor, and then the inverse of that
+  std::array<double, D * D> l{};  // Cholesky factor, and then its inverse
   for (std::size_t r = 0; r < D; ++r)
     for (std::size_t c = 0; c <= r; ++c) {
       double sum = a[r * D + c];
@@ -39,7 +39,7 @@ bool invert(const std::array<double, D * D>& a, std::array<double, D * D>& inver
   return true;
 }
 
-/// Adds the product of a block and a vertex's numbers.
+/// Adds the product of a block and a vertex's numbers to y.
 template <std::size_t D>
 void add_product(const std::array<double, D * D>& block, const double* x, double* y) {
   for (std::size_t r = 0; r < D; ++r)
@@ -101,7 +101,7 @@ bool BlockConjugate<D>::factorise() {
   return true;
 }
 
-/// y = A x; returns x y.
+/// Computes y = A x; returns x y.
 template <int D>
 double BlockConjugate<D>::times(const Vector& x, Vector& y) const {
   std::vector<double> parts((diagonal_.size() + kGrain - 1) / kGrain, 0.0);
@@ -126,7 +126,7 @@ void BlockConjugate<D>::solve(std::span<double> b) const {
   const std::size_t vertices = diagonal_.size();
   Vector x(b.size(), 0.0), rest(b.begin(), b.end()), z(b.size(), 0.0), along(b.size(), 0.0), product(b.size(), 0.0);
   std::vector<double> parts((vertices + kGrain - 1) / kGrain);
-  /// Goes so far, and returns what is left: rest z, with z the inverse diagonal's product with the rest.
+  /// Goes a step, and returns rest z, with z the product of the inverse diagonal and the rest.
   const auto go = [&](double step) {
     std::ranges::fill(parts, 0.0);
     for_chunks(pool_, vertices, kGrain, [&](std::size_t first, std::size_t last) {

@@ -1,5 +1,5 @@
 #pragma once
-// Sparse symmetric positive definite systems of D x D blocks that are too large to be factorised.
+// Conjugate gradients for sparse symmetric positive definite systems of D x D blocks that are too large to be factorised.
 
 #include <array>
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace dmoscope {
 
-/// The matrix, and conjugate gradients with the inverse of its diagonal blocks before it (Nocedal and Wright 2006, chapter 5), as far as a
+/// Matrix, and conjugate gradients preconditioned with the inverse of its diagonal blocks (Nocedal and Wright 2006, chapter 5), as far as a
 /// Newton step needs them. Every sum has a fixed order: the same bits for any pool.
 template <int D>
 class BlockConjugate {
@@ -21,19 +21,19 @@ class BlockConjugate {
 
   /// `graph`: which blocks off the diagonal are not 0. `pool`: must outlive it; null: the calling thread.
   explicit BlockConjugate(Adjacency graph, ThreadPool* pool = nullptr);
-  /// Of row i and column j, which must be the same vertex or neighbours.
+  /// Slot of row i and column j, which must be the same vertex or neighbours.
   [[nodiscard]] Slot slot(Index i, Index j) const;
 
   /// Sets the matrix to 0.
   void clear();
   /// Adds to block (i, j), and so to (j, i); on the diagonal `block` must be symmetric.
   void add(Slot slot, const Block& block);
-  /// The diagonal block of a vertex.
+  /// Diagonal block of a vertex.
   [[nodiscard]] Block& diagonal(Index vertex) { return diagonal_[vertex]; }
-  /// Of the diagonal's blocks alone. False where one is not positive definite.
+  /// Inverts the diagonal's blocks alone. Returns false where one is not positive definite.
   [[nodiscard]] bool factorise();
-  /// For a right-hand side, in place: D numbers a vertex. To a small share of its size, or as far as some hundred iterations lead; either
-  /// way the product with the right-hand side is positive.
+  /// Solves for a right-hand side, in place: D numbers a vertex. Ends at a small share of its size, or after some hundred iterations;
+  /// either way the product with the right-hand side is positive.
   void solve(std::span<double> b) const;
 
  private:
@@ -43,9 +43,9 @@ class BlockConjugate {
 
   Adjacency graph_;
   ThreadPool* pool_;
-  std::vector<Index> mirror_;              // of each block off the diagonal, the one across it
-  std::vector<Block> diagonal_, inverse_;  // of each vertex
-  std::vector<Block> values_;              // off the diagonal, as the graph's neighbours; until factorise() those below it alone
+  std::vector<Index> mirror_;              // for each block off the diagonal, the one across it
+  std::vector<Block> diagonal_, inverse_;  // diagonal blocks of the vertices
+  std::vector<Block> values_;  // off the diagonal, in the order of the graph's neighbours; until factorise() those below it alone
 };
 
 }  // namespace dmoscope

@@ -1,5 +1,5 @@
-// Raises the mean of a cluster whose minimum is as good as it can be within half of the gap, for the other half. Single vertices could not:
-// where all have an element at the minimum, none can move alone.
+// Rise of a cluster's mean: the minimum, as good as it can be within half of the gap, gives up the other half for it. Single vertices could
+// not do this: where all have an element at the minimum, none can move alone.
 
 #include <algorithm>
 
@@ -12,12 +12,12 @@ namespace dmoscope {
 namespace {
 
 constexpr double kMeanGap = 1e-3;  // relative, of the sum of 1 / quality
-constexpr double kRoom = 1e-9;     // of what stands at its limit
+constexpr double kRoom = 1e-9;     // relative, for atoms at their limits
 // Margins for coordinates that are rounded: a share of the way from the minimum to the floor, and a share of a step.
 constexpr double kMargin = 0.1, kStepMargin = 1e-5;
 constexpr int kMostHalvings = 4;
 
-/// The greatest of the harmonic mean's steps that a quality reaches: who is above it stays so.
+/// Greatest of the harmonic mean's steps that a quality reaches; a quality above it must stay above it.
 double step_below(double quality) {
   double reached = 0.0;
   for (const double step : kMeanSteps)
@@ -25,7 +25,7 @@ double step_below(double quality) {
   return reached;
 }
 
-/// The mean and the least of elements' qualities.
+/// Mean and least of elements' qualities.
 struct MeanAndLeast {
   double mean, least;
 };
@@ -43,12 +43,13 @@ MeanAndLeast mean_and_least(const InputMesh& input, Metric metric, MeanKind kind
 
 }  // namespace
 
-/// Nothing becomes worse than the gap allows, or than the worst element was before this call. What slides does so here, too.
+/// Raises the mean; no element becomes worse than the gap allows, or than the worst element was before this call. Sliding vertices slide
+/// here, too.
 template <int D>
 void ClusterSearch<D>::raise_mean(const std::vector<Index>& cluster) {
   const JointSolution<D>& raised = solved_.solution;
   const bool done = raised.end == InteriorPointEnd::Gap || raised.end == InteriorPointEnd::LeftEarly;
-  if (!done || (threshold_ < HUGE_VAL && first_ == nullptr)) return;  // what is raised then is not what the mean is of
+  if (!done || (threshold_ < HUGE_VAL && first_ == nullptr)) return;  // the metric that is raised then is not that of the mean
   const double bound = function_.quality_of(raised.last.tau - raised.last.gap());
   const double floor = std::max((1.0 - options_.gap) * bound, function_.quality_of(raised.start_worst));
   Solved better = posed(cluster);
@@ -57,7 +58,7 @@ void ClusterSearch<D>::raise_mean(const std::vector<Index>& cluster) {
   const std::vector<Index> elements = mesh_.elements_at(free);
   const auto judged = [&] { return mean_and_least(mesh_.input(), mesh_.metric(), *options_.mean, elements, positions_); };
   const MeanAndLeast before = judged();
-  if (!(before.least > 0.0)) return;  // a formula's, or of an element that is inverted
+  if (!(before.least > 0.0)) return;  // the qualities may be of a formula or of an inverted element
   const double lowest = floor + kMargin * (function_.quality_of(1.0 / reached()) - floor);
   std::vector<double> limits;
   for (std::size_t a = 0; a < problem.raised(); ++a) {

@@ -1,4 +1,4 @@
-// The result of a call in the mesh's terms: how far the minimum rose, what holds it, and why it is not certified.
+// Report of a call in the mesh's terms: how far the minimum rose, what holds it, and why it is not certified.
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +31,7 @@ std::string ClusterSearch<D>::why_not(const std::vector<Index>& cluster) const {
   return {};
 }
 
-/// How many vertices of what holds the cluster are drawn to where the bound of deviation does not let them go.
+/// Number of vertices of the active atoms that are drawn to a place which the bound of deviation forbids.
 template <int D>
 std::size_t ClusterSearch<D>::count_stopped() const {
   if (solved_.local.problem.path == nullptr) return 0;
@@ -92,7 +92,7 @@ void ClusterSearch<D>::tell_forces(JointCluster& result) const {
     if (multiplier > kNoticed / count) sum += multiplier;
   AtomDerivatives<D> derivatives;
   const auto& problem = solved_.local.problem;
-  std::map<Index, double> active;  // by element
+  std::map<Index, double> active;  // multipliers by element
   for (std::size_t i = 0; i < at.multipliers.size(); ++i) {
     if (!(at.multipliers[i] > kNoticed / count)) continue;
     const Atom<D>& atom = this->atom(i);
@@ -100,7 +100,7 @@ void ClusterSearch<D>::tell_forces(JointCluster& result) const {
     active[atom.element] += share;
     const AtomFunction<D>& function = i < problem.raised() ? function_ : *problem.limited;
     function.derive(atom, displaced_edges<D>(problem, i, at.displacements), problem.reference(i), Curvature::Exact, derivatives);
-    // The gradient of q = 1 / f at f = tau, near which all are that hold the cluster.
+    // Takes the gradient of q = 1 / f at f = tau, near which all atoms are that hold the cluster.
     const double factor = -share * solved_.local.scale / (at.tau * at.tau);
     std::array<std::array<double, D>, D + 1> forces{};
     for (std::size_t j = 0; j < D; ++j)
@@ -116,7 +116,7 @@ void ClusterSearch<D>::tell_forces(JointCluster& result) const {
   });
   std::ranges::stable_sort(
       result.forces, [](const auto& a, const auto& b) { return a.element != b.element ? a.element < b.element : a.vertex < b.vertex; });
-  std::vector<JointCluster::Force> merged;  // an element's atoms in one
+  std::vector<JointCluster::Force> merged;  // forces of an element's atoms added up
   for (const JointCluster::Force& each : result.forces) {
     const bool same = !merged.empty() && merged.back().element == each.element && merged.back().vertex == each.vertex;
     if (same)

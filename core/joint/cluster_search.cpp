@@ -14,16 +14,16 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kFirstRings = 3, kMostRings = 64;
-constexpr int kMostHalvings = 4;  // of a way that would invert elements
+constexpr int kMostHalvings = 4;  // for a way that would invert elements
 constexpr int kThirdGrowth = 2;   // from this growth on a cluster may become the whole mesh
 constexpr double kEarlyGap = 0.05, kEarlyRim = 0.02;
 constexpr double kActiveSlack = 2e-3, kActiveMultiplier = 0.01;
 constexpr double kSameLevel = 1e-3, kSameMinimum = 1e-4;  // relative
-constexpr double kLeastGain = 1e-4;                       // of the minimum, in a pass
+constexpr double kLeastGain = 1e-4;                       // share of the minimum, in a pass
 constexpr double kPassBand = 0.01;                        // how far above the minimum a pass looks, relative
 constexpr double kBeyond = 0.01;                          // how far beyond the threshold the first of two aims is raised, relative
 constexpr double kGapBeforeMean = 0.5;                    // share of the gap that is reached before a mean rises
-constexpr double kAbove = 1e-9;                           // and how far above it kept, for what rounding takes
+constexpr double kAbove = 1e-9;                           // and the margin above it, for rounding
 
 void sort_and_unique(std::vector<Index>& values) {
   std::sort(values.begin(), values.end());
@@ -96,7 +96,7 @@ void ClusterSearch<D>::begin() {
   state_.pass_began_at = -kInfinity;
 }
 
-/// With two aims: vertices of what is not beyond the threshold stay, and so does what has no others.
+/// Fixes vertices of elements that are not beyond the threshold, if there are two aims, and closes atoms without other vertices.
 template <int D>
 void ClusterSearch<D>::keep_first() {
   const InputMesh& input = mesh_.input();
@@ -111,9 +111,9 @@ void ClusterSearch<D>::keep_first() {
     if (std::ranges::none_of(mesh_.atoms()[a].vertices, [&](Index v) { return can_move[v] != 0; })) qualities_[a] = kInfinity;
 }
 
-// ---- which atom ----
+// ---- choice of the atom ----
 
-/// The worst that is open and can be raised; sets which vertices may move for it.
+/// Finds the worst atom that is open and can be raised; sets which vertices may move for it.
 template <int D>
 std::optional<Index> ClusterSearch<D>::find_worst() {
   for (;;) {
@@ -140,13 +140,13 @@ std::optional<Index> ClusterSearch<D>::find_worst() {
     allow_above(worst);
     const auto& vertices = mesh_.atoms()[found].vertices;
     if (!grown({vertices.begin(), vertices.end()}, kFirstRings).empty()) return found;
-    // Held by what is certified already, unless it is the neighbour of an inverted element.
+    // Closes an atom that certified ones hold already, unless it is the neighbour of an inverted element.
     const bool beside = std::ranges::any_of(vertices, [this](Index v) { return frozen_[v] != 0; });
     state_.atoms[found] = beside ? JointState::Of::Tried : JointState::Of::Closed;
   }
 }
 
-/// Is the worst of all one that is certified?
+/// Returns whether the worst atom of all is a certified one.
 template <int D>
 bool ClusterSearch<D>::certified_minimum() const {
   double minimum = kInfinity, closed = kInfinity;
@@ -158,7 +158,7 @@ bool ClusterSearch<D>::certified_minimum() const {
   return closed < kInfinity && closed <= (1.0 + kSameMinimum) * minimum;
 }
 
-/// What was tried in vain is open again, if there is any and the minimum rose. False: all is over.
+/// Opens the atoms again that were tried in vain, if there are any and the minimum rose. Returns false where all is over.
 template <int D>
 bool ClusterSearch<D>::next_pass() {
   const bool any = std::ranges::find(state_.atoms, JointState::Of::Tried) != state_.atoms.end();
@@ -175,14 +175,14 @@ bool ClusterSearch<D>::next_pass() {
   return true;
 }
 
-// ---- which vertices ----
+// ---- choice of the vertices ----
 
 template <int D>
 void ClusterSearch<D>::allow_above(double quality) {
   for (const Index v : mesh_.free_vertices()) allowed_[v] = frozen_[v] == 0 && state_.levels[v] > quality * (1.0 + kSameLevel) ? 1 : 0;
 }
 
-/// The seeds that may move, and what may within so many rings of elements around them: ascending, as many as are allowed.
+/// The seeds that may move, with all vertices that may within so many rings of elements around them: ascending, as many as are allowed.
 template <int D>
 std::vector<Index> ClusterSearch<D>::grown(std::vector<Index> seeds, int rings) const {
   const InputMesh& input = mesh_.input();
@@ -231,7 +231,7 @@ std::vector<Index> ClusterSearch<D>::enlarged(const std::vector<Index>& cluster,
 
 // ---- one cluster ----
 
-/// The problem of a cluster where its vertices stand, to be solved.
+/// Problem of a cluster at the vertices' present places, to be solved.
 template <int D>
 typename ClusterSearch<D>::Solved ClusterSearch<D>::posed(const std::vector<Index>& cluster) const {
   Solved posed;
@@ -271,9 +271,9 @@ void ClusterSearch<D>::solve(const std::vector<Index>& cluster, const InteriorPo
   measure_rim(solved_.solution.last);
 }
 
-/// Moves the mesh's vertices where that is better by the program's own judgement. Where elements would become inverted, which the search
-/// knows by their corners alone, or the first of two aims would not stay beyond its threshold, or where vertices that slide may not go all
-/// of the way, half of it, and so on.
+/// Moves the mesh's vertices if that is better by the program's own judgement. Goes half of the way, and so on, where elements would become
+/// inverted, which the search knows by their corners alone, or the first of two aims would not stay beyond its threshold, or where sliding
+/// vertices may not go all of it.
 template <int D>
 void ClusterSearch<D>::commit() {
   if (!(solved_.solution.best_worst < solved_.solution.start_worst)) return;
@@ -284,7 +284,7 @@ void ClusterSearch<D>::commit() {
   }
 }
 
-/// The quality of elements by the guard's metric; empty where there is no guard.
+/// Quality of elements by the guard's metric; empty where there is no guard.
 template <int D>
 std::vector<double> ClusterSearch<D>::guarded(std::span<const Index> elements) const {
   std::vector<double> qualities;
@@ -295,7 +295,8 @@ std::vector<double> ClusterSearch<D>::guarded(std::span<const Index> elements) c
   return qualities;
 }
 
-/// Do elements that moved have more of the first aim than its threshold, and no less of the guard's metric than its floor, or than before?
+/// Returns whether elements that moved have more of the first aim than its threshold, and no less of the guard's metric than its floor, or
+/// than before.
 template <int D>
 bool ClusterSearch<D>::keeps_others(std::span<const Index> elements, std::span<const double> guarded_before) const {
   const std::vector<double> now = guarded(elements);
@@ -326,7 +327,7 @@ template <int D>
 bool ClusterSearch<D>::try_move(double share, bool& less_may_do) {
   const std::span<const Index> free = solved_.local.free();
   std::vector<Vec3> targets = targets_of(solved_, share);
-  bool stayed = false;  // some that slide
+  bool stayed = false;  // whether some sliding vertices stayed
   if (solved_.local.problem.path != nullptr) stayed = solved_.path->settle(share, free, positions_, targets) > 0;
   const std::vector<Index> elements = mesh_.elements_at(free);
   const std::vector<double> guarded_before = guarded(elements);
@@ -401,7 +402,7 @@ JointCluster ClusterSearch<D>::raise(Index worst) {
   }
   const InteriorPointEnd end = solved_.solution.end;
   if (moved_from_.empty() && solved_.local.problem.path != nullptr && (end == InteriorPointEnd::Stuck || end == InteriorPointEnd::Steps)) {
-    holds_ = true;  // the others may move still
+    holds_ = true;  // the others may still move
     solve(cluster, options, false);
   }
   std::vector<Index> moving = cluster;
@@ -418,14 +419,14 @@ JointCluster ClusterSearch<D>::raise(Index worst) {
   result.why_not = why_not(cluster);
   result.certified = result.why_not.empty();
   settle(worst, result.certified);
-  // Another of its elements would lead to the same vertices, in vain again.
+  // Marks its other elements as tried: they would lead to the same vertices, in vain again.
   if (!result.certified && result.moved.empty())
     for (const Index a : solved_.local.atoms)
       if (state_.atoms[a] == JointState::Of::Open) state_.atoms[a] = JointState::Of::Tried;
   return result;
 }
 
-/// 1 / the greatest f of the cluster's atoms where the vertices stand now.
+/// 1 / the greatest f of the cluster's atoms at the vertices' present places.
 template <int D>
 double ClusterSearch<D>::reached() const {
   double most = 0.0;
@@ -436,7 +437,7 @@ double ClusterSearch<D>::reached() const {
   return 1.0 / most;
 }
 
-/// Closes what holds the cluster, or marks it as tried.
+/// Closes the atoms that hold the cluster, or marks the worst one as tried.
 template <int D>
 void ClusterSearch<D>::settle(Index worst, bool certified) {
   const JointIterate<D>& at = solved_.solution.last;
@@ -456,14 +457,14 @@ void ClusterSearch<D>::settle(Index worst, bool certified) {
   }
 }
 
-/// The mesh's atom for one of the problem's.
+/// Atom of the mesh for one of the problem's.
 template <int D>
 const Atom<D>& ClusterSearch<D>::atom(std::size_t local) const {
   const std::size_t raised = solved_.local.atoms.size();
   return local < raised ? mesh_.atoms()[solved_.local.atoms[local]] : first_->atoms()[solved_.local.limited[local - raised]];
 }
 
-/// Whether an atom's f is within a share of its bound.
+/// Returns whether an atom's f is within a share of its bound.
 template <int D>
 bool ClusterSearch<D>::is_near(const JointIterate<D>& at, std::size_t local, double share) const {
   const double bound = solved_.local.problem.bound(local, at.tau);

@@ -1,5 +1,5 @@
 #pragma once
-// One call of JointClusters::raise_worst: finds the worst open atom, grows a cluster around it, solves it, and settles what came of it.
+// One call of JointClusters::raise_worst: finds the worst open atom, grows a cluster around it, solves it, and settles the outcome.
 
 #include <memory>
 #include <optional>
@@ -12,14 +12,14 @@
 
 namespace dmoscope {
 
-/// For one call. The state may be left in any state on an exception; the positions are then as they were.
+/// Search of one call. An exception may leave the state in any state; the positions are then as they were.
 template <int D>
 class ClusterSearch {
  public:
-  /// `threshold`: of two aims, of the first one, which `mesh` is of, or `first`; else +infinity.
+  /// `threshold`: that of the first of two aims, to which `mesh` or `first` belongs; else +infinity.
   ClusterSearch(const JointMesh<D>& mesh, double threshold, const JointMesh<D>* first, const JointSliding& sliding,
                 std::span<Vec3> positions, JointState& state, const JointOptions& options, Progress& progress);
-  ~ClusterSearch();  // takes back what is not finished
+  ~ClusterSearch();  // takes back unfinished moves
   ClusterSearch(const ClusterSearch&) = delete;
   ClusterSearch& operator=(const ClusterSearch&) = delete;
   [[nodiscard]] std::optional<JointCluster> run();
@@ -27,14 +27,14 @@ class ClusterSearch {
  private:
   static constexpr double kClosedRim = 5e-4;  // share of the multipliers on the rim below which nothing outside holds the cluster
   static constexpr double kNearTau = 0.05;    // an atom further below tau does not hold the cluster
-  static constexpr double kNoticed = 0.01;    // of the mean multiplier
+  static constexpr double kNoticed = 0.01;    // share of the mean multiplier
 
   /// A solved cluster, in the mesh's terms.
   struct Solved {
     LocalProblem<D> local;
     JointSolution<D> solution;
     std::vector<Index> rim;  // vertices of atoms that hold the cluster and have vertices outside it that could move; ascending
-    double rim_share = 0.0;  // of the multipliers' sum
+    double rim_share = 0.0;  // share of the rim in the sum of multipliers
     std::unique_ptr<SlidingPath<D>> path{};  // null where nothing slides
   };
 
@@ -69,7 +69,7 @@ class ClusterSearch {
   [[nodiscard]] std::string why_not(const std::vector<Index>& cluster) const;
 
   const JointMesh<D>& mesh_;
-  const JointMesh<D>* first_;  // of two aims the first, where the second is raised; else null
+  const JointMesh<D>* first_;  // mesh by the first of two aims, where the second is raised; else null
   double threshold_;
   const Domain* domain_;  // null: nothing slides
   std::optional<DeviationBound> limit_;
@@ -79,13 +79,13 @@ class ClusterSearch {
   Progress& progress_;
   const AtomFunction<D>& function_;
   std::size_t whole_at_most_, cluster_at_most_, push_at_most_;
-  std::vector<double> qualities_;                   // of all atoms, where they stood at the start
-  std::vector<std::uint8_t> allowed_, inside_;      // of all vertices: may move, are in the cluster
-  std::vector<std::uint8_t> frozen_;                // of all vertices: of an inverted element
+  std::vector<double> qualities_;                   // qualities of all atoms at the start
+  std::vector<std::uint8_t> allowed_, inside_;      // for all vertices: may move, are in the cluster
+  std::vector<std::uint8_t> frozen_;                // for all vertices: belong to an inverted element
   std::vector<std::pair<Index, Vec3>> moved_from_;  // in the order of the moves
   Solved solved_;
   int newton_steps_ = 0, solutions_ = 0;
-  bool holds_ = false;  // whether what slides keeps its place
+  bool holds_ = false;  // whether sliding vertices keep their places
   bool finished_ = false;
 };
 

@@ -18,10 +18,11 @@ namespace dmoscope {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// A guard's f to begin with over the greatest of the metric's: it holds an atom only once its mean ratio is a thousandth of what it was.
+/// Ratio of a guard's f at the begin to the greatest of the metric's: it holds an atom only once its mean ratio is a thousandth of what it
+/// was.
 constexpr double kGuard = 1e-3;
 
-/// The first corner whose vertex and neighbours are all that the piece depends on.
+/// First corner whose vertex and neighbours are all that the piece depends on.
 std::optional<std::uint8_t> frame_for(ElementKind kind, std::uint8_t corners) {
   const auto frames = corner_frames(kind);
   const std::size_t ends = static_cast<std::size_t>(info(kind).dimension) + 1;
@@ -33,13 +34,13 @@ std::optional<std::uint8_t> frame_for(ElementKind kind, std::uint8_t corners) {
   return std::nullopt;
 }
 
-/// Whether the formula is 0 or less in all inverted elements of the kind that were looked at.
+/// Returns whether the formula is 0 or less in all inverted elements of the kind that were looked at.
 bool sees_inversion(const DefinedMetric& metric, ElementKind kind) {
   const auto found = std::ranges::find(metric.facts.kinds, kind, &FormulaFacts::OfKind::kind);
   return found != metric.facts.kinds.end() && found->greatest_inverted <= 0.0;
 }
 
-/// The spaces in which elements may be measured.
+/// Spaces in which elements may be measured.
 std::span<const FormulaSpace> spaces_of(const DefinedMetric& metric) {
   static constexpr std::array kAll{FormulaSpace::Plain, FormulaSpace::Target, FormulaSpace::Stretched};
   return metric.target.is_ideal() ? std::span(kAll).first(1) : std::span(kAll);
@@ -104,7 +105,7 @@ R DefinedAtoms<D>::quality(const Atom<D>& atom, const AtomEdges<D>& edges, const
   const auto& frame = corner_frames(kind)[atom.frame];
   std::array<std::uint8_t, 8> end{};  // by corner: its place in the frame
   for (std::uint8_t k = 1; k <= dimension_; ++k) end[frame[k]] = k;
-  [[maybe_unused]] std::array<Vec2<R>, 2> flat{};  // of a curved surface
+  [[maybe_unused]] std::array<Vec2<R>, 2> flat{};  // vectors on a curved surface
   if constexpr (D == 3)
     if (is_on_surface(atom.shape)) flat = surface_coordinates<R>(atom.shape, edge_vectors<R>(edges, variable), frame_.of(atom.element));
   thread_local std::vector<R> room;

@@ -7,7 +7,7 @@
 
 namespace dmoscope {
 
-// What follows is compiled for each SIMD level, by being inlined into a function for it. Vectors hold rows, so that how many fit into one
+// The following is compiled for each SIMD level, by being inlined into a function for it. Vectors hold rows, so that how many fit into one
 // changes no entry's sum: the terms of an entry are summed by columns of a chunk, ascending, and the sum is subtracted at once.
 #define DMOSCOPE_INLINE [[gnu::always_inline]] inline
 
@@ -16,9 +16,9 @@ namespace {
 constexpr std::size_t kTile = 16;     // rows that are updated together
 constexpr std::size_t kBlock = 8;     // columns that are updated together; divides kTile
 constexpr std::size_t kChunk = 256;   // columns whose products are subtracted at once: they stay in the cache
-constexpr std::size_t kRowTiles = 8;  // which meet all blocks of columns before the next ones do, likewise
+constexpr std::size_t kRowTiles = 8;  // tiles that meet all blocks of columns before the next ones do: they stay in the cache, too
 
-/// Lanes of a vector, and how many vectors of rows and how many columns the registers hold the sums of.
+/// Lanes of a vector, and the numbers of vectors of rows and of columns whose sums the registers hold.
 struct Baseline {
   typedef double Vector __attribute__((vector_size(16)));
   static constexpr std::size_t kLanes = 2, kVectors = 2, kColumns = 4;
@@ -35,7 +35,7 @@ struct Avx512 {
 /// Eliminated columns of a chunk, rows by tiles: for each tile column by column its 16 rows.
 struct Packed {
   double* data;
-  std::size_t first, count;  // columns
+  std::size_t first, count;  // range of columns
   [[nodiscard]] double* at(std::size_t row, std::size_t column) const {
     return data + ((row / kTile) * count + column - first) * kTile + row % kTile;
   }
@@ -76,7 +76,7 @@ DMOSCOPE_INLINE void subtract_product(const double* a, const double* b, std::siz
     }
 }
 
-/// Of a tile of rows and a block of columns.
+/// Updates a tile of rows and a block of columns.
 template <class S>
 DMOSCOPE_INLINE void update_tile(const double* a, const double* b, std::size_t count, double* const* columns) {
   constexpr std::size_t kRows = S::kLanes * S::kVectors;
@@ -84,7 +84,7 @@ DMOSCOPE_INLINE void update_tile(const double* a, const double* b, std::size_t c
     for (std::size_t r = 0; r < kTile; r += kRows) subtract_product<S>(a + r, b + c, count, columns + c, r);
 }
 
-/// A tile's entries that the front has, copied to where there is room for all.
+/// Copy of a tile's entries that the front has, with room for all.
 template <class S>
 struct Copy {
   double entries[kBlock][kTile];
@@ -98,13 +98,13 @@ struct Copy {
   }
 };
 
-/// The columns of a block that are in [first, end), in the rows of a tile: the products of the packed columns before are subtracted.
+/// Subtracts the products of the packed columns before a block from its columns in [first, end), in the rows of a tile.
 template <class S>
 DMOSCOPE_INLINE void update_block(const DenseFront& front, const Packed& packed, std::size_t count, std::size_t tile, std::size_t block,
                                   std::size_t first, std::size_t end) {
   const std::size_t row = tile * kTile, column = block * kBlock;
   const double *a = packed.at(row, packed.first), *b = packed.at(column, packed.first);
-  const bool has_rows = (row >= front.width || column + kBlock <= front.width) && row + kTile <= front.height;  // if above the diagonal
+  const bool has_rows = (row >= front.width || column + kBlock <= front.width) && row + kTile <= front.height;  // above the diagonal, too
   if (has_rows && column >= first && column + kBlock <= end) {
     double* columns[kBlock];
     for (std::size_t c = 0; c < kBlock; ++c) columns[c] = front.column(column + c) + row;
@@ -120,7 +120,7 @@ DMOSCOPE_INLINE void update_block(const DenseFront& front, const Packed& packed,
     for (std::size_t r = std::max(row, c); r < last; ++r) front.column(c)[r] = copy.entries[c - column][r - row];
 }
 
-/// The Cholesky factor of a small block on the diagonal, and the inverses of its pivots.
+/// Cholesky factor of a small block on the diagonal, and the inverses of its pivots.
 struct Corner {
   double l[kBlock][kBlock];
   double inverse[kBlock];
@@ -142,7 +142,7 @@ DMOSCOPE_INLINE bool factorise_corner(const DenseFront& front, std::size_t first
   return true;
 }
 
-/// A tile's rows below the corner, in its columns: each is solved for, and packed.
+/// Solves for a tile's rows below the corner, in its columns, and packs them.
 template <class S>
 DMOSCOPE_INLINE void solve_tile(const Corner& corner, std::size_t n, double* const* columns, double* packed) {
   for (std::size_t r = 0; r < kTile; r += S::kLanes)
@@ -160,7 +160,7 @@ DMOSCOPE_INLINE void solve_tile(const Corner& corner, std::size_t n, double* con
     }
 }
 
-/// Columns [first, first + n) of one block, which the packed ones before are to be subtracted from.
+/// Columns [first, first + n) of one block, from which the packed ones before are to be subtracted.
 struct Panel {
   const DenseFront& front;
   const Packed& packed;
@@ -168,7 +168,7 @@ struct Panel {
   Corner& corner;
 };
 
-/// The block's corner, on the diagonal. False where a pivot is not positive.
+/// Factorises the block's corner, on the diagonal. False where a pivot is not positive.
 template <class S>
 DMOSCOPE_INLINE bool begin_panel(const Panel& panel) {
   const auto& [front, packed, first, n, corner] = panel;
@@ -176,7 +176,7 @@ DMOSCOPE_INLINE bool begin_panel(const Panel& panel) {
   return factorise_corner(front, first, n, corner);
 }
 
-/// Its rows in a tile, below the corner and not above its tile.
+/// Finishes the block's rows in a tile, below the corner and not above its tile.
 template <class S>
 DMOSCOPE_INLINE void finish_tile(const Panel& panel, std::size_t tile) {
   const auto& [front, packed, first, n, corner] = panel;
@@ -201,7 +201,7 @@ DMOSCOPE_INLINE void finish_tile(const Panel& panel, std::size_t tile) {
 
 template <class S>
 DMOSCOPE_INLINE void finish_panel(const Panel& panel, std::size_t from, std::size_t to) {
-  // Copies, which nothing else writes to: the compiler keeps them in registers.
+  // Takes copies, which nothing else writes to: the compiler keeps them in registers.
   const DenseFront front = panel.front;
   const Packed packed = panel.packed;
   Corner corner = panel.corner;
@@ -218,7 +218,7 @@ DMOSCOPE_INLINE void update_behind(const DenseFront front, const Packed packed, 
       update_block<S>(front, packed, packed.count, tile, block, first, front.height);
 }
 
-/// All of it, on one thread.
+/// Eliminates a front on one thread.
 template <class S>
 DMOSCOPE_INLINE bool eliminate_alone(const DenseFront& front, double* room) {
   const std::size_t tiles = tiles_of(front);
@@ -237,7 +237,7 @@ DMOSCOPE_INLINE bool eliminate_alone(const DenseFront& front, double* room) {
   return true;
 }
 
-/// All that is compiled for a level. Lambdas would not be.
+/// Functions that are compiled for a level. Lambdas would not be.
 struct Level {
   bool (*eliminate_alone)(const DenseFront& front, double* room);
   bool (*begin_panel)(const Panel& panel);
@@ -278,7 +278,7 @@ const Level& level_of([[maybe_unused]] SimdLevel level) {
   return kBaseline;
 }
 
-/// Multiplications below which threads would wait for each other longer than they work.
+/// Number of multiplications below which threads would wait for each other longer than they work.
 constexpr double kWorthThreads = 300'000.0;
 
 /// Calls f(from, to) for all of `count` tiles; in parallel where there are enough multiplications.

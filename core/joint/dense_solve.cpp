@@ -6,7 +6,7 @@ namespace dmoscope {
 
 namespace {
 
-/// N columns from `first` on.
+/// Solves for N columns from `first` on.
 template <std::size_t N, std::size_t Q>
 void lower_columns(const FactorColumns& l, std::size_t first, const std::array<double*, Q>& x) {
   std::array<const double*, N> column;

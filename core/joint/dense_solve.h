@@ -1,5 +1,5 @@
 #pragma once
-// The dense part of solving with a sparse Cholesky factor, for one or two right-hand sides: the factor is read from memory once for both.
+// Dense part of solving with a sparse Cholesky factor, for one or two right-hand sides: the factor is read from memory once for both.
 
 #include <array>
 #include <cstddef>
@@ -12,10 +12,10 @@ struct FactorColumns {
   std::size_t height, width;
 };
 
-/// x is what the front's rows have of each right-hand side. Solves for the first `width` by L, and subtracts their share from the others.
+/// Solves for the first `width` rows by L, and subtracts their share from the others. x: the front's rows of each right-hand side.
 template <std::size_t Q>
 void solve_lower(const FactorColumns& l, const std::array<double*, Q>& x);
-/// Solves for the first `width` by the transpose of L; the others are known.
+/// Solves for the first `width` rows by the transpose of L; the others are known.
 template <std::size_t Q>
 void solve_upper(const FactorColumns& l, const std::array<double*, Q>& x);
 

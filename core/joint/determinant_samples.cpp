@@ -12,7 +12,7 @@ namespace {
 template <int D>
 using Samples = std::vector<DeterminantSample<D>>;
 
-/// From the edges that leave a corner: its number, then those of their ends.
+/// Sample at a corner, from the edges that leave it: its number, then those of their ends.
 template <int D, class Ends>
 DeterminantSample<D> at_corner(AtomShape shape, const Ends& ends) {
   const IdealWeights<D> weights = ideal_weights<D>(shape);
@@ -43,7 +43,7 @@ Samples<D> corners_of(ElementKind kind) {
   return result;
 }
 
-/// At a place with coordinates in [0, 1].
+/// Sample at a place with coordinates in [0, 1].
 DeterminantSample<3> in_hexahedron(const std::array<double, 3>& at) {
   static constexpr std::array<std::array<int, 3>, 8> kUpper{
       {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
@@ -63,13 +63,13 @@ Samples<3> inside_hexahedron() {
   Samples<3> result;
   for (int place = 0; place < 27; ++place) {
     const std::array<int, 3> halves{place / 9, place / 3 % 3, place % 3};
-    if (halves[0] != 1 && halves[1] != 1 && halves[2] != 1) continue;  // a corner
+    if (halves[0] != 1 && halves[1] != 1 && halves[2] != 1) continue;  // no corner
     result.push_back(in_hexahedron({0.5 * halves[0], 0.5 * halves[1], 0.5 * halves[2]}));
   }
   return result;
 }
 
-/// In the middle of the edge from corner i to i + 3, with the mean of what the two triangles have there.
+/// Sample in the middle of the edge from corner i to i + 3, with the mean of the two triangles' slopes there.
 DeterminantSample<3> in_wedge(std::size_t i) {
   const std::size_t next = (i + 1) % 3, last = (i + 2) % 3;
   const IdealWeights<3> weights = ideal_weights<3>(AtomShape::PrismCorner);

@@ -1,5 +1,5 @@
 #pragma once
-// From an atom's metric on numbers that carry derivatives to the derivatives of what is minimised.
+// Derivatives of the minimised function, from an atom's metric on numbers that carry derivatives.
 
 #include "core/joint/atoms.h"
 #include "core/numeric/second_dual.h"
@@ -7,7 +7,7 @@
 
 namespace dmoscope {
 
-/// The edges as vectors of a scalar that make(value, number of the variable) makes.
+/// Edges as vectors of a scalar that make(value, number of the variable) makes.
 template <class R, class Make>
 [[nodiscard]] std::array<Vec2<R>, 2> edge_vectors(const AtomEdges<2>& e, const Make& make) {
   return {Vec2<R>{make(e[0][0], 0), make(e[0][1], 1)}, Vec2<R>{make(e[1][0], 2), make(e[1][1], 3)}};
@@ -17,7 +17,7 @@ template <class R, class Make>
   return {Vec3Of<R>{make(e[0][0], 0), make(e[0][1], 1), make(e[0][2], 2)}, Vec3Of<R>{make(e[1][0], 3), make(e[1][1], 4), make(e[1][2], 5)},
           Vec3Of<R>{make(e[2][0], 6), make(e[2][1], 7), make(e[2][2], 8)}};
 }
-/// As plain numbers, and as variables.
+/// Edges as vectors of plain numbers.
 template <std::size_t D>
 [[nodiscard]] auto plain_vectors(const std::array<std::array<double, D>, D>& edges) {
   return edge_vectors<double>(edges, [](double x, std::size_t) { return x; });
@@ -28,7 +28,7 @@ template <std::size_t D>
   return edge_vectors<R>(edges, [](double x, std::size_t i) { return R::variable(x, i); });
 }
 
-/// 1 / q, q > 0.
+/// Derivatives of 1 / q, q > 0.
 template <int D>
 void derive_inverse(const SecondDual<AtomDerivatives<D>::kCount>& q, Curvature curvature, AtomDerivatives<D>& result) {
   constexpr std::size_t kCount = AtomDerivatives<D>::kCount;

@@ -7,7 +7,7 @@ namespace dmoscope {
 
 namespace {
 
-/// Free vertices that share an element.
+/// Adjacency of the free vertices: neighbours share an element.
 template <int D>
 Adjacency element_adjacency(const FoldoverFreeProblem<D>& problem) {
   std::vector<std::vector<Index>> neighbours(problem.free_vertices);
@@ -37,7 +37,7 @@ std::array<double, D * D> transposed(const std::array<double, D * D>& block) {
   return result;
 }
 
-/// The product of two blocks.
+/// Product of two blocks.
 template <std::size_t D>
 std::array<double, D * D> times(const std::array<double, D * D>& a, const std::array<double, D * D>& b) {
   std::array<double, D * D> product{};
@@ -47,7 +47,7 @@ std::array<double, D * D> times(const std::array<double, D * D>& a, const std::a
   return product;
 }
 
-constexpr double kOntoDiagonal = 1e-9;  // what rounding could take from it
+constexpr double kOntoDiagonal = 1e-9;  // share of the diagonal that is added against rounding
 
 template <int D>
 auto matrix_for(const FoldoverFreeProblem<D>& problem, ThreadPool* pool) {
@@ -116,7 +116,7 @@ bool ElementBlocks<D>::solve(double damping, std::vector<double>& step) {
   return true;
 }
 
-/// A block between two free vertices, in the directions in which these may go.
+/// Projects a block between two free vertices onto the directions in which these may go.
 template <int D>
 void ElementBlocks<D>::project(Index row, Index column, Block& block) const {
   const auto ways = problem_.path->ways();

@@ -1,5 +1,5 @@
 #pragma once
-// The Newton system of a problem over elements: each one's blocks, one a pair of its corners, summed up by the free vertices.
+// Newton system of a problem over elements: each one's blocks, one a pair of its corners, summed up by the free vertices.
 
 #include <array>
 #include <type_traits>
@@ -17,7 +17,7 @@ class ElementBlocks {
   static constexpr std::size_t kD = D, kMost = 8;
   using Block = typename BlockCholesky<D>::Block;
   using Element = typename FoldoverFreeProblem<D>::Element;
-  /// Derivatives of a function of an element's corners; of two corners k >= l at k (k + 1) / 2 + l, rows by k.
+  /// Derivatives of a function of an element's corners; the block of two corners k >= l is at k (k + 1) / 2 + l, rows by k.
   struct Derivatives {
     std::array<std::array<double, kD>, kMost> gradient{};
     std::array<Block, kMost*(kMost + 1) / 2> hessian{};
@@ -29,10 +29,10 @@ class ElementBlocks {
   void clear();
   /// `factor`: of the gradient alone.
   void add(std::size_t element, const Derivatives& derivatives);
-  /// Solves for the step from -gradient, with so much of the diagonal on top of it; in ways that vertices can go. False: the matrix is not
-  /// positive definite.
+  /// Solves for the step from -gradient, with `damping` times the diagonal added, in directions that vertices can go. False: the matrix is
+  /// not positive definite.
   [[nodiscard]] bool solve(double damping, std::vector<double>& step);
-  /// D numbers a free vertex.
+  /// Gradient, D numbers a free vertex.
   [[nodiscard]] const std::vector<double>& gradient() const noexcept { return gradient_; }
 
  private:
@@ -42,10 +42,10 @@ class ElementBlocks {
   void hold();
 
   const FoldoverFreeProblem<D>& problem_;
-  /// A volume's factor is dense.
+  /// Matrix; a volume's factor would be dense, so it is not factorised.
   std::conditional_t<D == 2, BlockCholesky<D>, BlockConjugate<D>> matrix_;
-  std::vector<typename BlockCholesky<D>::Slot> slots_;  // of each element's pairs of free corners, one element after another
-  std::vector<std::size_t> first_slot_;                 // of each element
+  std::vector<typename BlockCholesky<D>::Slot> slots_;  // slots of each element's pairs of free corners, one element after another
+  std::vector<std::size_t> first_slot_;                 // by element
   std::vector<double> gradient_;
 };
 

@@ -14,16 +14,16 @@ namespace dmoscope {
 
 namespace {
 
-constexpr std::size_t kAtOnce = 1024, kGrain = 32;  // elements
+constexpr std::size_t kAtOnce = 1024, kGrain = 32;  // numbers of elements
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLeastEpsilon = 1e-9;
-constexpr double kLeastFall = 0.3;  // of chi of the least J, in a step
+constexpr double kLeastFall = 0.3;  // relative fall of chi of the least J, in a step
 constexpr double kFirstDamping = 1e-3, kLeastDamping = 1e-6, kMostDamping = 1e6;
-constexpr double kStronger = 16.0, kMostShortened = 1e3;  // damping where something slides and no step does
-constexpr double kHopeless = 0.02;  // of the least J: where epsilon is below that, what is inverted is behind the wall and stays there
+constexpr double kStronger = 16.0, kMostShortened = 1e3;  // damping where something slides and no step succeeds
+constexpr double kHopeless = 0.02;  // share of the least J: where epsilon is below it, inverted elements are behind the wall and stay there
 constexpr int kAfterwards = 4;      // steps that are taken when nothing is inverted any more, for better shapes
 
-/// chi and its derivatives by J.
+/// Wall chi and its derivatives by J.
 struct Wall {
   Wall(double j, double epsilon) {
     const double root = std::sqrt(epsilon * epsilon + j * j);
@@ -61,14 +61,14 @@ class FoldoverFree {
   FoldoverFreeSolution<D> solve(const std::function<void(const FoldoverFreeIterate<D>&)>& on_step, Progress& progress);
 
  private:
-  /// What a set of displacements is worth, whatever epsilon is.
+  /// Measures of a set of displacements that do not depend on epsilon.
   struct Standing {
     std::size_t inverted = 0;
     double least = kInfinity;           // see FoldoverFreeIterate
-    double least_jacobian = kInfinity;  // of what is watched, against the size
+    double least_jacobian = kInfinity;  // least determinant watched, against the size
     std::vector<std::size_t> inside{};  // elements that are sound at their corners and not proved to be so inside
   };
-  /// What is watched of an element: bits of its corner samples, and of its inner ones behind them.
+  /// Samples of an element that are watched: bits of its corner samples, and of its inner ones behind them.
   struct Watch {
     std::uint32_t bits = 0;
     bool is_lost = false;  // a corner that cannot move is inverted
@@ -80,7 +80,7 @@ class FoldoverFree {
   }
   [[nodiscard]] Watch corners_that_move(std::size_t element) const;
   void watch_inside(std::size_t element);
-  /// For each sample of an element that is watched.
+  /// Calls a body for each sample of an element that is watched.
   template <class Body>
   void for_watched(std::size_t element, const Body& body) const {
     const ElementKind kind = problem_.elements[element].kind;
@@ -90,7 +90,7 @@ class FoldoverFree {
       if ((bits & 1U) != 0) body(s < corners.size() ? corners[s] : inner[s - corners.size()], s < corners.size());
   }
   [[nodiscard]] Corners corners(std::size_t element, const Places& displacements) const;
-  /// In a unit in which the size is 1.
+  /// Matrix T in a unit in which the size is 1.
   [[nodiscard]] Matrix matrix(const Sample& sample, const Corners& corners) const;
   [[nodiscard]] bool proved_inside(std::size_t element, const Corners& corners) const;
   [[nodiscard]] Standing stand(const Places& displacements) const;
@@ -115,11 +115,11 @@ class FoldoverFree {
   std::vector<Watch> watched_;
   Places at_, trial_;
   std::vector<double> direction_;
-  std::vector<Derivatives> derivatives_;  // of some elements at once
+  std::vector<Derivatives> derivatives_;  // derivatives of a batch of elements
   double epsilon_ = 1.0, energy_ = 0.0, fall_ = 0.0, damping_ = kFirstDamping, alpha_ = 1.0;
 };
 
-// ---- what is watched ----
+// ---- samples to watch ----
 
 template <int D>
 typename FoldoverFree<D>::Watch FoldoverFree<D>::corners_that_move(std::size_t index) const {
@@ -240,7 +240,8 @@ double FoldoverFree<D>::energy(const Places& displacements) const {
   return sum;
 }
 
-/// The Hessian is that of the energy with J linear in the vertices and chi linear in J where shapes are concerned: positive semidefinite.
+/// Derivatives of an element's energy. The Hessian takes J as linear in the vertices, and chi as linear in J in the term of shapes:
+/// positive semidefinite.
 template <int D>
 void FoldoverFree<D>::derive(std::size_t index, const Corners& at, Derivatives& result) const {
   result = {};
@@ -280,7 +281,7 @@ void FoldoverFree<D>::derive(std::size_t index, const Corners& at, Derivatives& 
   });
 }
 
-/// Half the sum of |T|^2.
+/// Derivatives of half the sum of |T|^2.
 template <int D>
 void FoldoverFree<D>::derive_springs(std::size_t index, const Corners& at, Derivatives& result) const {
   result = {};
@@ -317,7 +318,7 @@ void FoldoverFree<D>::assemble(const Derive& derive_one) {
 
 // ---- steps ----
 
-/// To where springs along all edges balance.
+/// Moves the vertices to where springs along all edges balance.
 template <int D>
 void FoldoverFree<D>::spring() {
   const auto derive_one = [this](std::size_t e, const Corners& at, Derivatives& result) { derive_springs(e, at, result); };
@@ -332,7 +333,7 @@ void FoldoverFree<D>::spring() {
   if (problem_.path != nullptr) problem_.path->take();
 }
 
-/// Newton's, with more and more of the diagonal on top where the matrix is singular.
+/// Finds Newton's direction, with more and more of the diagonal added where the matrix is singular.
 template <int D>
 bool FoldoverFree<D>::find_direction() {
   if (problem_.path != nullptr) {
@@ -348,7 +349,7 @@ bool FoldoverFree<D>::find_direction() {
   return false;
 }
 
-/// Tries a share of the direction. False: the trial cannot be.
+/// Tries a share of the direction. False: the trial is impossible.
 template <int D>
 bool FoldoverFree<D>::go(double share) {
   for (std::size_t v = 0; v < at_.size(); ++v)
@@ -377,7 +378,7 @@ bool FoldoverFree<D>::step() {
   return false;
 }
 
-/// As far as the energy's last fall allows that its next minimum is no higher: the paper's theorem 2.
+/// Lowers epsilon as far as the energy's last fall allows that its next minimum is no higher: the paper's theorem 2.
 template <int D>
 void FoldoverFree<D>::lower_epsilon(double j, double fall) {
   const double mu = (1.0 - std::max(kLeastFall, fall)) * Wall(j, epsilon_).value;
@@ -413,7 +414,7 @@ FoldoverFreeSolution<D> FoldoverFree<D>::solve(const std::function<void(const Fo
   energy_ = energy(at_);
   for (int afterwards = 0; solution.steps < options_.max_steps && afterwards <= kAfterwards;) {
     progress.check();
-    if (!step()) {  // what slides may go less far than it should: smaller steps may do
+    if (!step()) {  // sliding vertices may go less far than asked: smaller steps may do
       if (problem_.path == nullptr || damping_ >= kMostShortened) break;
       damping_ = kStronger * std::max(damping_, kFirstDamping);
       continue;

@@ -12,14 +12,14 @@ namespace dmoscope {
 namespace {
 
 constexpr double kFirstMargin = 0.05;  // tau begins this far above the greatest f
-constexpr double kLeastSlack = 0.005;  // of its slack an atom keeps in one step
+constexpr double kLeastSlack = 0.005;  // share of its slack that an atom keeps in one step
 constexpr double kCentred = 10.0;      // Newton's decrement below which a full step suffices before mu falls
-constexpr int kEnoughFullSteps = 4;    // in a row: mu falls even where they do not centre, as where elements differ much in size
-constexpr double kFall = 0.3;          // of mu
+constexpr int kEnoughFullSteps = 4;    // number in a row after which mu falls even if none centres, as where sizes differ
+constexpr double kFall = 0.3;          // factor by which mu falls
 constexpr double kFirstDamping = 0.1, kLeastDamping = 1e-4, kMostDamping = 1e4;
-constexpr double kOntoDiagonal = 1e-9;                     // what rounding could take from it
+constexpr double kOntoDiagonal = 1e-9;                     // share of the diagonal that is added against rounding
 constexpr std::size_t kGrain = 128;                        // atoms that a thread takes at once
-constexpr std::size_t kAloneAtOnce = 256, kAtOnce = 2048;  // atoms that one thread, or all, take before what follows in order
+constexpr std::size_t kAloneAtOnce = 256, kAtOnce = 2048;  // atoms that one thread, or all, take before the ordered sums
 
 template <int D>
 class InteriorPoint {
@@ -36,7 +36,7 @@ class InteriorPoint {
   [[nodiscard]] std::size_t at_once() const { return pool_ != nullptr ? kAtOnce : kAloneAtOnce; }
   [[nodiscard]] double slack(std::size_t atom) const { return problem_.bound(atom, at_.tau) - at_.values[atom]; }
   [[nodiscard]] const AtomFunction<D>& function(std::size_t atom) const { return atom < own_ ? function_ : *problem_.limited; }
-  /// In the sum, where that falls; else 0.
+  /// Weight of an atom in the sum, where that falls; else 0.
   [[nodiscard]] double weight(std::size_t atom) const { return atom < own_ && problem_.atoms[atom].piece != kGuardPiece ? weight_ : 0.0; }
   [[nodiscard]] double sum() const {
     double sum = 0.0;
@@ -48,7 +48,7 @@ class InteriorPoint {
     if (raised_ == 0) return sum();
     return *std::max_element(at_.values.begin(), at_.values.begin() + static_cast<std::ptrdiff_t>(raised_));
   }
-  /// An atom's part in the Lagrangian.
+  /// Share of an atom in the Lagrangian.
   [[nodiscard]] double share(std::size_t atom) const { return at_.multipliers[atom] + weight(atom); }
   bool start();
   void choose_ways();
@@ -64,22 +64,22 @@ class InteriorPoint {
 
   const JointProblem<D>& problem_;
   const AtomFunction<D>& function_;
-  std::size_t raised_;   // atoms, the first ones
-  std::size_t own_;      // of these and of the sum: those whose f is `function_`
-  double weight_ = 0.0;  // of each f in the sum, where that falls
+  std::size_t raised_;   // number of raised atoms, the first ones
+  std::size_t own_;      // number of atoms raised or in the sum: those whose f is `function_`
+  double weight_ = 0.0;  // weight of each f in the sum, where that falls
   ThreadPool* pool_;
   AtomBlocks<D> system_;
   JointIterate<D> at_;
-  // Of the step under way.
-  std::vector<AtomDerivatives<D>> derivatives_;        // of some atoms
+  // Quantities of the step under way.
+  std::vector<AtomDerivatives<D>> derivatives_;        // derivatives of a batch of atoms
   std::vector<std::array<double, kEdges>> gradients_;  // by edges
   std::vector<double> ratios_, changes_, new_values_;  // multiplier / slack, multipliers' steps
-  std::vector<double> direction_, tau_direction_;      // dx, and of it what goes with dtau
+  std::vector<double> direction_, tau_direction_;      // dx, and its part that goes with dtau
   std::vector<double> force_;                          // sum of mu / slack * gradient
   std::vector<Place> trial_;
-  double ratio_sum_ = 0.0, barrier_sum_ = 0.0;  // of the multiplier / slack, of mu / slack
+  double ratio_sum_ = 0.0, barrier_sum_ = 0.0;  // sums of multiplier / slack, and of mu / slack
   double dtau_ = 0.0, slope_ = 0.0, alpha_ = 0.0;
-  std::vector<std::size_t> bound_atoms_;  // those with a vertex that slides
+  std::vector<std::size_t> bound_atoms_;  // atoms with a sliding vertex
   double sigma_ = kFirstDamping;
   bool exact_ = true;
 };
@@ -104,7 +104,7 @@ double InteriorPoint<D>::value(std::size_t atom, const std::vector<Place>& displ
   return function(atom).value(problem_.atoms[atom], displaced_edges<D>(problem_, atom, displacements), problem_.reference(atom));
 }
 
-/// Of some atoms.
+/// Evaluates f of some atoms.
 template <int D>
 void InteriorPoint<D>::evaluate(std::size_t first, std::size_t end, const std::vector<Place>& displacements,
                                 std::vector<double>& values) const {
@@ -113,7 +113,7 @@ void InteriorPoint<D>::evaluate(std::size_t first, std::size_t end, const std::v
   });
 }
 
-/// False where an f is infinite, or not below its limit.
+/// Begins at the undisplaced vertices. False where an f is infinite, or not below its limit.
 template <int D>
 bool InteriorPoint<D>::start() {
   const std::size_t count = problem_.atoms.size();
@@ -146,7 +146,7 @@ bool InteriorPoint<D>::start() {
   return true;
 }
 
-/// Where vertices slide, the step's directions depend on which way they are drawn: at a corner of a curve one of its two sides counts.
+/// Chooses the directions of sliding vertices by the forces that draw them: at a corner of a curve one of its two sides counts.
 template <int D>
 void InteriorPoint<D>::choose_ways() {
   if (problem_.path == nullptr) return;
@@ -160,14 +160,14 @@ void InteriorPoint<D>::choose_ways() {
   problem_.path->choose(forces);
 }
 
-/// The Hessian of the Lagrangian and the barrier, K, and the sums that go with it, with damping.
+/// Assembles K, the Hessian of the Lagrangian and the barrier, and the sums that go with it, with damping.
 template <int D>
 void InteriorPoint<D>::assemble(Curvature curvature) {
   system_.cholesky.clear();
   force_.assign(problem_.free_vertices * kD, 0.0);
   tau_direction_.assign(problem_.free_vertices * kD, 0.0);
   ratio_sum_ = barrier_sum_ = 0.0;
-  // While one thread adds up some atoms, the others derive the next.
+  // Lets one thread add up some atoms while the others derive the next.
   const std::size_t count = problem_.atoms.size(), size = at_once();
   derivatives_.resize(2 * std::min(count, size));
   const auto derive = [&](std::size_t from, std::size_t to) {
@@ -195,8 +195,8 @@ void InteriorPoint<D>::assemble(Curvature curvature) {
   system_.scale_diagonal(1.0 + kOntoDiagonal);
 }
 
-/// What makes an atom's vertices stiff, times its multiplier: the mean of its Hessian's diagonal there, or where that may vanish the
-/// gradient over the edges' length.
+/// Stiffness of an atom's vertices, times its multiplier: the mean of its Hessian's diagonal there, or where that may vanish the gradient
+/// over the edges' length.
 template <int D>
 typename InteriorPoint<D>::Damping InteriorPoint<D>::damping(std::size_t atom, const AtomDerivatives<D>& derivatives) const {
   Damping result{};
@@ -219,7 +219,7 @@ typename InteriorPoint<D>::Damping InteriorPoint<D>::damping(std::size_t atom, c
     for (const double x : edge) length += x * x;
   const double stiff = length > 0.0 ? multiplier * std::sqrt(slope / length) : 0.0;
   result.fill(stiff);
-  result[0] = D * stiff;  // it is in every edge
+  result[0] = D * stiff;  // the first vertex is in every edge
   return result;
 }
 
@@ -247,7 +247,7 @@ bool InteriorPoint<D>::factorise() {
   assemble(exact_ ? Curvature::Exact : Curvature::Convex);
   for (int attempt = 0; attempt < 12; ++attempt) {
     if (system_.cholesky.factorise()) {
-      if (attempt == 0) exact_ = true;  // it may have become definite again
+      if (attempt == 0) exact_ = true;  // the exact Hessian may have become definite again
       return true;
     }
     if (exact_)
@@ -291,8 +291,8 @@ bool InteriorPoint<D>::search_line() {
     for (std::size_t v = 0; v < trial_.size(); ++v)
       for (std::size_t r = 0; r < kD; ++r) trial_[v][r] = at_.displacements[v][r] + alpha_ * direction_[v * kD + r];
     if (problem_.path != nullptr && !problem_.path->put_back(at_.displacements, trial_)) continue;
-    ProductLog slacks;  // of new ones over old ones
-    double rise = 0.0;  // of the sum
+    ProductLog slacks;  // product of the new slacks over the old ones
+    double rise = 0.0;  // rise of the sum
     bool inside = true;
     for (std::size_t a = 0; a < new_values_.size() && inside; ++a) {
       if (a % at_once() == 0) evaluate(a, std::min(a + at_once(), new_values_.size()), trial_, new_values_);
@@ -321,7 +321,7 @@ void InteriorPoint<D>::step_multipliers() {
   double longest = 1.0;
   for (std::size_t a = 0; a < changes_.size(); ++a) {
     const auto& vertices = problem_.atoms[a].vertices;
-    double rise = 0.0;  // of f, to first order
+    double rise = 0.0;  // rise of f, to first order
     for (std::size_t j = 0; j < kD; ++j)
       for (std::size_t r = 0; r < kD; ++r) {
         const double other = system_.is_free(a, j + 1) ? direction_[vertices[j + 1] * kD + r] : 0.0;
@@ -399,7 +399,7 @@ JointSolution<D> InteriorPoint<D>::solve(const InteriorPointOptions& options, co
     }
     at_.mu *= kFall;
   }
-  choose_ways();  // what holds them at the end
+  choose_ways();  // sets the ways that hold them at the end
   solution.last = std::move(at_);
   return solution;
 }

@@ -14,26 +14,26 @@
 
 namespace dmoscope {
 
-/// Vertices are numbered for this problem: first those that may move. Unknown are their displacements from `places`.
+/// Problem with vertices numbered for itself: first those that may move. Unknown are their displacements from `places`.
 template <int D>
 struct JointProblem {
   std::size_t free_vertices = 0;
-  std::vector<std::array<double, D>> places;  // of all vertices, where only differences of the free ones' matter, and only roughly
+  std::vector<std::array<double, D>> places;  // rough positions of all vertices; of the free ones only differences matter
   std::vector<Atom<D>> atoms;                 // each has a free vertex; `element` is that of the mesh
-  std::vector<AtomEdges<D>> edges;            // of each atom, undisplaced; about as long as 1
+  std::vector<AtomEdges<D>> edges;            // edges of each atom, undisplaced; about as long as 1
   std::vector<double> references;             // one an atom where AtomFunction reads them; else empty
-  JointWays<D>* path = nullptr;               // of those that slide; null: all may go anywhere
-  std::vector<double> limits{};               // of the last atoms: their f stay below these, which they are at the begin
-  const AtomFunction<D>* limited = nullptr;   // whose f; null where there are none
-  std::size_t beside = 0;                     // where all have limits: so many of the last are of `limited`, and not of the sum
-  /// Those that are raised; 0: the sum of all f falls instead, but of guards (kGuardPiece).
+  JointWays<D>* path = nullptr;               // ways of the sliding vertices; null: all may go anywhere
+  std::vector<double> limits{};               // limits of the last atoms: their f stay below these, which they are at the begin
+  const AtomFunction<D>* limited = nullptr;   // function f of atoms with limits; null where there are none
+  std::size_t beside = 0;  // where all have limits: number of the last atoms that belong to `limited`, and not to the sum
+  /// Number of atoms that are raised; 0: the sum of all f falls instead, without guards (kGuardPiece).
   [[nodiscard]] std::size_t raised() const { return atoms.size() - limits.size(); }
-  /// What an atom's f is to stay below.
+  /// Bound below which an atom's f must stay.
   [[nodiscard]] double bound(std::size_t atom, double tau) const { return atom < raised() ? tau : limits[atom - raised()]; }
   [[nodiscard]] double reference(std::size_t atom) const { return references.empty() ? 1.0 : references[atom]; }
 };
 
-/// An atom's edges with the free vertices displaced.
+/// Edges of an atom with the free vertices displaced.
 template <int D>
 [[nodiscard]] AtomEdges<D> displaced_edges(const JointProblem<D>& problem, std::size_t atom,
                                            const std::vector<std::array<double, D>>& displacements) {
@@ -50,7 +50,7 @@ template <int D>
 
 struct InteriorPointOptions {
   double gap = 2e-4;           // relative: ends when tau (or the sum) may be that far above the least possible
-  double early_gap = 0.0;      // on the way there, `leave_early` is asked at this one
+  double early_gap = 0.0;      // gap on the way there at which `leave_early` is asked
   double enough = -1.0;        // ends when all f are at most this
   int max_steps = 150;         // Newton steps
   ThreadPool* pool = nullptr;  // null: the calling thread alone
@@ -58,22 +58,22 @@ struct InteriorPointOptions {
 
 enum class InteriorPointEnd { Gap, LeftEarly, Enough, Steps, Stuck, NotSound };
 
-/// Where it stands after a Newton step, and at the end.
+/// State after a Newton step, and at the end.
 template <int D>
 struct JointIterate {
-  std::vector<std::array<double, D>> displacements;  // of the free vertices
+  std::vector<std::array<double, D>> displacements;  // displacements of the free vertices
   std::vector<double> values;                        // f of each atom
-  std::vector<double> multipliers;                   // of each atom, > 0; the sum of those that are raised is about 1
-  double worst = 0.0;                                // greatest f of those that are raised; or the sum, over that at the start
+  std::vector<double> multipliers;                   // multipliers of the atoms, > 0; the sum over the raised ones is about 1
+  double worst = 0.0;                                // greatest f of the raised atoms; or the sum, over that at the start
   double tau = 0.0, mu = 0.0;                        // f < tau; multiplier * (tau - f) is about mu
   int steps = 0;                                     // Newton steps so far
-  /// How far tau may be above the least possible, by duality; for convex f a bound, else an estimate.
+  /// Distance at most of tau from the least possible, by duality; for convex f a bound, else an estimate.
   [[nodiscard]] double gap() const { return mu * static_cast<double>(values.size()); }
 };
 
 template <int D>
 struct JointSolution {
-  JointIterate<D> last;                     // multipliers belong to it
+  JointIterate<D> last;                     // its multipliers are the final ones
   std::vector<std::array<double, D>> best;  // the displacements with the least `worst`; all 0 where nothing is better than that
   double best_worst = 0.0, start_worst = 0.0;
   InteriorPointEnd end = InteriorPointEnd::NotSound;  // NotSound: an f was infinite at the start; nothing was done
@@ -85,8 +85,8 @@ struct JointCallbacks {
   std::function<bool(const JointIterate<D>&)> leave_early{};  // see early_gap; asked once
 };
 
-/// Throws Cancelled within one Newton step of Progress::request_cancel(). Every sum has a fixed order: the same bits everywhere, for any
-/// pool.
+/// Solves the problem. Throws Cancelled within one Newton step of Progress::request_cancel(). Every sum has a fixed order: the same bits
+/// everywhere, for any pool.
 template <int D>
 [[nodiscard]] JointSolution<D> solve_joint(const JointProblem<D>& problem, const AtomFunction<D>& function,
                                            const InteriorPointOptions& options, const JointCallbacks<D>& callbacks, Progress& progress);

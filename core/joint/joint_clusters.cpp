@@ -15,7 +15,8 @@ namespace dmoscope {
 
 namespace {
 
-/// On a curved surface whatever moves slides. Pairs stay, which joint moves would part.
+/// Marks the vertices that joint moves keep in place: fixed ones, pairs, which such moves would part, and on a curved surface all that do
+/// not slide.
 std::vector<std::uint8_t> held(const InputMesh& input, std::span<const std::uint8_t> fixed, const Domain* domain) {
   std::vector<std::uint8_t> result(fixed.begin(), fixed.end());
   for (Index v = 0; input.is_surface() && v < result.size(); ++v)
@@ -103,8 +104,8 @@ class JointClusters::Of final : public Base {
   }
 
   JointMesh<D> mesh_;
-  std::optional<JointMesh<D>> second_;                          // of the second aim; none: there is one
-  double threshold_ = std::numeric_limits<double>::infinity();  // of the first
+  std::optional<JointMesh<D>> second_;                          // atoms of the second aim; none: there is one aim
+  double threshold_ = std::numeric_limits<double>::infinity();  // threshold of the first aim
   JointSliding sliding_;
 };
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Of a mesh whose elements' dimension is D.
+/// Frame of a mesh whose elements' dimension is D.
 template <int D>
 auto frame_of(const Geometry& geometry) {
   if constexpr (D == 2)
@@ -90,7 +90,7 @@ std::vector<double> JointMesh<D>::qualities(std::span<const Vec3> positions) con
   std::vector<double> result;
   result.reserve(atoms_.size());
   for (const Atom<D>& atom : atoms_) result.push_back(quality(atom));
-  // Both lists go by elements.
+  // Walks both lists at once, which go by elements.
   auto held = held_.begin();
   double of_element = kInfinity;
   for (std::size_t a = 0; a < atoms_.size(); ++a) {
@@ -105,7 +105,7 @@ std::vector<double> JointMesh<D>::qualities(std::span<const Vec3> positions) con
   return result;
 }
 
-/// Those with one of the vertices, ascending.
+/// Atoms with one of the vertices, ascending.
 template <int D>
 std::vector<Index> JointMesh<D>::atoms_at(std::span<const Index> vertices) const {
   std::vector<Index> atoms;
@@ -138,7 +138,7 @@ double JointMesh<D>::add_atoms(LocalProblem<D>& local, std::span<const Index> at
   return longest;
 }
 
-/// Brings the last atoms' edges into the problem's unit, and tells what else the problem knows of them and their vertices.
+/// Brings the last atoms' edges into the problem's unit, and sets all else that the problem knows of them and their vertices.
 template <int D>
 void JointMesh<D>::settle_atoms(LocalProblem<D>& local, std::size_t count, std::span<const Vec3> positions) const {
   JointProblem<D>& problem = local.problem;
@@ -174,7 +174,7 @@ LocalProblem<D> JointMesh<D>::problem(std::span<const Index> free, std::span<con
 
 template <int D>
 void JointMesh<D>::limit(LocalProblem<D>& local, double quality, std::span<const Vec3> positions) const {
-  constexpr double kRoom = 1e-9;  // of what rounding puts beyond its limit
+  constexpr double kRoom = 1e-9;  // relative room for atoms that rounding puts beyond their limit
   JointProblem<D>& problem = local.problem;
   local.limited = atoms_at(local.free());
   (void)add_atoms(local, local.limited, positions);
@@ -186,7 +186,7 @@ void JointMesh<D>::limit(LocalProblem<D>& local, double quality, std::span<const
         std::max(function_.inverse_of(quality), (1.0 + kRoom) * function_.value(problem.atoms[a], problem.edges[a], problem.reference(a))));
 }
 
-/// See DefinedAtoms: the scale, and of guards their mean ratio in units of the worst atom's. Of the last atoms.
+/// Sets the references of the last atoms, see DefinedAtoms: the scale, and for guards their mean ratio in units of the worst atom's.
 template <int D>
 void JointMesh<D>::set_references(LocalProblem<D>& local, std::size_t count) const {
   JointProblem<D>& problem = local.problem;

@@ -1,5 +1,5 @@
 #pragma once
-// Where the vertices of a joint move may go that are not free to go anywhere.
+// Ways of the vertices of a joint move that may only slide.
 
 #include <array>
 #include <cstddef>
@@ -10,8 +10,8 @@
 
 namespace dmoscope {
 
-/// Of a problem's free vertices some may only slide. Before each Newton step the search asks for the directions in which they may go from
-/// where they stand, and after it puts them back onto what they slide on: trials are judged there, so no step leaves it. Displacements are
+/// Directions of those of a problem's free vertices that may only slide. Before each Newton step the search asks for the directions in
+/// which they may go, and after it puts them back onto what they slide on: trials are judged there, so no step leaves it. Displacements are
 /// those of a JointProblem.
 template <int D>
 class JointWays {
@@ -24,19 +24,19 @@ class JointWays {
   JointWays& operator=(const JointWays&) = delete;
   virtual ~JointWays() = default;
 
-  /// By free vertex: takes a displacement into the directions in which it may go.
+  /// Projections by free vertex, of a displacement onto the directions in which the vertex may go.
   [[nodiscard]] virtual std::span<const Way> ways() const noexcept = 0;
-  /// By free vertex: non-zero where it is not free to go anywhere.
+  /// By free vertex: non-zero where it may only slide.
   [[nodiscard]] virtual std::span<const std::uint8_t> bound() const noexcept = 0;
 
-  /// Settles the ways for a step from where the vertices stand. `forces`: D numbers a free vertex, the way in which what is minimised falls
+  /// Settles the ways for a step from the present places. `forces`: D numbers a free vertex, the way in which the minimised function falls
   /// fastest; read for bound vertices alone.
   virtual void choose(std::span<const double> forces) = 0;
-  /// Puts the bound vertices of a trial back. `from`: where all stand. False: the trial cannot be.
+  /// Puts the bound vertices of a trial back. `from`: displacements before it, of all. False: the trial is impossible.
   [[nodiscard]] virtual bool put_back(const std::vector<Place>& from, std::vector<Place>& trial) = 0;
-  /// The vertices now stand where the last trial put them.
+  /// Accepts the last trial as the present places.
   virtual void take() = 0;
-  /// Where they stand is the best place so far.
+  /// Keeps the present places as the best so far.
   virtual void keep_best() = 0;
 };
 

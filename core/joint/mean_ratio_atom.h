@@ -1,6 +1,6 @@
 #pragma once
-// The mean ratio of an atom with its derivatives in closed form: it is a function of the atom's edges against the ideal ones, T, by its
-// determinant J and its norm alone.
+// Mean ratio of an atom with its derivatives in closed form: it depends on the atom's edges against the ideal ones, T, by its determinant J
+// and its norm alone.
 
 #include <array>
 #include <cmath>
@@ -11,7 +11,7 @@
 
 namespace dmoscope {
 
-/// Column c of T is the sum over the edges j of weight[j][c] * edge j.
+/// Weights that give T: its column c is the sum over the edges j of weight[j][c] * edge j.
 template <int D>
 using IdealWeights = std::array<std::array<double, D>, D>;
 
@@ -37,7 +37,7 @@ template <int D>
   }
 }
 
-/// A matrix with its determinant, the derivative of that by it, and the square of its norm.
+/// Matrix with its determinant, the derivative of that by it, and the square of its norm.
 template <int D>
 struct MatrixOfColumns {
   static constexpr std::size_t kD = D, kCount = kD * kD;
@@ -45,7 +45,7 @@ struct MatrixOfColumns {
 
   MatrixOfColumns() = default;
   explicit MatrixOfColumns(const std::array<Column, kD>& columns) : column(columns) { measure(); }
-  /// Of the columns as they are now.
+  /// Computes determinant, cofactors and norm of the present columns.
   void measure() {
     if constexpr (D == 2) {
       cofactor = {{{column[1][1], -column[1][0]}, {-column[0][1], column[0][0]}}};
@@ -70,7 +70,7 @@ struct MatrixOfColumns {
   }
 };
 
-/// T of an atom.
+/// Matrix T of an atom.
 template <int D>
 class MatrixAgainstIdeal : public MatrixOfColumns<D> {
  public:
@@ -105,7 +105,7 @@ class MatrixAgainstIdeal : public MatrixOfColumns<D> {
     }
   }
 
-  /// From derivatives by T to those by the edges.
+  /// Turns derivatives by T into those by the edges.
   void to_edges(const std::array<double, kCount>& g, const std::array<double, kCount * kCount>& h, AtomDerivatives<D>& result) const {
     std::array<double, kCount * kCount> half{};  // rows by T, columns by the edges
     result.gradient = {};
@@ -131,7 +131,7 @@ class MatrixAgainstIdeal : public MatrixOfColumns<D> {
   IdealWeights<D> weights_;
 };
 
-/// J^(2/D), J > 0.
+/// J^(2 / D), J > 0.
 template <int D>
 [[nodiscard]] inline double scale_of(double jacobian) {
   if constexpr (D == 2) return jacobian;
@@ -139,7 +139,7 @@ template <int D>
   return root * root;
 }
 
-/// |T|^2 / (D J^(2/D)).
+/// Inverse of the mean ratio, |T|^2 / (D J^(2/D)).
 template <int D>
 [[nodiscard]] inline double inverse_mean_ratio(AtomShape shape, const AtomEdges<D>& edges, double /*reference*/) {
   const MatrixAgainstIdeal<D> t(shape, edges);
@@ -147,13 +147,13 @@ template <int D>
   return scale > 0.0 ? t.square / (D * scale) : std::numeric_limits<double>::infinity();
 }
 
-/// k / |T|^D, k such that it is 1 for the ideal element: times J it is (mean ratio)^(D / 2), signed.
+/// k / |T|^D, with k such that it is 1 for the ideal element: times J it is (mean ratio)^(D / 2), signed.
 template <int D>
 [[nodiscard]] inline double inverse_norm_power(double square) {
   if constexpr (D == 2) return 2.0 / square;
   return 5.196152422706632 / (square * std::sqrt(square));
 }
-/// A matrix's entries in one row, column by column of the matrix.
+/// Entries of a matrix in one row, column by column of the matrix.
 template <int D>
 [[nodiscard]] inline std::array<double, MatrixAgainstIdeal<D>::kCount> flat(
     const std::array<typename MatrixAgainstIdeal<D>::Column, MatrixAgainstIdeal<D>::kD>& columns, double factor) {

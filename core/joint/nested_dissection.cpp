@@ -7,7 +7,7 @@ namespace dmoscope {
 
 namespace {
 
-constexpr std::size_t kLeaf = 8;  // parts of as many vertices are not halved any more
+constexpr std::size_t kLeaf = 8;  // parts of so many vertices are not halved any more
 
 enum class Side : std::uint8_t { Outside, First, Second, Unseen, Seen };
 
@@ -15,7 +15,7 @@ struct Halves {
   std::vector<Index> first, second, separator;
 };
 
-/// The first half of the vertices in `order` and the second one; those of the first with a neighbour in the second separate them.
+/// Halves of the vertices in `order`; those of the first with a neighbour in the second separate them.
 Halves halved(const Adjacency& graph, const std::vector<Index>& order, std::vector<Side>& side) {
   const std::size_t half = order.size() / 2;
   for (std::size_t i = 0; i < order.size(); ++i) side[order[i]] = i < half ? Side::First : Side::Second;
@@ -30,7 +30,7 @@ Halves halved(const Adjacency& graph, const std::vector<Index>& order, std::vect
   return result;
 }
 
-/// The vertices of a part by distance from `start`; parts that do not hang together one after the other.
+/// Vertices of a part by distance from `start`; parts that are not connected one after the other.
 std::vector<Index> breadth_first(const Adjacency& graph, const std::vector<Index>& part, Index start, std::vector<Side>& side) {
   for (const Index v : part) side[v] = Side::Unseen;
   std::vector<Index> queue{start};
@@ -63,7 +63,7 @@ class Dissection {
     if (part.size() <= kLeaf) return leave(part);
     std::vector<Index> sorted = by_longest_coordinate(part);
     Halves best = halved(graph_, sorted, side_);
-    // From one end of the part: the last that a search finds is far from where it began.
+    // Begins at one end of the part: the last vertex that a search finds is far from its start.
     std::vector<Index> queue = std::move(sorted);
     for (int search = 0; search < 3; ++search) queue = breadth_first(graph_, part, search == 0 ? queue.front() : queue.back(), side_);
     Halves other = halved(graph_, queue, side_);

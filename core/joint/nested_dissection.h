@@ -1,5 +1,5 @@
 #pragma once
-// An order of elimination that keeps the factor of a sparse matrix sparse.
+// Order of elimination that keeps the factor of a sparse matrix sparse.
 
 #include <array>
 #include <span>
@@ -9,8 +9,8 @@
 
 namespace dmoscope {
 
-/// A graph's edges in both directions, without loops: the neighbours of vertex i, ascending, are
-/// neighbours[offsets[i]] to neighbours[offsets[i + 1]]. offsets: one more than there are vertices.
+/// Adjacency of a graph, both directions of its edges, without loops: the neighbours of vertex i, ascending, are neighbours[offsets[i]] to
+/// neighbours[offsets[i + 1]]. offsets: one more than there are vertices.
 struct Adjacency {
   std::vector<Index> offsets{0};
   std::vector<Index> neighbours;
@@ -20,7 +20,7 @@ struct Adjacency {
 };
 
 /// Nested dissection (George 1973). Each part is halved by its longest coordinate and by a breadth-first search, and the smaller of the two
-/// separators is taken. `places`: about where each vertex stands. Returns the vertices in that order; ties are broken by index.
+/// separators is taken. `places`: rough position of each vertex. Returns the vertices in that order; ties are broken by index.
 template <int D>
 [[nodiscard]] std::vector<Index> nested_dissection(const Adjacency& graph, std::span<const std::array<double, D>> places);
 

@@ -9,11 +9,11 @@ namespace dmoscope {
 
 namespace {
 
-constexpr double kSameWay = 1e-12;    // of cosines: two straight ways that go on without a corner
-constexpr double kNearCorner = 1e-9;  // as a share of a straight way: what ends nearer to its end than that ends there
-constexpr double kSmallStep = 1e-3;   // as a share of an edge: how far is looked for room
-constexpr double kOpenStep = 0.03;    // as a share of a facet's size: likewise on a surface, once something stopped a vertex
-constexpr double kDrawn = 1e-3;       // as a share of a vertex's force: what of it a stop must resist to be told
+constexpr double kSameWay = 1e-12;    // difference of cosines: two straight ways that go on without a corner
+constexpr double kNearCorner = 1e-9;  // share of a straight way: a vertex that ends nearer to its end than that ends there
+constexpr double kSmallStep = 1e-3;   // share of an edge: step by which room is looked for
+constexpr double kOpenStep = 0.03;    // share of a facet's size: such a step on a surface, once something stopped a vertex
+constexpr double kDrawn = 1e-3;       // share of a vertex's force that a stop must resist to be reported
 constexpr int kHalvings = 8;
 
 template <std::size_t N>
@@ -36,7 +36,7 @@ SlidingPath<D>::SlidingPath(const JointMesh<D>& mesh, const LocalProblem<D>& loc
     if (!domain.slides(free[i])) continue;
     any_ = true;
     bound_[i] = 1;
-    ways_[i] = {};  // it stays where nothing better is known
+    ways_[i] = {};  // a vertex stays where nothing better is known
     if (domain.on_curve(free[i]))
       add_slider(i, free[i], positions[free[i]]);
     else
@@ -85,7 +85,7 @@ void SlidingPath<D>::add_slider(Index free, Index vertex, Vec3 position) {
       Slider{.free = free, .vertex = vertex, .begin = position, .begin_place = *place, .now = stand, .trial = stand, .best = stand});
 }
 
-/// Those behind it, and one before it where nobody else adds that.
+/// Adds the edge behind a slider, and the one before it where no other slider adds that.
 template <int D>
 void SlidingPath<D>::add_edges(std::size_t slider, std::span<const Vec3> positions, std::span<const std::size_t> slider_of) {
   Slider& s = sliders_[slider];
@@ -119,7 +119,7 @@ double SlidingPath<D>::place_within(Index vertex, double place) const {
   return period > 0.0 && place >= period ? place - period : place;
 }
 
-// ---- where it may go ----
+// ---- allowed places ----
 
 template <int D>
 double SlidingPath<D>::deviation(const Edge& edge, Index vertex, const Stand& from, const Stand& to) const {
@@ -128,7 +128,7 @@ double SlidingPath<D>::deviation(const Edge& edge, Index vertex, const Stand& fr
                            edge.to == kNone ? edge.at_to : to.position);
 }
 
-/// In the trial: are its ends in order still, and does it keep near the curve?
+/// Returns whether, in the trial, an edge's ends are still in order and it keeps near the curve.
 template <int D>
 bool SlidingPath<D>::keeps(const Edge& edge) const {
   const Stand stays{};
@@ -138,7 +138,7 @@ bool SlidingPath<D>::keeps(const Edge& edge) const {
   return deviation(edge, sliders_[edge.from == kNone ? edge.to : edge.from].vertex, from, to) <= edge.limit;
 }
 
-/// With one of its ends elsewhere.
+/// Returns whether an edge may have one of its ends elsewhere.
 template <int D>
 bool SlidingPath<D>::edge_allows(const Edge& edge, std::size_t moved, const Stand& there) const {
   const Stand stays{};
@@ -147,13 +147,13 @@ bool SlidingPath<D>::edge_allows(const Edge& edge, std::size_t moved, const Stan
   return deviation(edge, sliders_[moved].vertex, from, to) <= edge.limit;
 }
 
-/// Where the file would hold it: in one of floats that is beside a feature edge, and small faces reach across that then.
+/// Position as the file would hold it: stored in floats it is beside a feature edge, and small faces reach across that then.
 template <int D>
 Vec3 SlidingPath<D>::as_stored(const Slider& slider, const Stand& stand) const {
   return stand.gone == 0.0 ? slider.begin : curves_.at(slider.vertex, place_within(slider.vertex, stand.place));
 }
 
-/// Is there room for a small step?
+/// Returns whether there is room for a small step.
 template <int D>
 bool SlidingPath<D>::is_open(const Slider& slider, bool forwards) {
   const std::size_t self = static_cast<std::size_t>(&slider - sliders_.data());
@@ -167,8 +167,8 @@ bool SlidingPath<D>::is_open(const Slider& slider, bool forwards) {
          (!faces_ || faces_->allows(slider.vertex, curves_.at(slider.vertex, place), nullptr));
 }
 
-/// What blocked a vertex keeps it from that way as long as its force leads there, and no step of some length does. One that was blocked on
-/// another way, too, stays meanwhile.
+/// Chooses a vertex's way on a surface. A blocked way stays blocked as long as its force leads there, and no step of some length is
+/// possible. A vertex that was blocked on another way, too, stays meanwhile.
 template <int D>
 void SlidingPath<D>::choose_on_surface(SurfaceSlider& slider, Vec3 force) {
   const Facets& facets = domain_.faces().facets();
@@ -240,7 +240,8 @@ void SlidingPath<D>::choose(std::span<const double> forces) {
 
 // ---- trials ----
 
-/// At a corner of its curve: does its force draw it back from the next straight way, more than from the one on which it comes?
+/// Returns whether its force draws a vertex at a corner of its curve back from the next straight way, more than from the one on which it
+/// comes.
 template <int D>
 bool SlidingPath<D>::draws_back(const Slider& slider, Vec3 way, Vec3 next) const {
   const double cosine = dot(way, next);
@@ -302,7 +303,7 @@ bool SlidingPath<D>::put_back(const std::vector<Place>& from, std::vector<Place>
   return true;
 }
 
-/// Shortens the way of those whose edges or faces would leave the input too far, or turn over.
+/// Shortens the way of sliders whose edges or faces would leave the input too far, or turn over.
 template <int D>
 void SlidingPath<D>::shorten() {
   if (faces_) unsure_.assign(sliders_.size() + on_surface_.size(), 1);
@@ -313,7 +314,7 @@ void SlidingPath<D>::shorten() {
   }
 }
 
-/// By number of those that slide and could go less far: whether they must.
+/// Marks, by their number, the sliders that could go less far: whether they must.
 template <int D>
 std::vector<std::uint8_t> SlidingPath<D>::find_strayed() {
   std::vector<std::uint8_t> marked(sliders_.size() + on_surface_.size(), 0);
@@ -345,7 +346,7 @@ std::vector<std::uint8_t> SlidingPath<D>::find_strayed() {
   return marked;
 }
 
-/// By half, or all of it.
+/// Shortens the way of marked sliders by half, or all of it.
 template <int D>
 void SlidingPath<D>::shorten_marked(const std::vector<std::uint8_t>& marked, bool all) {
   for (std::size_t i = 0; i < marked.size(); ++i) {
@@ -384,7 +385,7 @@ void SlidingPath<D>::keep_best() {
   for (SurfaceSlider& s : on_surface_) s.best = s.now;
 }
 
-// ---- what came of it ----
+// ---- outcome ----
 
 template <int D>
 std::vector<Index> SlidingPath<D>::stopped() const {
@@ -397,7 +398,7 @@ std::vector<Index> SlidingPath<D>::stopped() const {
   return vertices;
 }
 
-/// So far along its curve from where it began.
+/// Place so far along its curve from where it began.
 template <int D>
 typename SlidingPath<D>::Stand SlidingPath<D>::stand_at(const Slider& slider, double gone) const {
   double place = gone == slider.best.gone ? slider.best.place : slider.begin_place + gone;
@@ -406,7 +407,8 @@ typename SlidingPath<D>::Stand SlidingPath<D>::stand_at(const Slider& slider, do
   return {place, gone, curves_.at(slider.vertex, place)};
 }
 
-/// What rounding put elsewhere must still be on the curve and between the neighbours, and the edges there near it.
+/// Returns whether a stored position is still on the curve and between the neighbours, and the edges there near it: rounding may have moved
+/// it.
 template <int D>
 bool SlidingPath<D>::may_stand(const Slider& slider, std::span<const Vec3> positions) const {
   const auto place = curves_.place(slider.vertex, positions[slider.vertex]);
@@ -424,7 +426,7 @@ bool SlidingPath<D>::may_stand(const SurfaceSlider& slider, Vec3 position) {
   return place && faces_->allows(slider.vertex, position, &*place);
 }
 
-/// A share of the way on a surface; none where that leads nowhere.
+/// Position a share of the way along a surface; none where that leads nowhere.
 template <int D>
 std::optional<Vec3> SlidingPath<D>::target(const SurfaceSlider& slider, double share) const {
   Vec3 there = slider.best.position;
@@ -465,7 +467,7 @@ std::size_t SlidingPath<D>::settle(double share, std::span<const Index> free, st
     ++stayed;
     return true;
   };
-  // One that goes back may be in the way of another.
+  // Repeats until nothing changes: a vertex that goes back may be in the way of another.
   for (std::size_t before = stayed + 1; before != stayed;) {
     before = stayed;
     std::erase_if(on_curves, [&](const Slider* s) {

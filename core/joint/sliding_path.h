@@ -17,7 +17,7 @@ namespace dmoscope {
 /// Vertices go along their curves, at most up to their neighbours, and only as far as the bound of deviation lets the edges beside them. At
 /// a corner of a curve where a force holds a vertex from both sides it stops; the next step takes the side to which its force points, if
 /// there is one. On a surface a vertex goes in the plane that touches it, and then down to it, across no feature edge, and the faces around
-/// keep near the input as the edges do. All must outlive it but `positions`, where the cluster stands.
+/// keep near the input as the edges do. All arguments must outlive it but `positions`, those of the cluster at the begin.
 template <int D>
 class SlidingPath final : public JointWays<D> {
  public:
@@ -26,10 +26,10 @@ class SlidingPath final : public JointWays<D> {
 
   SlidingPath(const JointMesh<D>& mesh, const LocalProblem<D>& local, std::span<const Vec3> positions, const Domain& domain,
               const DeviationBound& limit);
-  /// Does a vertex of the cluster slide?
+  /// Returns whether a vertex of the cluster slides.
   [[nodiscard]] bool any() const noexcept { return any_; }
 
-  /// All that slides keeps its place from now on. Before the search begins.
+  /// Makes all sliders keep their places from now on. Only before the search begins.
   void hold();
 
   [[nodiscard]] std::span<const Way> ways() const noexcept override { return ways_; }
@@ -40,16 +40,16 @@ class SlidingPath final : public JointWays<D> {
   void keep_best() override;
 
   /// Sets the targets of the vertices that slide, a share of their way to the best place: as the file would hold them, and by the rules for
-  /// all that slide. Those that may not go there keep their place. Returns how many. `targets`: of the cluster's vertices `free`, known of
-  /// all others. `positions`: of the mesh, as it stands; the same again at the end.
+  /// all that slide. Those that may not go there keep their place. Returns how many. `targets`: those of the cluster's vertices `free`, of
+  /// which all that do not slide are known. `positions`: those of the mesh, unchanged at the end.
   [[nodiscard]] std::size_t settle(double share, std::span<const Index> free, std::span<Vec3> positions, std::span<Vec3> targets);
-  /// The mesh's vertices that the bound of deviation, or on a surface a feature edge, keeps from where their forces draw them, as choose()
+  /// Vertices of the mesh that the bound of deviation, or on a surface a feature edge, keeps from where their forces draw them, as choose()
   /// found them last; ascending.
   [[nodiscard]] std::vector<Index> stopped() const;
 
  private:
   static constexpr std::size_t kD = D, kNone = static_cast<std::size_t>(-1);
-  /// Where a vertex stands on its curve, and how far it has come, forwards, since the begin.
+  /// Place of a vertex on its curve, and how far it has come, forwards, since the begin.
   struct Stand {
     double place = 0.0, gone = 0.0;
     Vec3 position{};
@@ -59,18 +59,18 @@ class SlidingPath final : public JointWays<D> {
     Vec3 begin;
     double begin_place;
     Stand now, trial, best;
-    std::size_t before = kNone, after = kNone;  // edges
-    Place way{};                                // in which it goes
+    std::size_t before = kNone, after = kNone;  // edges beside it
+    Place way{};                                // direction in which it goes
     bool runs_forwards = true, one_sided = false, stopped = false;
     Place force{};
-    double asked = 0.0;  // how far the trial would lead it
+    double asked = 0.0;  // distance that the trial would lead it
   };
-  /// An edge along a curve; an end that is no slider stays.
+  /// Edge along a curve; an end that is no slider stays.
   struct Edge {
     std::size_t from = kNone, to = kNone;
-    double place_from, gap;  // at the begin
+    double place_from, gap;  // places at the begin
     Vec3 at_from, at_to;
-    double limit = 0.0;  // of its deviation
+    double limit = 0.0;  // limit of its deviation
   };
 
   void add_slider(Index free, Index vertex, Vec3 position);
@@ -106,8 +106,8 @@ class SlidingPath final : public JointWays<D> {
   std::vector<Edge> edges_;
   std::vector<SurfaceSlider> on_surface_;
   std::unique_ptr<FaceWatch> faces_;  // null: there are none
-  std::vector<std::uint8_t> unsure_;  // by that number, in a trial: whether its faces must be looked at
-  std::vector<Index> of_vertex_;      // by vertex, where there are faces: its number among those that slide, first those on curves
+  std::vector<std::uint8_t> unsure_;  // by slider, in a trial: whether its faces must be looked at
+  std::vector<Index> of_vertex_;      // by vertex, where there are faces: its number among the sliders, first those on curves
 };
 
 }  // namespace dmoscope

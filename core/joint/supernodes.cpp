@@ -12,7 +12,7 @@ std::vector<Index> places_of(std::span<const Index> order) {
   return place;
 }
 
-/// The parent of each column in the elimination tree (Davis 2006, chapter 4): its first row below the diagonal.
+/// Parent of each column in the elimination tree (Davis 2006, chapter 4): its first row below the diagonal.
 std::vector<Index> elimination_tree(const Adjacency& graph, std::span<const Index> order) {
   const std::vector<Index> place = places_of(order);
   std::vector<Index> parent(order.size(), kNoIndex), ancestor(order.size(), kNoIndex);
@@ -27,7 +27,7 @@ std::vector<Index> elimination_tree(const Adjacency& graph, std::span<const Inde
   return parent;
 }
 
-/// The columns with the children of each directly before it.
+/// Columns with the children of each directly before it.
 std::vector<Index> postorder(const std::vector<Index>& parent) {
   const std::size_t n = parent.size();
   std::vector<Index> first_child(n + 1, kNoIndex), sibling(n, kNoIndex), stack, result;
@@ -54,7 +54,7 @@ std::vector<Index> postorder(const std::vector<Index>& parent) {
   return result;
 }
 
-/// How many rows each column has below the diagonal.
+/// Number of rows that each column has below the diagonal.
 std::vector<std::size_t> column_counts(const Adjacency& graph, std::span<const Index> order, const std::vector<Index>& parent) {
   const std::vector<Index> place = places_of(order);
   std::vector<std::size_t> count(order.size(), 0);
@@ -70,7 +70,7 @@ std::vector<std::size_t> column_counts(const Adjacency& graph, std::span<const I
   return count;
 }
 
-/// Few wide supernodes are faster than many narrow ones, at the price of some zeros (Ashcraft and Grimes 1989).
+/// Returns whether to merge: few wide supernodes are faster than many narrow ones, at the price of some zeros (Ashcraft and Grimes 1989).
 bool worth_merging(std::size_t width, std::size_t below, std::size_t zeros) {
   const double share = static_cast<double>(zeros) / (0.5 * static_cast<double>(width * (width + 1)) + static_cast<double>(width * below));
   if (width <= 4) return true;
@@ -107,7 +107,7 @@ void find_parents(std::vector<Supernode>& nodes, const std::vector<Index>& paren
     if (parent[node.end - 1] != kNoIndex) node.parent = node_of[parent[node.end - 1]];
 }
 
-/// The rows of the matrix and of the children that are below a node's own columns.
+/// Collects the rows of the matrix and of the children that are below a node's own columns.
 void find_rows(SupernodeTree& tree, const Adjacency& graph) {
   const std::vector<Index> place = places_of(tree.order);
   std::vector<Index> mark(tree.order.size(), kNoIndex), last_child(tree.nodes.size(), kNoIndex), sibling(tree.nodes.size(), kNoIndex);

@@ -1,5 +1,5 @@
 #pragma once
-// Which columns of a sparse Cholesky factor are kept and eliminated together, and which rows they have: the symbolic analysis.
+// Symbolic analysis of a sparse Cholesky factor: which columns are kept and eliminated together, and which rows they have.
 
 #include <cstddef>
 #include <span>
@@ -9,22 +9,22 @@
 
 namespace dmoscope {
 
-/// Columns first to end of the factor with the same rows below them, or nearly: what one lacks is kept as 0.
+/// Columns first to end of the factor with the same rows below them, or nearly: a missing row is kept as 0.
 struct Supernode {
   Index first = 0, end = 0;
-  Index parent = kNoIndex;             // in the tree of supernodes: that with the first of the rows
-  std::size_t rows = 0, rows_end = 0;  // in SupernodeTree::rows
-  std::size_t zeros = 0;               // how many pairs of row and column are kept in vain
+  Index parent = kNoIndex;             // its parent in the tree of supernodes: the node with the first of the rows
+  std::size_t rows = 0, rows_end = 0;  // range in SupernodeTree::rows
+  std::size_t zeros = 0;               // number of pairs of row and column that are kept in vain
   [[nodiscard]] std::size_t width() const { return end - first; }
   [[nodiscard]] std::size_t below() const { return rows_end - rows; }
   [[nodiscard]] std::size_t height() const { return width() + below(); }
 };
 
 struct SupernodeTree {
-  std::vector<Index> order;        // the vertex of each column
+  std::vector<Index> order;        // vertex of each column
   std::vector<Supernode> nodes;    // by columns, so that children come before their parent
-  std::vector<Index> rows;         // of each node below its own columns, ascending
-  std::vector<Index> parent_rows;  // for each of them, its number among the parent's columns and rows
+  std::vector<Index> rows;         // rows of each node below its own columns, ascending
+  std::vector<Index> parent_rows;  // number of each of these rows among the parent's columns and rows
 };
 
 /// `order`: the vertices in the order of elimination, which is kept but for parts that do not depend on each other.

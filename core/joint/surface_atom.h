@@ -13,18 +13,18 @@
 
 namespace dmoscope {
 
-/// The last vertex of an atom of a curved surface at a corner of an element with so many: see Atom.
+/// Last vertex of an atom of a curved surface, by the number of corners of its element and the corner of the atom: see Atom.
 [[nodiscard]] constexpr std::size_t opposite_corner(std::size_t corners, std::size_t corner) {
   return corners == 4 ? (corner + 2) % 4 : corner;
 }
 
-/// A metric of a triangle, or of a quadrilateral's corner, between the edges u and v.
+/// Quality of a triangle, or of a quadrilateral's corner, between the edges u and v.
 template <Metric M, class V>
 [[nodiscard]] formulas::RealOf<V> planar_quality(bool is_triangle, V u, V v) {
   return is_triangle ? pieces::Piece<M>::triangle(u, v) : pieces::square_corner<M>(u, v);
 }
 
-/// The normal of an atom's element, by the rule of curved_normal(), in any scalar. `frame`: the element's.
+/// Normal of an atom's element, by the rule of curved_normal(), in any scalar. `frame`: the element's.
 template <class R>
 [[nodiscard]] Vec3Of<R> surface_normal(AtomShape shape, const std::array<Vec3Of<R>, 3>& e, const Curved& frame) {
   const bool is_triangle = shape == AtomShape::SurfaceTriangle;
@@ -32,21 +32,21 @@ template <class R>
   const Vec3Of<R> a = is_triangle ? e[0] : e[2], b = is_triangle ? e[1] : e[1] - e[0];
   if constexpr (std::is_same_v<R, double>) {
     return curved_normal(a, b, frame.normal, frame.against);
-  } else {  // whose atom is not inverted
+  } else {  // only for atoms that are not inverted
     using scalar::sqrt;
     const Vec3Of<R> n = cross(a, b);
     return (R(1.0) / sqrt(dot(n, n))) * n;
   }
 }
 
-/// The two edges at the corner as vectors of the element's plane.
+/// Edges at the corner as vectors of the element's plane.
 template <class R>
 [[nodiscard]] std::array<SurfaceVectorOf<R>, 2> surface_vectors(AtomShape shape, const std::array<Vec3Of<R>, 3>& e, const Curved& frame) {
   const Vec3Of<R> n = surface_normal(shape, e, frame);
   return {SurfaceVectorOf<R>{e[0], n}, SurfaceVectorOf<R>{e[1], n}};
 }
 
-/// The same in the coordinates of ElementFrames.
+/// Edges at the corner in the coordinates of ElementFrames.
 template <class R>
 [[nodiscard]] std::array<Vec2<R>, 2> surface_coordinates(AtomShape shape, const std::array<Vec3Of<R>, 3>& e, const Curved& frame) {
   const Vec3Of<R> n = surface_normal(shape, e, frame);
@@ -54,7 +54,7 @@ template <class R>
     const Plane plane = tangent_plane(n);
     return {plane.project(e[0]), plane.project(e[1])};
   } else {
-    // The plane's first direction is that of a coordinate, brought into it: the second is at a right angle to that coordinate.
+    // Takes as the plane's first direction that of a coordinate, brought into it: the second is at a right angle to that coordinate.
     const Plane plane = tangent_plane({n.x.value, n.y.value, n.z.value});
     const std::array<double, 3> along{plane.u.x - std::fabs(plane.v.x), plane.u.y - std::fabs(plane.v.y), plane.u.z - std::fabs(plane.v.z)};
     std::array<Vec3Of<R>, 3> axes{};

@@ -14,13 +14,13 @@ namespace dmoscope {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kMostlyInverted = 0.3;  // share of a patch's elements from which on their places tell little
+constexpr double kMostlyInverted = 0.3;  // share of inverted elements in a patch from which on their places tell little
 
-/// What an element with edges of length 1 measures, by kind.
+/// Size of an ideal element with edges of length 1, by kind.
 constexpr std::array<double, kElementKindCount> kIdealSizes{0.4330127018922193, 1.0, 0.11785113019775793, 1.0, 0.4330127018922193,
                                                             0.23570226039551587};
 
-/// Of a planar element, counter-clockwise.
+/// Area of a planar element, positive if it is counter-clockwise.
 double area(const InputMesh& input, std::span<const Vec3> positions, Index element) {
   const Plane& plane = input.geometry.plane;
   const auto corners = input.mesh.elements.corners(element);
@@ -62,7 +62,7 @@ std::optional<JointCluster> Untangler<D>::run() {
   if (state_.untanglings < kMostCalls) grow(inverted_elements());
   finished_ = true;
   if (moved_from_.empty()) return std::nullopt;
-  state_.atoms.clear();  // what is known of elements is of before
+  state_.atoms.clear();  // it describes the elements before the moves
   state_.levels.clear();
   state_.pushed = state_.beyond = false;
   state_.end = JointState::End::None;
@@ -70,8 +70,8 @@ std::optional<JointCluster> Untangler<D>::run() {
   return told();
 }
 
-/// By more and more rings; where vertices slide, first without these and then, as long as patches are small, with them. Where nothing
-/// helps it is the end of it.
+/// Untangles with more and more rings; where vertices slide, first without these and then, as long as patches are small, with them. Ends
+/// where nothing helps.
 template <int D>
 void Untangler<D>::grow(std::vector<Index> inverted) {
   if (inverted.empty()) return;
@@ -91,7 +91,7 @@ void Untangler<D>::grow(std::vector<Index> inverted) {
   if (moved_from_.empty()) state_.untanglings = kMostCalls;
 }
 
-/// Those that could be turned: the corners at fault have free vertices, or none is and it is inverted inside.
+/// Inverted elements that could be turned: the corners at fault have free vertices, or none is and it is inverted inside.
 template <int D>
 std::vector<Index> Untangler<D>::inverted_elements() const {
   const QualityContext context = mesh_.input().quality_context();
@@ -107,7 +107,7 @@ std::vector<Index> Untangler<D>::inverted_elements() const {
   return result;
 }
 
-/// How many rings a free vertex is away from the inverted elements, up to `most`; kFar beyond that, and for others.
+/// Number of rings by which a free vertex is away from the inverted elements, up to `most`; kFar beyond that, and for others.
 template <int D>
 std::vector<int> Untangler<D>::rings_from(const std::vector<Index>& inverted, int most) const {
   const Mesh& mesh = mesh_.input().mesh;
@@ -134,7 +134,7 @@ std::vector<int> Untangler<D>::rings_from(const std::vector<Index>& inverted, in
   return rings;
 }
 
-/// Of those among `vertices` that are up to so many rings away the connected patches, in pieces of at most `most` vertices; each ascending.
+/// Connected patches of those `vertices` that are up to so many rings away, in pieces of at most `most` vertices; each ascending.
 template <int D>
 std::vector<typename Untangler<D>::Patch> Untangler<D>::connected(std::span<const Index> vertices, const std::vector<int>& rings, int limit,
                                                                   std::size_t most) const {
@@ -158,8 +158,7 @@ std::vector<typename Untangler<D>::Patch> Untangler<D>::connected(std::span<cons
   return result;
 }
 
-/// Free vertices within so many rings of the inverted elements, by connected patches. Those that are too large have fewer rings, and at
-/// last are cut.
+/// Connected patches of free vertices within so many rings of the inverted elements. Too large ones get fewer rings, and at last are cut.
 template <int D>
 std::vector<typename Untangler<D>::Patch> Untangler<D>::patches(const std::vector<Index>& inverted, int most) const {
   const std::vector<int> rings = rings_from(inverted, most);
@@ -180,7 +179,7 @@ std::vector<typename Untangler<D>::Patch> Untangler<D>::patches(const std::vecto
 
 // ---- one patch ----
 
-/// Of its vertices, ascending.
+/// Elements at a patch's vertices, ascending.
 template <int D>
 std::vector<Index> Untangler<D>::elements_of(const Patch& patch) const {
   std::vector<Index> elements = mesh_.elements_at(patch);
@@ -234,8 +233,8 @@ FoldoverFreeProblem<D> Untangler<D>::pose(const LocalProblem<D>& local) const {
   return problem;
 }
 
-/// What an ideal element of edges 1 is to be scaled by, if all were alike and filled what these do; that does not depend on where the free
-/// vertices are.
+/// Factor by which to scale an ideal element with edges of length 1, if all were alike and filled the elements' area or volume; it does not
+/// depend on where the free vertices are.
 template <int D>
 double Untangler<D>::size(const std::vector<Index>& elements) const {
   const InputMesh& input = mesh_.input();
@@ -250,10 +249,10 @@ double Untangler<D>::size(const std::vector<Index>& elements) const {
     all += std::fabs(measure);
     ideal += kIdealSizes[static_cast<std::size_t>(input.mesh.elements.kind(e))];
   }
-  return (sum > 0.0 ? sum : all) / ideal;  // or they enclose less than nothing
+  return (sum > 0.0 ? sum : all) / ideal;  // the elements may enclose less than nothing
 }
 
-/// From where they stand, and where springs take them: the other one first where most are inverted.
+/// Untangles a patch from its present positions, and from those to which springs take them: the latter first where most are inverted.
 template <int D>
 void Untangler<D>::untangle(const Patch& patch) {
   const QualityContext context = mesh_.input().quality_context();
@@ -284,7 +283,7 @@ Index Untangler<D>::untangle(const Patch& patch, bool springs_first) {
   return static_cast<Index>(moved ? solution.inverted : solution.start_inverted);
 }
 
-/// Where that is better by the program's own judgement.
+/// Moves the vertices if that is better by the program's own judgement.
 template <int D>
 bool Untangler<D>::move(const LocalProblem<D>& local, SlidingPath<D>* path, const Offsets& displacements) {
   std::vector<Vec3> targets;
@@ -321,7 +320,7 @@ JointCluster Untangler<D>::told() const {
   result.vertices = vertices_;
   std::ranges::sort(result.vertices);
   result.vertices.erase(std::unique(result.vertices.begin(), result.vertices.end()), result.vertices.end());
-  std::vector<std::uint8_t> is_known(positions_.size(), 0);  // where it stood at the start
+  std::vector<std::uint8_t> is_known(positions_.size(), 0);  // whether the position at the start is known
   for (const auto& [vertex, from] : moved_from_) {
     if (is_known[vertex] == 0 && !same_bits(from, positions_[vertex])) result.moved.push_back({vertex, positions_[vertex]});
     is_known[vertex] = 1;

@@ -1,9 +1,8 @@
 #pragma once
-// Where elements are inverted: one call of JointClusters::raise_worst that turns as many of them the right way round as it can.
-//
+// Untangling by joint moves: one call of JointClusters::raise_worst that turns as many inverted elements the right way round as it can.
 // Patches are the free vertices within some rings of elements around the inverted ones, each connected one a problem of its own, with its
-// rim held. What a patch leaves inverted is tried again with more rings, up to the whole mesh. A patch moves where it has fewer inverted
-// elements than before and the least quality of what it changed is no lower, by the program's own judgement.
+// rim held. Elements that a patch leaves inverted are tried again with more rings, up to the whole mesh. A patch moves where it has fewer
+// inverted elements than before and the least quality of the elements that it changed is no lower, by the program's own judgement.
 
 #include <array>
 #include <memory>
@@ -19,23 +18,24 @@
 
 namespace dmoscope {
 
-/// For one call. The state may be left in any state on an exception; the positions are then as they were.
+/// Untangler of one call. An exception may leave the state in any state; the positions are then as they were.
 template <int D>
 class Untangler {
  public:
-  /// `mesh`: by the mean ratio, whatever the metric is by which moves are judged.
+  /// `mesh`: one by the mean ratio, whatever the metric is by which moves are judged.
   Untangler(const JointMesh<D>& mesh, Metric metric, const JointSliding& sliding, std::span<Vec3> positions, JointState& state,
             const JointOptions& options, Progress& progress);
-  ~Untangler();  // takes back what is not finished
+  ~Untangler();  // takes back unfinished moves
   Untangler(const Untangler&) = delete;
   Untangler& operator=(const Untangler&) = delete;
-  /// None: nothing is inverted that could move, or nothing helps; the state says so, and it need not be asked again.
+  /// Untangles once. Returns none where nothing is inverted that could move, or nothing helps; the state says so, and it need not be asked
+  /// again.
   [[nodiscard]] std::optional<JointCluster> run();
 
  private:
   using Offsets = std::vector<typename JointMesh<D>::Offset>;
   using Patch = std::vector<Index>;                          // vertices, ascending
-  static constexpr int kWhole = 1 << 20, kFar = kWhole + 1;  // rings: as far as it goes
+  static constexpr int kWhole = 1 << 20, kFar = kWhole + 1;  // rings: without limit
   static constexpr std::array<int, 4> kRings{2, 6, 20, kWhole};
   static constexpr int kMostSliding = 6;  // rings of patches whose vertices slide
   static constexpr std::uint32_t kMostCalls = 3;
@@ -66,10 +66,10 @@ class Untangler {
   Progress& progress_;
   std::size_t most_together_;
   std::vector<std::pair<Index, Vec3>> moved_from_;  // in the order of the moves
-  std::vector<Index> vertices_;                     // of the patches that rose
-  double before_, after_;                           // least quality of what changed
+  std::vector<Index> vertices_;                     // vertices of the patches that rose
+  double before_, after_;                           // least quality of the elements that changed
   int newton_steps_ = 0, solutions_ = 0;
-  bool slides_ = false;  // what can slide does; else it stays
+  bool slides_ = false;  // whether vertices that can slide do; else they stay
   bool finished_ = false;
 };
 

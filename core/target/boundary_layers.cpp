@@ -15,25 +15,25 @@ namespace dmoscope {
 namespace {
 
 constexpr double kAtWall = 2.0, kAbove = 1.2;  // least width over height of the first element of a stack, and of those above
-constexpr double kShrinks = 0.8;               // layers get higher from the wall on: at least so high against the one below
+constexpr double kShrinks = 0.8;               // layers get higher from the wall on: least height over that of the one below
 constexpr double kFlat = 4.0,
-                 kGrown = 1.5;      // of a pronounced stack: width over height of the first, height of the last over that of the first
-constexpr std::size_t kLayers = 3;  // at least
+                 kGrown = 1.5;      // for a pronounced stack: width over height of the first, height of the last over that of the first
+constexpr std::size_t kLayers = 3;  // least number
 constexpr double kEven = 0.95, kSteps = 2.5;  // least and most height over that of the layer beneath
 constexpr double kUpright = 0.5;              // sine of the angle between the wall and the way up below which an element leans
 constexpr double kMostLeaning = 0.15;         // share of layers that lean, in stacks that begin flat
 constexpr std::uint16_t kHighest = 60000;     // layers of a stack
 
 struct Extent {
-  double width = 0.0, height = 0.0;  // means, along the wall and away from it
+  double width = 0.0, height = 0.0;  // mean width along the wall and mean height away from it
   double upright = 0.0;              // sine of the angle between the wall and the way up
-  /// May it be in a stack upon one of that height?
+  /// Returns whether it may be in a stack upon a layer of height `below`.
   [[nodiscard]] bool is_layer_on(double below, double flattest) const {
     return height > 0.0 && width >= flattest * height && height >= kShrinks * below;
   }
 };
 
-/// How wide and high elements are that stand on one of their sides.
+/// Widths and heights of elements that stand on one of their sides.
 class Shapes {
  public:
   Shapes(const Mesh& mesh, const Plane& plane, std::span<const Vec3> positions) : mesh_(mesh), plane_(plane), positions_(positions) {}
@@ -45,7 +45,7 @@ class Shapes {
     const Vec3 along = way(0) - way(2), up = way(1) - way(3);
     return {0.5 * (side(0) + side(2)), 0.5 * (side(1) + side(3)), length(cross(along, up)) / (length(along) * length(up))};
   }
-  /// The height of a planar element above one of its edges; a triangle's is the shorter one of its two other edges.
+  /// Height of a planar element above one of its edges; a triangle's is the shorter one of its two other edges.
   [[nodiscard]] double height(Index element, Index edge) const {
     const auto c = mesh_.elements.corners(element);
     const std::size_t n = c.size();
@@ -54,7 +54,7 @@ class Shapes {
   }
   [[nodiscard]] double distance(Index a, Index b) const { return length(difference(a, b)); }
 
-  /// The face that stands opposite to one; none where there is no such face.
+  /// Face opposite to one; none where there is no such face.
   [[nodiscard]] static std::optional<Index> opposite(ElementKind kind, Index face) {
     const auto faces = faces_of(kind);
     for (Index other = 0; other < faces.size(); ++other) {
@@ -66,7 +66,7 @@ class Shapes {
     return std::nullopt;
   }
 
-  /// Of an element between two faces.
+  /// Height and width of an element between two faces.
   [[nodiscard]] Extent extent(Index element, Index face, Index other) const {
     const auto c = mesh_.elements.corners(element);
     const auto faces = faces_of(mesh_.elements.kind(element));
@@ -88,7 +88,7 @@ class Shapes {
     return {0.5 * width / edges, height / edges, std::abs(dot(normal, up)) / (length(normal) * length(up))};
   }
 
-  /// The corner of the other face that an edge joins with one of the first.
+  /// Corner of the other face that an edge joins with one of the first.
   [[nodiscard]] static Index above(ElementKind kind, Index face, Index other, Index corner) {
     const auto faces = faces_of(kind);
     for (const LocalFace& side : faces) {
@@ -106,7 +106,7 @@ class Shapes {
   }
 
  private:
-  /// The way to a from b.
+  /// Shortest way to a from b.
   [[nodiscard]] Vec3 difference(Index a, Index b) const { return plane_.difference(positions_[a], positions_[b]); }
 
   const Mesh& mesh_;
@@ -114,7 +114,7 @@ class Shapes {
   std::span<const Vec3> positions_;
 };
 
-/// Finds the elements of stacks; by the sides of elements, which are edges in the plane and faces in space.
+/// Finder of the elements of stacks, by the sides of elements, which are edges in the plane and faces in space.
 class Finder {
  public:
   Finder(const Mesh& mesh, const Geometry& geometry)
@@ -148,7 +148,7 @@ class Finder {
     climbed_.clear();
     steady_layers_ = climbed_layers_ = 0;
   }
-  /// Keeps the steady part of the stack, from the wall on. `elements`: of the layer that comes next.
+  /// Keeps the steady part of the stack, from the wall on. `elements`: those of the layer that comes next.
   void add_to_stack(std::span<const Index> elements, const Extent& extent) {
     climbed_.insert(climbed_.end(), elements.begin(), elements.end());
     ++climbed_layers_;
@@ -165,7 +165,7 @@ class Finder {
     stack_.insert(stack_.end(), elements.begin(), elements.end());
   }
   void end_stack() {
-    // A flat triangle or two on the boundary are no layers.
+    // Discards a stack of a flat triangle or two on the boundary: these are no layers.
     if (!climbed_.empty() && mesh_.elements.kind(climbed_[0]) == ElementKind::Triangle && climbed_layers_ < kLayers) {
       for (const Index element : climbed_) height_[element] = 0;
       --layers_.stacks;
@@ -174,9 +174,9 @@ class Finder {
     for (const Index element : stack_) pronounced_[element] = 1;
   }
 
-  // In the plane: a side is an element's edge i, from corner i to i + 1.
+  // Stacks in the plane: a side is an element's edge i, from corner i to i + 1.
 
-  /// A layer of a stack: a quadrilateral, or two triangles that one was cut into.
+  /// Layer of a stack: a quadrilateral, or two triangles that one was cut into.
   struct Rung {
     std::array<Index, 2> elements{}, bases{};
     std::size_t count = 0;
@@ -191,7 +191,7 @@ class Finder {
     const Index cut = above_first ? (edge + 1) % 3 : (edge + 2) % 3;
     const Index beside = across_[4 * std::size_t{element} + cut];
     if (beside == kNoIndex || mesh_.elements.kind(beside) != ElementKind::Triangle) return std::nullopt;
-    const Index end = above_first ? b : a;  // of the cut, at the base
+    const Index end = above_first ? b : a;  // end of the cut at the base
     Index corner = kNoIndex;
     for (const Index v : mesh_.elements.corners(beside))
       if (v != tip && v != end) corner = v;
@@ -251,7 +251,7 @@ class Finder {
     }
   }
 
-  // In space: a side is a face.
+  // Finds stacks in space: a side is a face.
 
   void from_faces() {
     const FaceNeighbours neighbours(mesh_);
@@ -289,12 +289,12 @@ class Finder {
   std::vector<std::uint16_t> height_;  // by element; 0: in no stack
   std::vector<std::uint8_t> base_;     // by element: the side that it stands on
   std::vector<std::uint8_t> pronounced_;
-  std::vector<Index> stack_, climbed_;  // the steady part of the one that is climbed, from the wall on, and all of it
-  Extent first_, last_;                 // of its elements
+  std::vector<Index> stack_, climbed_;  // elements of the stack that is climbed: its steady part, from the wall on, and all of it
+  Extent first_, last_;                 // shapes of its first and last element
   std::size_t steady_layers_ = 0, climbed_layers_ = 0;
-  Index flat_ = 0, leaning_ = 0;  // layers
-  bool steady_ = true;            // has no layer of it so far differed much from the one beneath?
-  std::vector<Index> across_;     // by element and edge
+  Index flat_ = 0, leaning_ = 0;  // numbers of layers
+  bool steady_ = true;            // whether no layer of the stack so far differed much from the one beneath
+  std::vector<Index> across_;     // neighbours, by element and edge
   BoundaryLayers layers_;
 };
 

@@ -15,7 +15,7 @@ namespace {
 
 using Words = std::vector<std::string_view>;
 
-/// At separators outside of quotation marks.
+/// Splits text at separators outside of quotation marks.
 Words split(std::string_view text, char separator) {
   Words parts;
   bool quoted = false;
@@ -32,7 +32,7 @@ Words split(std::string_view text, char separator) {
 
 bool is_quoted(std::string_view name) { return name.size() >= 2 && name.starts_with('"') && name.ends_with('"'); }
 std::string unquoted(std::string_view name) { return std::string(is_quoted(name) ? name.substr(1, name.size() - 2) : name); }
-/// With quotation marks where it would be read as something else.
+/// Name with quotation marks where it would be read as something else.
 std::string quoted(const std::string& name) {
   const bool plain =
       name.find_first_of("+:@# ") == std::string::npos && name != "input" && name != "ideal" && name != "field" && name != "aspect";
@@ -92,7 +92,7 @@ TargetShape parse_aspect(std::string_view text, const Words& words) {
   return shape;
 }
 
-/// None where the text is no shape.
+/// Reads a shape; none where the text is no shape.
 std::optional<TargetShape> parse_shape(std::string_view text, bool of_group) {
   const Words words = split(text, ':');
   if (text == "ideal") return TargetShape{};
@@ -143,7 +143,7 @@ Target parse_target(std::string_view text) {
       have_others = true;
       continue;
     }
-    // The group's name may have colons itself.
+    // Splits at the shape's colon: the group's name may have colons itself.
     bool found = false;
     const std::size_t after = piece.starts_with('"') ? piece.find('"', 1) : 0;
     for (std::size_t colon = piece.find(':', after); colon != std::string_view::npos && !found; colon = piece.find(':', colon + 1)) {

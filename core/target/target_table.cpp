@@ -184,11 +184,11 @@ class TargetTable::Maker {
     phrases_.push_back({shape, of, mine.size()});
   }
 
-  /// So that the metric of an element whose aspect changes by the tolerance counts 0.
+  /// Factor by which the metric falls faster, so that it is 0 for an element whose aspect changes by the tolerance.
   [[nodiscard]] double steepness(const TargetShape& shape, ElementKind kind) const {
     if (!(shape.tolerance > 0.0)) return 1.0;
     const double lost = 1.0 - of_stretched_(kind, 1.0 + 0.01 * shape.tolerance);
-    return lost > 1e-12 ? std::max(1.0, 1.0 / lost) : 1.0;  // some metrics do not see aspects
+    return lost > 1e-12 ? std::max(1.0, 1.0 / lost) : 1.0;  // some metrics do not depend on aspects
   }
 
   void begin(Index e, std::size_t matrices) {
@@ -231,11 +231,11 @@ class TargetTable::Maker {
       for (std::size_t row = 0; static_cast<int>(row) < n_; ++row) square += edges.at[row][column] * edges.at[row][column];
       product *= std::sqrt(square);
     }
-    // Of an element that is stretched k times this is about 1/k, of a tetrahedron along one of its edges 1/k^2.
+    // Compares with a small share: an element that is stretched k times has about 1/k, a tetrahedron along one of its edges 1/k^2.
     return determinant(edges) > (n_ == 2 ? 1e-9 : 1e-13) * product;
   }
 
-  /// How each element is stretched against an ideal one, averaged with its neighbours; by the logarithms, so that no mean is flat.
+  /// Stretches of the elements against ideal ones, averaged with their neighbours; by the logarithms, so that no mean is flat.
   [[nodiscard]] std::vector<SmallMatrix> averaged(int rounds) const {
     const auto count = mesh_.elements.size();
     std::vector<SmallMatrix> logs(count);

@@ -67,8 +67,8 @@ bool is_second(std::string_view text) {
   }
 }
 
-/// FIRST, THRESHOLD and SECOND. Formulas and targets have colons and numbers of their own: the threshold is the first number between two
-/// that have metrics on both sides.
+/// Splits a combination into FIRST, THRESHOLD and SECOND. Formulas and targets have colons and numbers of their own: the threshold is the
+/// first number between two that have metrics on both sides.
 std::array<std::string_view, 3> parts_of_combination(std::string_view text) {
   const auto words = split(text, ':');
   if (words.size() == 3) return {words[0], words[1], words[2]};

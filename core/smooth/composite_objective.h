@@ -1,6 +1,6 @@
 #pragma once
-// Two aims in one objective (paper, Section 4.2): a first metric up to a threshold, and beyond it a second aim. And how both are written:
-// the same way on the command line, in the command language and in saved sessions.
+// Composite objectives of two aims (paper, Section 4.2), a first metric up to a threshold and beyond it a second aim, and their notation,
+// which is the same on the command line, in the command language and in saved sessions.
 
 #include <string>
 #include <string_view>
@@ -12,39 +12,39 @@
 
 namespace dmoscope {
 
-/// h of the paper's eq. (7): the size that elements shall have, up to a factor common to all of the mesh.
+/// Size function, h of the paper's eq. (7): the size that elements shall have, up to a factor common to all of the mesh.
 struct SizeFunction {
   enum class Kind {
     Distance,         // h1, eq. (12): the distance to `point`
     InverseDistance,  // h2 = 1 / h1, eq. (13)
     Constant,         // everywhere the same
-    Field             // `field`, a nodal field of the mesh's file, taken where the vertex stands, not with the vertex
+    Field             // `field`, a nodal field of the mesh's file, read at the position of the vertex, not carried along with it
   };
   Kind kind = Kind::Constant;
-  Vec3 point{};         // in the mesh's coordinates
-  std::string field{};  // its name
+  Vec3 point{};         // in mesh coordinates
+  std::string field{};  // name of the nodal field
   [[nodiscard]] bool has_point() const noexcept { return kind == Kind::Distance || kind == Kind::InverseDistance; }
   friend bool operator==(const SizeFunction&, const SizeFunction&) = default;
 };
 
-/// What a star is worth to a vertex (paper eq. 8): its least first metric where that is no more than the threshold; beyond the threshold
-/// all stars are better than those below, and the second aim counts: the least of another metric, or the density (eq. 6, 7).
+/// Value of a star for a vertex (paper eq. 8): its least first metric where that is no more than the threshold; beyond the threshold all
+/// stars are better than those below, and the second aim counts: the least of another metric, or the density (eq. 6, 7).
 struct CompositeTerms {
   double threshold = 0.7;
   std::variant<Metric, SizeFunction> second = SizeFunction{};
-  [[nodiscard]] const SizeFunction* size() const noexcept { return std::get_if<SizeFunction>(&second); }  // null: a metric
+  [[nodiscard]] const SizeFunction* size() const noexcept { return std::get_if<SizeFunction>(&second); }  // null: it is a metric
   friend bool operator==(const CompositeTerms&, const CompositeTerms&) = default;
 };
 
-/// "constant", "h1:X,Y", "h2:X,Y" (",Z" where that is not 0), "field:NAME".
+/// Notation of a size function: "constant", "h1:X,Y", "h2:X,Y" (",Z" where that is not 0), "field:NAME".
 [[nodiscard]] std::string to_text(const SizeFunction& size);
-/// Throws UsageError that says what is possible.
+/// Reads a size function. Throws UsageError that says what is possible.
 [[nodiscard]] SizeFunction parse_size_function(std::string_view text);
 
-/// "mean-ratio:0.7:density", "mean-ratio:0.7:min-angle"; the size function is apart.
+/// Notation of a combination: "mean-ratio:0.7:density", "mean-ratio:0.7:min-angle"; the size function is apart.
 [[nodiscard]] std::string to_text(Metric first, const CompositeTerms& combination);
-/// The reverse; `size`: as above, empty: everywhere the same, and nothing else where the second aim is a metric. Throws UsageError, also
-/// as validate() does.
+/// Reads a combination; `size`: its size function, empty: everywhere the same; it must be empty where the second aim is a metric. Throws
+/// UsageError, also as validate() does.
 [[nodiscard]] std::pair<Metric, CompositeTerms> parse_composite(std::string_view text, std::string_view size = {});
 
 /// A metric whose least in a star falls neither below the floor nor, where it is below that, any further, whatever else is raised.
@@ -54,10 +54,10 @@ struct Guard {
   friend bool operator==(const Guard&, const Guard&) = default;
 };
 
-/// For titles: "mean-ratio > 0.7 · density h1".
+/// Phrase for titles: "mean-ratio > 0.7 · density h1".
 [[nodiscard]] std::string phrase(Metric first, const CompositeTerms& combination);
 
-/// Throws UsageError for what no mesh can have: the threshold, the point, the same metric twice.
+/// Throws UsageError for combinations that no mesh can have: by the threshold, the point, or the same metric twice.
 void validate(Metric first, const CompositeTerms& combination);
 
 }  // namespace dmoscope

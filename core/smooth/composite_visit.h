@@ -1,5 +1,5 @@
 #pragma once
-// Parts of a visit with two aims (see visit/star_judge.h) that run on any processor: the second aims, and how a place is judged by both.
+// Parts of a visit with two aims (see visit/star_judge.h) that run on any processor: the second aims, and the judgement of a place by both.
 
 #include <cmath>
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace dmoscope {
 
-/// A size function that a formula gives, as plain data: see SizeFunction, all of whose kinds but Field these are.
+/// Size function given by a formula, as plain data: any kind of SizeFunction but Field.
 struct SizeFormula {
   SizeFunction::Kind kind = SizeFunction::Kind::Constant;
   Vec3 point{};
@@ -29,13 +29,13 @@ struct SizeFormula {
   friend bool operator==(const SizeFormula&, const SizeFormula&) = default;
 };
 
-/// Is a star whose least first metric is `least` beyond the threshold? Beyond means above it or, `inclusive`, not below it; with inverted
-/// elements never.
+/// Returns whether a star whose least first metric is `least` is beyond the threshold: above it or, `inclusive`, not below it; with
+/// inverted elements never.
 [[nodiscard]] DMOSCOPE_ANYWHERE bool is_beyond(double least, double threshold, bool inclusive) {
   return inclusive ? least > 0.0 && least >= threshold : least > threshold;
 }
 
-/// Two aims but for the first metric, as plain data. Not for sizes out of a nodal field.
+/// Two aims without the first metric, as plain data. Not for sizes from a nodal field.
 struct PlainComposite {
   enum class Second : std::uint8_t { Mean, Metric, Density };
   Second second = Second::Mean;
@@ -48,23 +48,22 @@ struct PlainComposite {
   friend bool operator==(const PlainComposite&, const PlainComposite&) = default;
 };
 
-/// Where a vertex would stand for the sake of density (paper eq. 7), and what other places are worth (eq. 6, but bounded and free of
-/// scale).
+/// Best place of a vertex for density (paper eq. 7), and the density of other places (eq. 6, but bounded and free of scale).
 template <class Frame>
 struct DensityTarget {
   using Offset = OffsetIn<Frame, double>;
-  Offset offset{};    // from where the vertex stands
+  Offset offset{};    // from the vertex's position
   double edge = 0.0;  // mean edge of the star
-  /// 1 / (1 + d^2 / h^2); `at`: relative to where the vertex stands.
+  /// Density of a place, 1 / (1 + d^2 / h^2); `at`: relative to the vertex's position.
   [[nodiscard]] DMOSCOPE_ANYWHERE double density(Offset at) const {
     const Offset away = at - offset;
     return edge > 0.0 ? 1.0 / (1.0 + dot(away, away) / (edge * edge)) : 0.0;
   }
-  /// The same in units of `scale`.
+  /// Target in units of `scale`.
   [[nodiscard]] DMOSCOPE_ANYWHERE DensityTarget in_units(double scale) const { return {times(offset, 1.0 / scale), edge / scale}; }
 };
 
-/// The mean of the edge neighbours, weighted by the inverse of the size where each stands now. size_at(vertex, place): h > 0.
+/// Mean of the edge neighbours, weighted by the inverse of the size at their present positions. size_at(vertex, place): h > 0.
 template <class SizeAt>
 [[nodiscard]] DMOSCOPE_ANYWHERE DensityTarget<Plane> density_target_by(const PlanarView& mesh, PositionView positions, Index vertex,
                                                                        const SizeAt& size_at) {
@@ -95,7 +94,7 @@ template <Metric M, class StarT, class Point>
   return mean.value(count);
 }
 
-/// The same by the statistics', with the vertex at a place.
+/// Mean of the metric of a star with the vertex at a place, by the statistics' formulas; summed in the star's order.
 template <Metric M, class Frame>
 [[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE double mean_at_place(const MeshView<Frame>& mesh, PositionView positions, Index vertex,
                                                                      Vec3 place, MeanKind kind) {
@@ -107,15 +106,15 @@ template <Metric M, class Frame>
   return mean.value(static_cast<double>(mesh.star(vertex).size()));
 }
 
-/// What would become of a vertex that goes from where its star is `before` to where it is `after`? `aims`: PlainComposite or what else has
-/// its beyond() and raise_mean(); confirm_soundness(tangled): see there; second_rises(): is the second aim greater there?
+/// Outcome for a vertex that goes from a place with the star `before` to one with the star `after`. `aims`: PlainComposite or another type
+/// with its beyond() and raise_mean(); confirm_soundness(tangled): see there; second_rises(): whether the second aim is greater there.
 template <class CompositeT, class ConfirmSoundness, class SecondRises>
 [[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE Confirmation confirm_composite(const CompositeT& aims, const StarState& before,
                                                                                const StarState& after, const Untangling& untangling,
                                                                                const ConfirmSoundness& confirm_soundness,
                                                                                const SecondRises& second_rises) {
   const bool tangled = !(before.jacobian > 0.0);
-  bool decided = false;  // without the second aim
+  bool decided = false;  // whether the answer needs no second aim
   if (tangled) {
     if (!after.better_than(before, untangling)) return Confirmation::GainsNothing;
     // Raising the mean lowers neither the minimum nor the mean, not even for the sake of untangling.
@@ -128,7 +127,7 @@ template <class CompositeT, class ConfirmSoundness, class SecondRises>
   }
   const Confirmation confirmed = confirm_soundness(tangled);
   if (confirmed != Confirmation::Gains || decided) return confirmed;
-  return second_rises() ? Confirmation::Gains : Confirmation::GainsNothing;  // in one place: a device's code has a copy for each
+  return second_rises() ? Confirmation::Gains : Confirmation::GainsNothing;  // one call alone: a device's code has a copy for each
 }
 
 }  // namespace dmoscope

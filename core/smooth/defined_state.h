@@ -1,5 +1,5 @@
 #pragma once
-// How good a star is by a metric that is defined by a formula or a target, judged as the statistics do.
+// Quality of a star by a metric that is defined by a formula or a target, judged as the statistics do.
 
 #include <vector>
 
@@ -9,7 +9,7 @@
 
 namespace dmoscope {
 
-/// Both must outlive it.
+/// Judge of stars on a mesh. Both arguments must outlive it.
 template <class Frame>
 [[nodiscard]] DefinedStarJudge<Frame> defined_star_judge(const InputMesh& input, const DefinedJudge& judge) {
   return {judge, {input.geometry, input.surface_normals}, input.mesh.elements.kinds(), input.view<Frame>()};
@@ -28,13 +28,13 @@ template <class Frame>
 [[nodiscard]] double defined_mean(const DefinedStarJudge<Frame>& judge, PositionView positions, Index vertex, Vec3 place, MeanKind kind) {
   PowerMean<double> mean(kind);
   for (Incidence at : judge.mesh.star(vertex)) {
-    at.corner = kNoIndex;  // all of the element
+    at.corner = kNoIndex;  // all corners of the element
     mean.add(judge.quality(at, positions, vertex, place));
   }
   return mean.value(static_cast<double>(judge.mesh.star(vertex).size()));
 }
 
-/// As confirm_at().
+/// Confirmation of a place, as confirm_at() gives it for built-in metrics.
 template <class Frame>
 [[nodiscard]] Confirmation defined_confirm_at(const DefinedStarJudge<Frame>& judge, PositionView positions, Index vertex, Vec3 target,
                                               const Untangling& rule) {

@@ -1,5 +1,5 @@
 #pragma once
-// The other ends of a vertex's edges.
+// Edge neighbours of a vertex: the other ends of its edges.
 
 #include <algorithm>
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace dmoscope {
 
-/// Calls visit(other) for the other end of every edge of every element of the star: of a vertex that may move each neighbour comes twice,
-/// since each of its edges has two elements, so that sums over them weigh all alike.
+/// Calls visit(other) for the other end of every edge of every element of the star: around a vertex that may move each neighbour comes
+/// twice, since each of its edges has two elements, so that sums over them weigh all alike.
 template <class Visit>
 DMOSCOPE_ANYWHERE void for_edge_neighbours(const PlanarView& mesh, Index vertex, const Visit& visit) {
   for (const Incidence& at : mesh.star(vertex)) {
@@ -41,7 +41,7 @@ void for_edges_of_corner(std::size_t corners, Index corner, const Visit& visit) 
     for (Index i = 0; i < 4; ++i) visit(i);
 }
 
-/// The other ends of the edges of a volume's vertex, each once, ascending, into `out`.
+/// Collects the edge neighbours of a volume's vertex, each once, ascending, in `out`.
 inline void gather_edge_neighbours(const VolumeView& mesh, Index vertex, std::vector<Index>& out) {
   out.clear();
   for (const Incidence& at : mesh.star(vertex)) {

@@ -10,20 +10,21 @@ namespace dmoscope {
 namespace {
 
 constexpr int kRounds = 100, kRootSteps = 80;
-constexpr double kSame = 1e-15;  // of two values: by rounding alone
+constexpr double kSame = 1e-15;  // relative difference of two values by rounding alone
 
-/// Positive where the fraction rises, times a positive number.
+/// Slope of the fraction times a positive number: positive where it rises.
 double slope(const LineFraction& q, double t) { return q.a * q.f - q.b * q.e - q.c * t * (2.0 * q.b + q.a * t); }
 
-/// Where it is largest, infinite where it rises (or falls) for ever. Of the slope's two roots the one with a positive numerator.
+/// Place where the fraction is largest, infinite where it rises (or falls) for ever. Of the slope's two roots it is the one with a positive
+/// numerator.
 double own_maximum(const LineFraction& q) {
   if (q.c == 0.0) return q.a > 0.0 ? std::numeric_limits<double>::infinity() : -std::numeric_limits<double>::infinity();
   const double p = q.b * q.c, r = q.a * q.f - q.b * q.e, root = std::sqrt(std::max(0.0, p * p + q.a * q.c * r));
   return p >= 0.0 ? r / (p + root) : (root - p) / (q.a * q.c);
 }
 
-/// Between low and high, where one - other is not positive at low and not negative at high: where both are equal. Newton's steps, and
-/// halves where those lead astray.
+/// Place between low and high where both are equal, if one - other is not positive at low and not negative at high. Takes Newton's steps,
+/// and halves where those lead astray.
 double crossing(const LineFraction& one, const LineFraction& other, double low, double high) {
   const double p3 = one.a * other.c - other.a * one.c, p2 = one.a * other.e + one.b * other.c - other.a * one.e - other.b * one.c,
                p1 = one.a * other.f + one.b * other.e - other.a * one.f - other.b * one.e, p0 = one.b * other.f - other.b * one.f;
@@ -42,7 +43,7 @@ double crossing(const LineFraction& one, const LineFraction& other, double low, 
   return t;
 }
 
-/// Looks to the right of 0, where the least fraction rises.
+/// Search to the right of 0, where the least fraction rises.
 class Climb {
  public:
   Climb(std::span<const LineFraction> fractions, double sign) : fractions_(fractions), sign_(sign) {}
@@ -84,16 +85,16 @@ class Climb {
 
  private:
   struct Next {
-    double t, bound;  // no t has more than `bound`
+    double t, bound;  // no t has a value above `bound`
   };
 
-  /// Seen from the side to which it is looked.
+  /// Fraction as seen from the side of the search.
   [[nodiscard]] LineFraction of(std::size_t k) const {
     const LineFraction& q = fractions_[k];
     return {sign_ * q.a, q.b, q.c, sign_ * q.e, q.f};
   }
 
-  /// The best place by two of the fractions: one rises at left, one falls at right.
+  /// Best place by two of the fractions: one rises at left, one falls at right.
   [[nodiscard]] static Next next(const LineFraction& rising, const std::optional<LineFraction>& falling, double left, double right) {
     const double end = std::min(own_maximum(rising), right);
     if (!falling) return {end, rising.value(end)};

@@ -1,5 +1,5 @@
 #pragma once
-// One vertex's visit in double by the plain search, judged by the statistics' own formulas. The fast search is compared with it and falls
+// Visit of one vertex in double by the plain search, judged by the statistics' own formulas. The fast search is compared with it and falls
 // back to it. For any processor.
 
 #include <cstdint>
@@ -15,15 +15,15 @@
 
 namespace dmoscope {
 
-/// How good a star is, judged in double by the very formulas of the statistics. Of volumes only those corners count that the vertex's place
-/// changes, but in `inverted` and `sound`: the others keep their bits, so that no star's least gets worse where these do not.
+/// Quality of a star, judged in double by the very formulas of the statistics. In volumes only those corners count that the vertex's place
+/// changes, but for `inverted` and `sound`: the others keep their bits, so that no star's least gets worse where these do not.
 struct StarState {
   double jacobian = 0.0;    // least of smallest corner Jacobian / reference measure
   double quality = 0.0;     // least metric (paper eq. 1)
-  double untangling = 0.0;  // see UntanglingMean: what an attempt raises while `jacobian` is <= 0
-  int inverted = 0;         // elements
-  double sound = 0.0;       // least metric of those that are not inverted
-  /// Strictly better: what a move must be (promise 1).
+  double untangling = 0.0;  // see UntanglingMean: an attempt raises it while `jacobian` is <= 0
+  int inverted = 0;         // number of inverted elements
+  double sound = 0.0;       // least metric of the elements that are not inverted
+  /// Returns whether the star is strictly better, as every move must make it (promise 1).
   [[nodiscard]] DMOSCOPE_ANYWHERE bool better_than(const StarState& other, const Untangling& rule = {}) const noexcept {
     if (rule.repair) return !(other.jacobian > 0.0) && jacobian > 0.0 && inverted < other.inverted && quality >= Untangling::kRepaired;
     if (other.jacobian > 0.0) return jacobian > 0.0 && quality > other.quality;
@@ -34,7 +34,8 @@ struct StarState {
   }
 };
 
-/// With the vertex at `place`. Frame: Plane or Space. quality_of(incidence, shape): the metric of one element, of what the vertex changes.
+/// State of a star with the vertex at `place`. Frame: Plane or Space. quality_of(incidence, shape): the metric of one element, of the part
+/// that the vertex changes.
 template <class Frame, class QualityOf>
 [[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE StarState star_state_by(const MeshView<Frame>& mesh, PositionView positions, Index vertex,
                                                                         Vec3 place, const QualityOf& quality_of) {
@@ -67,12 +68,12 @@ template <Metric M, class Frame>
   });
 }
 
-/// What a move does to the soundness of a star's elements, at their corners and inside (see validity.h).
+/// Change of the soundness of a star's elements by a move, at their corners and inside (see validity.h).
 struct SoundnessChange {
-  int lost = 0, won = 0;     // elements that are sound before alone, and after alone
-  bool lost_inside = false;  // one of the former may be inverted inside: see has_inside()
+  int lost = 0, won = 0;     // elements that are sound only before, and only after
+  bool lost_inside = false;  // whether one of the former may be inverted inside: see has_inside()
 };
-/// `counts_won`: else `won` is 0.
+/// Compares the star at two places. `counts_won`: else `won` is 0.
 template <class Frame>
 [[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE SoundnessChange soundness_change(const MeshView<Frame>& mesh, PositionView positions,
                                                                                  Index vertex, Vec3 target, bool counts_won) {
@@ -80,7 +81,7 @@ template <class Frame>
   for (const Incidence& incidence : mesh.star(vertex)) {
     bool inverted_there = false, inside = false;
     DMOSCOPE_NO_UNROLL
-    for (int i = 0; i < 2; ++i) {  // there and here in a loop, so that a device's code has one copy
+    for (int i = 0; i < 2; ++i) {  // both places in a loop, so that a device's code has one copy
       const Vec3 place = i == 0 ? target : positions[vertex];
       const auto at = [&](Index v) { return v == vertex ? place : positions[v]; };
       const bool inverted =
@@ -100,14 +101,14 @@ template <class Frame>
   return change;
 }
 
-/// Is every element of the star that is sound where the vertex stands sound with it at `target`, too?
+/// Returns whether every element of the star that is sound now stays so with the vertex at `target`.
 template <class Frame>
 [[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE bool keeps_sound(const MeshView<Frame>& mesh, PositionView positions, Index vertex,
                                                                  Vec3 target) {
   return soundness_change(mesh, positions, vertex, target, false).lost == 0;
 }
 
-/// Is an element of the star inverted? Where its corners tell of none, inside.
+/// Returns whether an element of the star is inverted, inside where its corners tell of none.
 [[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE bool has_inverted(const MeshView<Space>& mesh, PositionView positions, Index vertex) {
   for (const Incidence& incidence : mesh.star(vertex)) {
     const auto at = [&](Index v) { return positions[v]; };
@@ -116,31 +117,31 @@ template <class Frame>
   return false;
 }
 
-/// What the statistics' formulas say of a place that a search has found. TooFar: the vertex would gain there, but a hexahedron or wedge
-/// would become inverted, or a guard be broken; a place nearer to where it stands may do.
+/// Judgement of a place that a search has found, by the statistics' formulas. TooFar: the vertex would gain there, but a hexahedron or
+/// wedge would become inverted, or a guard be broken; a place nearer to its present one may do.
 enum class Confirmation : std::uint8_t { GainsNothing, Gains, TooFar };
 
-/// Of a place that is better. `tangled`: is an element of the star inverted at a corner that the vertex changes? Where none is, none may
-/// become inverted, not inside either; an attempt to untangle may lose one for another.
+/// Confirms the soundness at a place that is better. `tangled`: whether an element of the star is inverted at a corner that the vertex
+/// changes. Where none is, none may become inverted, not inside either; an attempt to untangle may lose one for another.
 template <class Frame>
 [[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE Confirmation confirm_soundness(const MeshView<Frame>& mesh, PositionView positions,
                                                                                Index vertex, Vec3 target, bool tangled,
                                                                                const Untangling& rule) {
-  // Without volume what the corners say is all, and was asked before.
+  // Accepts planar stars whose corners were judged before: without volume the corners tell all.
   if (!std::is_same_v<Frame, Space> && (!tangled || rule.attempt)) return Confirmation::Gains;
   const SoundnessChange change = soundness_change(mesh, positions, vertex, target, tangled && rule.attempt);
   if (change.lost <= change.won) return Confirmation::Gains;
   return change.lost_inside ? Confirmation::TooFar : Confirmation::GainsNothing;
 }
 
-/// What would become of a vertex whose star is `before` at `target`, where it is after()?
+/// Confirms a place `target` for a vertex whose star is `before`, and after() there.
 template <class Frame, class After>
 [[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE Confirmation confirm_from(const MeshView<Frame>& mesh, PositionView positions, Index vertex,
                                                                           Vec3 target, const Untangling& rule, const StarState& before,
                                                                           const After& after) {
   const StarState there = after();
   if (there.better_than(before, rule)) return confirm_soundness(mesh, positions, vertex, target, !(before.jacobian > 0.0), rule);
-  // As UntanglingObjective has it of elements that are inverted inside alone.
+  // Decides as UntanglingObjective does for elements that are inverted inside alone.
   if (!std::is_same_v<Frame, Space> || !rule.looks_inside() || !(before.jacobian > 0.0) || !(there.jacobian > 0.0) ||
       there.quality < scalar::min(before.quality, rule.floor))
     return Confirmation::GainsNothing;
@@ -148,7 +149,7 @@ template <class Frame, class After>
   return change.lost < change.won ? Confirmation::Gains : Confirmation::GainsNothing;
 }
 
-/// Exactly: a search may be in float and in other rounding than the statistics.
+/// Confirms a place exactly: a search may be in float and in other rounding than the statistics.
 template <Metric M, class Frame>
 [[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE Confirmation confirm_at(const MeshView<Frame>& mesh, PositionView positions, Index vertex,
                                                                         Vec3 target, const Untangling& rule) {
@@ -161,14 +162,15 @@ template <Metric M, class Frame>
   return confirm_at<M>(mesh, positions, vertex, target, rule) == Confirmation::Gains;
 }
 
-/// Where a vertex goes, if anywhere.
+/// Move of a vertex, if it gains.
 struct ConfirmedMove {
   bool gains = false;
   Vec3 to{};
 };
-/// How often a step is halved that would invert a hexahedron or wedge.
+/// Number of times that a step is halved if it would invert a hexahedron or wedge.
 inline constexpr int kMostHalvings = 4;
-/// The longest of a step, its half and so on that gains without inverting an element inside. place(step): where it leads; confirm(place).
+/// Longest of a step, its half and so on that gains without inverting an element inside. place(step): its end; confirm(place): its
+/// judgement.
 template <class Offset, class Place, class Confirm>
 [[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE ConfirmedMove confirmed_move(Offset step, const Place& place, const Confirm& confirm) {
   ConfirmedMove move;
@@ -183,9 +185,8 @@ template <class Offset, class Place, class Confirm>
   return move;
 }
 
-/// The untangling objective costs more and is needed only where an element of the star is inverted now; in a repair nothing else is looked
-/// at. Returns the offset, in units of the
-/// star's scale. Point: of the plane or of space.
+/// Searches a star. The untangling objective costs more and is needed only where an element of the star is inverted now; in a repair
+/// nothing else is looked at. Returns the offset, in units of the star's scale. Point: one of the plane or of space.
 template <Metric M, class StarT, class Point, class Team = Solo, class Trace = NoTrace>
 [[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE Point search_star(const StarT& star, Point box, const SearchParameters& parameters,
                                                                   const Untangling& rule, const Team& team = {}, Trace&& trace = {}) {
@@ -198,7 +199,7 @@ template <Metric M, class StarT, class Point, class Team = Solo, class Trace = N
   return grid_search<double>(Objective<M, false, double, Value::Metric, StarT>(star), box, parameters, trace, team).offset;
 }
 
-/// Where a vertex at `place` comes to stand by an offset in the frame, in mesh units. `single`: see Mesh::single_precision.
+/// Position of a vertex at `place` after an offset in the frame, in mesh units. `single`: see Mesh::single_precision.
 template <class Frame>
 [[nodiscard]] DMOSCOPE_ANYWHERE Vec3 displaced(const Frame& frame, Vec3 place, OffsetIn<Frame, double> offset, bool single) {
   const Vec3 step = frame.lift(offset);

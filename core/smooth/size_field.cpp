@@ -14,7 +14,7 @@ namespace dmoscope {
 
 namespace {
 
-constexpr double kLeastDistance = 1e-9;  // of the mesh's size: a vertex at the very point has a size, too
+constexpr double kLeastDistance = 1e-9;  // share of the mesh's size: a vertex at the very point has a size, too
 
 bool is_scalar(const Field& field) { return field.on == Field::On::Vertices && field.components == 1; }
 
@@ -33,7 +33,7 @@ double correlation(std::span<const double> a, std::span<const double> b) {
     bb += db * db;
     ab += da * db;
   }
-  // Rounding makes values that are all the same vary by some last bits.
+  // Compares with a share: rounding makes values that are all the same vary by some last bits.
   const double least = 1e-24 * count;
   const bool vary = aa > least * mean_a * mean_a && bb > least * mean_b * mean_b;
   return vary ? ab / (std::sqrt(aa) * std::sqrt(bb)) : std::numeric_limits<double>::quiet_NaN();
@@ -84,7 +84,7 @@ void SizeField::read_field() {
 }
 
 double SizeField::at(Index vertex, Vec3 place) const {
-  // On the map all is longer than on the Earth.
+  // Stretches sizes as the map does: on it all is longer than on the Earth.
   const double stretch = input_->mesh.degrees ? stretch_of_map(place.y) : 1.0;
   if (field_) return stretch * field_->at(vertex, place);
   const SizeFormula plain{function_.kind, on_map(input_->mesh, function_.point), least_distance_};

@@ -1,5 +1,5 @@
 #pragma once
-// The size that elements shall have, anywhere in a mesh, and how well they have it.
+// Size function anywhere in a mesh, and how well the elements follow it.
 
 #include <limits>
 #include <memory>
@@ -20,12 +20,12 @@ class SizeField {
   /// Throws UsageError for a field that the mesh has not (it lists those there are), or that is no size anywhere.
   SizeField(std::shared_ptr<const InputMesh> input, SizeFunction function);
 
-  /// h > 0, up to a factor, where `vertex` stands when it is at `place`.
+  /// Size h > 0, up to a factor, for `vertex` at `place`.
   [[nodiscard]] double at(Index vertex, Vec3 place) const;
-  /// The same as plain data; none for a nodal field.
+  /// Size function as plain data; none for a nodal field.
   [[nodiscard]] std::optional<SizeFormula> formula() const;
   [[nodiscard]] const SizeFunction& function() const noexcept { return function_; }
-  /// A note for the person ("depth is not positive at 12 vertices: ..."), usually empty.
+  /// Note for a person ("depth is not positive at 12 vertices: ..."), usually empty.
   [[nodiscard]] const std::string& note() const noexcept { return note_; }
 
  private:
@@ -38,14 +38,14 @@ class SizeField {
   std::string note_;
 };
 
-/// The names of the nodal fields that can be a size function: those with one number per vertex.
+/// Names of the nodal fields that can be a size function: those with one number per vertex.
 [[nodiscard]] std::vector<std::string> scalar_fields(const Mesh& mesh);
 
-/// Mean length of the edges at a vertex; 0 for one of no element.
+/// Mean length of the edges at a vertex; 0 for a vertex of no element.
 [[nodiscard]] double local_edge_length(const PlanarView& mesh, PositionView positions, Index vertex);
 
-/// How well local edge lengths follow the target sizes over some vertices: Pearson's correlation of the two, and of their logarithms,
-/// which tells more where sizes span decades. NaN where either does not vary.
+/// Correlation of local edge lengths with the target sizes over some vertices: Pearson's, of the two and of their logarithms, which tells
+/// more where sizes span decades. NaN where either does not vary.
 struct SizeCorrelation {
   double sizes = std::numeric_limits<double>::quiet_NaN(), logarithms = std::numeric_limits<double>::quiet_NaN();
 };

@@ -1,5 +1,5 @@
 #pragma once
-// Shared by methods that move one vertex after the other by a rule, on the CPU and in double.
+// Rules that move one vertex after the other, on the CPU and in double, and their smoother.
 
 #include <algorithm>
 #include <atomic>
@@ -21,7 +21,7 @@ namespace dmoscope {
 [[nodiscard]] inline bool is_finite(Vec2<double> a) { return std::isfinite(a.x) && std::isfinite(a.y); }
 [[nodiscard]] inline bool is_finite(Vec3 a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
 
-/// What a rule knows of the mesh. Frame: Plane or Space.
+/// Mesh as a rule needs it. Frame: Plane or Space.
 template <class Frame>
 struct RuleMesh {
   using Offset = OffsetIn<Frame, double>;
@@ -30,12 +30,12 @@ struct RuleMesh {
   bool single;  // see Mesh::single_precision
   Untangling untangling{};
 
-  /// Where a vertex at `place` comes to stand by an offset in mesh units; nowhere where that is no number.
+  /// Position of a vertex at `place` after an offset in mesh units; none where that is no number.
   [[nodiscard]] std::optional<Vec3> moved(Vec3 place, Offset offset) const {
     if (!is_finite(offset)) return std::nullopt;
     return displaced(view.frame, place, offset, single);
   }
-  /// Where it stands by the longest step that confirm(place) lets it go: see confirmed_move().
+  /// Position after the longest step that confirm(place) allows: see confirmed_move().
   template <class Confirm>
   [[nodiscard]] std::optional<Vec3> moved_if(Vec3 place, Offset step, const Confirm& confirm) const {
     if (!is_finite(step)) return std::nullopt;
@@ -56,19 +56,19 @@ void for_classes(const Colouring& colouring, std::uint64_t first, std::uint64_t 
   }
 }
 
-/// A rule says where one vertex goes, from the positions alone and, if it has a begin(const Sweep&), the iteration. Nowhere: it stays.
-/// The target depends only on the positions of the star's vertices and on Sweep::untangling, so that a vertex that stayed is not visited
-/// again until a vertex of its star moves. Rule::Scratch is what it works in, kept from one vertex to the next; no result may depend on
-/// what is left there. Besides it may have
-/// - static constexpr bool kDependsOnIteration = true: the target also depends on Sweep::iteration, and nobody is passed over;
+/// Rule that tells the place to which one vertex goes, from the positions alone and, if it has a begin(const Sweep&), the iteration. None:
+/// it stays. The target depends only on the positions of the star's vertices and on Sweep::untangling, so that a vertex that stayed is not
+/// visited again until a vertex of its star moves. Rule::Scratch is its work space, kept from one vertex to the next; no result may depend
+/// on its content. A rule may also have
+/// - static constexpr bool kDependsOnIteration = true: the target also depends on Sweep::iteration, and no vertex is passed over;
 /// - others(Index vertex): the other vertices of its star, or none where it has not noted them;
-/// - static constexpr std::size_t kGrain: how many vertices a thread takes at once, if not 128.
+/// - static constexpr std::size_t kGrain: number of vertices that a thread takes at once, if not 128.
 template <class Rule>
 concept VertexRule = requires(const Rule& rule, PositionView positions, Index vertex, typename Rule::Scratch& scratch) {
   { rule.target(positions, vertex, scratch) } -> std::same_as<std::optional<Vec3>>;
 };
 
-/// Vertices a chunk: work of some 0.1 ms.
+/// Number of vertices in a chunk: work of some 0.1 ms.
 template <VertexRule Rule>
 [[nodiscard]] constexpr std::size_t grain_of() {
   if constexpr (requires { Rule::kGrain; }) return Rule::kGrain;
@@ -145,7 +145,7 @@ class RuleSmoother final : public Smoother {
     }
     return true;
   }
-  /// Vertices of one class have no element in common, but may have a neighbour.
+  /// Wakes the vertices around one that moved. Vertices of one class have no element in common, but may have a neighbour.
   void wake_around(Index vertex) {
     if constexpr (requires { rule_.others(vertex); }) {
       const std::span<const Index> others = rule_.others(vertex);
@@ -163,12 +163,12 @@ class RuleSmoother final : public Smoother {
     std::atomic_ref(awake_[leader == kNoIndex ? vertex : leader]).store(1, std::memory_order_relaxed);
   }
 
-  std::shared_ptr<const InputMesh> input_;  // which the rule looks into
+  std::shared_ptr<const InputMesh> input_;  // read by the rule
   std::shared_ptr<const Colouring> colouring_;
   std::shared_ptr<const Domain> pairs_;  // null: none move together
   Rule rule_;
-  std::vector<std::uint8_t> awake_;  // by vertex; where one sleeps
-  Untangling untangling_{};          // by which those asleep stay
+  std::vector<std::uint8_t> awake_;  // by vertex; 0: it sleeps
+  Untangling untangling_{};          // the rule by which vertices that sleep stay
   std::uint64_t searched_ = 0;
 };
 

@@ -20,7 +20,7 @@ constexpr std::array<std::string_view, 3> kBackendNames{"auto", "cpu", "cuda"}; 
 
 [[noreturn]] void refuse(const std::string& why) { throw UsageError(fmt::format("the cuda backend cannot be used: {}", why)); }
 
-/// Of metrics that are defined by formulas or targets.
+/// Reason why no accelerator does metrics that are defined by formulas or targets; empty when one can.
 std::string obstacle_of_defined(const SmoothingTask& task) {
   const auto* second = task.combination ? std::get_if<Metric>(&task.combination->second) : nullptr;
   const bool of_defined = !is_built_in(task.metric);
@@ -29,7 +29,7 @@ std::string obstacle_of_defined(const SmoothingTask& task) {
   return {};
 }
 
-/// Why no accelerator does this; empty when one can.
+/// Reason why no accelerator does the task; empty when one can.
 std::string obstacle(const Acceleration& acceleration, const SmoothingTask& task) {
   if (!method_info(task.method).accelerated) return fmt::format("{} runs on the CPU alone", task.method);
   if (const std::string why = obstacle_of_defined(task); !why.empty()) return why;
@@ -44,7 +44,7 @@ std::string obstacle(const Acceleration& acceleration, const SmoothingTask& task
   return acceleration.accelerator ? std::string() : acceleration.reason;
 }
 
-enum class OnCpu { Made, Later };  // its smoother
+enum class OnCpu { Made, Later };  // when its smoother is made
 
 Executor on_cpu(const SmoothingTask& task, OnCpu when, std::string reason) {
   return {when == OnCpu::Made ? make_smoother(task) : nullptr, Backend::Cpu, std::move(reason), {}};

@@ -1,5 +1,5 @@
 #pragma once
-// Which of the backends does a run's smoothing, and why.
+// Executor: the backend that does a run's smoothing, and why.
 
 #include <memory>
 #include <string>
@@ -8,25 +8,25 @@
 
 namespace dmoscope {
 
-/// A smoother, and what it runs on.
+/// Smoother and its backend.
 struct Executor {
   std::unique_ptr<Smoother> smoother;
   Backend backend = Backend::Cpu;  // never Auto
-  std::string reason;              // accelerator: its description; cpu: why no accelerator, empty where none was wanted
+  std::string reason;              // for an accelerator its description; for cpu why no accelerator, empty where none was wanted
   std::string warning;             // for a person: an accelerator should have been used and failed; usually empty
 };
 
 /// Throws UsageError with the reason when `wanted` names a backend that is not there.
 void require_backend(Backend wanted, const Acceleration& acceleration);
 
-/// Throws the UsageError that make_executor would throw. Of the task's pointers only `input` is read.
+/// Throws the UsageError that make_executor would throw. Reads only `input` of the task's pointers.
 void require_executable(Backend wanted, const Acceleration& acceleration, const SmoothingTask& task);
 
-/// Throws UsageError as make_smoother does, and with the reason when `wanted` cannot be; DeviceError when `wanted` fails. For
-/// Backend::Auto a device's failure is no error: the CPU does the work, with a warning.
+/// Makes the executor of a task. Throws UsageError as make_smoother does, and with the reason when `wanted` is impossible; DeviceError when
+/// `wanted` fails. For Backend::Auto a device's failure is no error: the CPU does the work, with a warning.
 [[nodiscard]] Executor make_executor(Backend wanted, const Acceleration& acceleration, const SmoothingTask& task);
 
-/// An executor on the CPU after an accelerator failed; `why`: its error.
+/// Executor on the CPU after an accelerator failed; `why`: its error.
 [[nodiscard]] Executor executor_after_failure(const std::string& why, const SmoothingTask& task);
 
 }  // namespace dmoscope

@@ -18,7 +18,7 @@
 
 namespace dmoscope {
 
-// Each defined in a source of methods/; make_smoother() checks the arguments.
+// Makers of smoothers, each defined in a source of methods/; make_smoother() checks the arguments.
 std::unique_ptr<Smoother> make_laplace_smoother(const SmoothingTask& task);
 std::unique_ptr<Smoother> make_smart_laplace_smoother(const SmoothingTask& task);
 std::unique_ptr<Smoother> make_angle_based_smoother(const SmoothingTask& task);

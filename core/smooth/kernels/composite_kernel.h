@@ -1,7 +1,6 @@
 #pragma once
-// The grid search for two aims (visit/star_judge.h) of a star without inverted elements: a pack of candidates at a time, in double. The
-// same code compiled for several processors, chosen at run time; each slot gets the bits that the plain search gets, so that it finds the
-// same.
+// Grid search for two aims (visit/star_judge.h) of a star without inverted elements: a pack of candidates at a time, in double. The same
+// code compiled for several processors, chosen at run time; each slot gets the bits that the plain search gets, so that it finds the same.
 
 #include <array>
 #include <cstddef>
@@ -23,11 +22,11 @@ template <>
 struct CompositeListsOf<Curved> {
   using Lists = SurfaceLists;
 };
-/// The lists of a star, whatever the frame: Plane, Space or Curved.
+/// Lists of a star for any frame: Plane, Space or Curved.
 template <class Frame>
 using CompositeLists = typename CompositeListsOf<Frame>::Lists;
 
-/// A star and its aims as plain data. Lengths are in units of the star's scale.
+/// Star and its aims as plain data. Lengths are in units of the star's scale.
 template <class Frame>
 struct CompositeSearch {
   using Offset = OffsetIn<Frame, double>;
@@ -39,7 +38,7 @@ struct CompositeSearch {
   double omega = 0.5;
 
   double threshold = 0.0;
-  bool inclusive = false;  // is a star whose least is the threshold beyond it?
+  bool inclusive = false;  // whether a star whose least is the threshold is beyond it
   Second second = Second::Mean;
   MeanKind mean = MeanKind::Harmonic;  // Second::Mean
   Metric metric = Metric::MeanRatio;   // Second::Metric
@@ -49,34 +48,35 @@ struct CompositeSearch {
 
 template <class Frame>
 struct CompositeFound {
-  bool ready = false;                // false: the search is the plain one's
+  bool ready = false;                // false: the plain search must find it
   OffsetIn<Frame, double> offset{};  // 0 where no candidate is better
 };
 
-/// At most this many triangles or tetrahedra of a star, other elements, and candidates per axis; more are the plain search's.
+/// Limits for triangles or tetrahedra of a star, its other elements, and candidates per axis; beyond them the plain search is used.
 inline constexpr std::size_t kMaxSimplices = 96, kMaxOthers = 64;
 inline constexpr int kMaxCompositePoints = 64;
 
 template <class Frame>
 using CompositeKernel = CompositeFound<Frame> (*)(const CompositeSearch<Frame>& search);
 
-/// Candidates wherever they are, as plain data: `count` offsets, coordinate by coordinate (of a plane two). Behind the last of each list it
-/// stands again, so that all packs are whole.
+/// Candidates at any places, as plain data: `count` offsets, coordinate by coordinate (two in a plane). Copies of the last one follow it,
+/// so that all packs are whole.
 struct CompositeCandidates {
   std::array<const double*, 3> at{};
   std::size_t count = 0;
 };
-/// The first of the best candidates.
+/// First of the best candidates.
 struct CompositeBest {
-  bool ready = false;     // false: the search is the plain one's
-  std::size_t index = 0;  // as many as there are where none is better
+  bool ready = false;     // false: the plain search must find it
+  std::size_t index = 0;  // number of the candidates where none is better
   double worth = 0.0;
 };
-/// Of candidates those that are worth more than `best`, which a place is that the star has no inverted elements at.
+/// Kernel that finds the first of the best among candidates that are worth more than `best`, the worth of a place at which the star has no
+/// inverted elements.
 template <class Frame>
 using CompositeListKernel = CompositeBest (*)(const CompositeSearch<Frame>& search, const CompositeCandidates& candidates, double best);
 
-/// Makes such a list.
+/// Maker of CompositeCandidates.
 class CandidateList {
  public:
   void clear() {
@@ -95,7 +95,7 @@ class CandidateList {
     else
       return {{at_[0][i], at_[1][i], at_[2][i]}, {}};
   }
-  /// Valid until it changes.
+  /// Candidates as plain data, valid until the list changes.
   [[nodiscard]] CompositeCandidates view() {
     CompositeCandidates result{{}, size()};
     for (std::size_t axis = 0; axis < at_.size(); ++axis) {

@@ -1,11 +1,11 @@
 #pragma once
-// The one definition of the kernel for two aims. Only the kernel_set_*.cpp, each compiled for one kind of processor, include it; see
+// Sole definition of the kernel for two aims. Only the kernel_set_*.cpp, each compiled for one kind of processor, include it; see
 // lane_kernel_impl.h for what that asks of the code.
 
 #include <array>
 
 #include "core/numeric/pack.h"
-// After the packs:
+// Headers that must come after the packs:
 #include "core/search/grid_search.h"
 #include "core/smooth/kernels/composite_kernel.h"
 #include "core/smooth/kernels/composite_metrics.h"
@@ -14,7 +14,7 @@
 
 namespace dmoscope::composite {
 
-/// M: the first metric; D: pack of doubles, a candidate per slot.
+/// Kernel of one search. M: the first metric; D: pack of doubles, a candidate per slot.
 template <Metric M, class Frame, class D>
 class Kernel {
  public:
@@ -40,10 +40,10 @@ class Kernel {
   static constexpr std::size_t kMaxPlane = kMaxPoints * kMaxPoints + kFloats;
   static constexpr bool kBounded = !std::is_same_v<Frame, Curved> && M == Metric::MeanRatio;
   static constexpr bool kCut = std::is_same_v<Frame, Plane> && M == Metric::MeanRatio;
-  /// In the plane an exact look costs little more than a bound: only where the mean is raised, too, bounds pay. Where the second metric is
-  /// judged first, mostly a few elements tell as much.
+  /// Returns whether bounds pay. In the plane an exact look costs little more than a bound: only where the mean is raised, too, bounds pay.
+  /// Where the second metric is judged first, mostly a few elements tell as much.
   [[nodiscard]] bool is_bounded() const { return task_.second == Second::Mean || (kSpace && !is_by_second()); }
-  /// Does no place win but by the second metric?
+  /// Returns whether a place can win by the second metric alone.
   [[nodiscard]] bool is_by_second() const { return second_metric_ != nullptr && best_ > task_.threshold; }
 
   static bool has_room(const Task& task) {
@@ -83,15 +83,15 @@ class Kernel {
     found.offset = best_place();
     return found;
   }
-  /// In the plane: an exact look only where the cuts do not tell for certain which candidate of a level is best.
+  /// Searches in the plane with an exact look only where the cuts do not tell for certain which candidate of a level is best.
   CompositeFound<Frame> search_by_cuts() {
     constexpr std::size_t kStride = PlanarCuts<F>::kStride;
     const auto n = static_cast<std::size_t>(task_.points);
     double x[kStride], y[kStride], omega = task_.omega;
     cuts_.take(task_);
-    bool is_known = false;  // is best_?
+    bool is_known = false;  // whether best_ is known
     for (int level = 0; level < task_.levels; ++level, omega *= 2.0 / (task_.points - 1)) {
-      for (std::size_t i = 0; i < n; ++i) {  // as CandidateGrid has it
+      for (std::size_t i = 0; i < n; ++i) {  // numbered as in CandidateGrid
         x[i] = at_[0] + task_.box.x * omega * part_[i];
         y[i] = at_[1] + task_.box.y * omega * part_[i];
       }
@@ -115,7 +115,7 @@ class Kernel {
     }
     return {true, best_place()};
   }
-  /// Finds what the best place so far is worth. Is the star sound there?
+  /// Evaluates the best place so far. Returns whether the star is sound there.
   bool look_at_best() {
     best_ = least_second_ = 0.0;
     best_ = worth(point_of<D>(best_place()), D(-1.0)).get(0);
@@ -124,7 +124,7 @@ class Kernel {
   /// Looks at some candidates of a planar grid (PlanarCuts::Candidates), in the order of their indices.
   void look_at_bits(std::uint64_t hopeful, const double* x, const double* y) {
     while (hopeful != 0) {
-      for (std::size_t k = 0; k < kWidth; ++k) {  // once more the last, which cannot be better than itself
+      for (std::size_t k = 0; k < kWidth; ++k) {  // repeats the last, which cannot be better than itself
         const auto bit = static_cast<std::size_t>(__builtin_ctzll(hopeful));
         if (k + 1 == kWidth || (hopeful & (hopeful - 1)) != 0) hopeful &= hopeful - 1;
         plane_[0][k] = x[bit / PlanarCuts<F>::kStride];
@@ -139,9 +139,9 @@ class Kernel {
     else if constexpr (std::is_same_v<Frame, Plane>)
       return {at_[0], at_[1]};
     else
-      return {};  // which is searched by lists alone
+      return {};  // curved surfaces are searched by lists alone
   }
-  /// Where the best place is beyond the threshold: no place whose second metric ranks lower is better.
+  /// Notes, where the best place is beyond the threshold, the rank of its second metric: no place of lower rank is better.
   void note_second() {
     if constexpr (!std::is_same_v<Frame, Curved>) {
       constexpr double kLeastCertain = 1e-4;  // see formulas::rank_doubt
@@ -181,7 +181,7 @@ class Kernel {
     return found;
   }
 
-  /// Calls look(c) for each pack of doubles that may win by its bounds; it tells whether something did.
+  /// Calls look(c) for each pack of doubles that may win by its bounds; look returns whether a candidate won.
   template <class Look>
   void look_at_hopeful(const CompositeCandidates& candidates, const Look& look) {
     constexpr std::size_t kAxes = kSpace ? 3 : 2;
@@ -212,11 +212,11 @@ class Kernel {
     return task_.inclusive ? (least > D(0.0)) & (least >= threshold) : least > threshold;
   }
 
-  /// What CompositeScore says of each of the places; in a slot that is not above `best`, which is positive or below all, anything that
-  /// is not.
+  /// Score of each of the places, as CompositeScore has it; in a slot that is not above `best`, which is positive or below all, any number
+  /// that is not either.
   D worth(const Point& p, D best) {
     if (least_second_ > 0.0 && !xsimd::any(second_rank_.least(task_.star, p, second_, least_second_) > D(least_second_))) return best;
-    // Where no place wins but by the second metric, that is judged first: mostly a few elements tell.
+    // Judges the second metric first where places can win by it alone: mostly a few elements tell.
     const bool by_second = is_by_second();
     const D second = by_second ? second_metric_(task_.star, p, second_, D(task_.threshold), best) : best;
     if (by_second && !xsimd::any(second > best)) return best;
@@ -229,14 +229,14 @@ class Kernel {
     const D threshold(task_.threshold);
     if (task_.second == Second::Metric) return second_metric_(task_.star, p, second_, threshold, best);
     if (task_.second == Second::Mean) return threshold + mean(p);
-    if constexpr (!std::is_same_v<Frame, Curved>) {  // sizes are of planar meshes
+    if constexpr (!std::is_same_v<Frame, Curved>) {  // sizes are for planar meshes
       if (!(task_.edge > 0.0)) return threshold;
       const Point away = p - point_of<D>(task_.wanted);
       return threshold + D(1.0) / (D(1.0) + dot(away, away) / D(task_.edge * task_.edge));
     }
     return threshold;
   }
-  /// Over all elements, as they were found just before.
+  /// Mean over all elements, whose qualities were found just before.
   [[nodiscard]] D mean(const Point& p) const {
     const std::size_t simplices = task_.star.simplices.size;
     PowerMean<D> mean(task_.mean);
@@ -244,7 +244,7 @@ class Kernel {
     std::size_t others = 0;
     if constexpr (formulas::kDefinedForOthers<M, Point>) {
       task_.star.for_others([&](const auto& element) {
-        // Objective, which speaks for blind metrics, keeps none.
+        // Evaluates blind metrics anew, for which Objective keeps no qualities.
         mean.add(formulas::kSignTellsInversion<M, Point> ? first_.others[others] : formulas::metric<M>(element.with(p)));
         ++others;
       });
@@ -252,7 +252,7 @@ class Kernel {
     return mean.value(static_cast<double>(simplices + others));
   }
 
-  /// Where the candidates of a level stand along its last two axes, in the order of their indices: as CandidateGrid has it.
+  /// Sets the candidates of a level along its last two axes, in the order of their indices: as CandidateGrid has them.
   void set_plane(double width0, double width1) {
     const double centre0 = at_[0], centre1 = at_[1];
     const auto n = static_cast<std::size_t>(task_.points);
@@ -264,7 +264,7 @@ class Kernel {
         plane_[1][c] = centre1 + width1 * part_[j];
       }
     }
-    for (; c % kFloats != 0; ++c) {  // once more the last, which cannot be better than itself
+    for (; c % kFloats != 0; ++c) {  // repeats the last, which cannot be better than itself
       plane_[0][c] = plane_[0][n * n - 1];
       plane_[1][c] = plane_[1][n * n - 1];
     }
@@ -306,14 +306,15 @@ class Kernel {
       if (is_bounded()) bounds_.take(task_.star, task_.mean, kSpace && first_.keeps_others ? first_.elsewhere.data() : nullptr);
     }
   }
-  /// What a candidate must reach to win.
+  /// Sets what a candidate must reach to win.
   void set_needs() {
     const bool is_beyond = best_ >= task_.threshold;
     const bool by_mean = is_beyond && task_.second == Second::Mean;
     bounds_.set_needs(is_beyond ? task_.threshold : best_, by_mean ? best_ - task_.threshold : 0.0);
   }
 
-  /// Calls look(k) for each pack of doubles, of those in a pack of floats, of which one may win by its bounds; it tells whether one did.
+  /// Calls look(k) for each pack of doubles, among those in a pack of floats, that may win by its bounds; look returns whether a candidate
+  /// won.
   template <class Look>
   void look_where_hopeful(const OffsetIn<Frame, F>& from_centre, const Look& look) {
     const auto hope = bounds_.may_reach(from_centre);
@@ -327,8 +328,8 @@ class Kernel {
     }
   }
 
-  /// Looks at those of a plane's candidates that may win. `x`: in space, the first coordinate of all of them; `from_centre`: the same from
-  /// the grid's centre.
+  /// Evaluates the candidates of a plane that may win. `x`: in space, the first coordinate of all of them; `from_centre`: the same
+  /// coordinate from the grid's centre.
   void search_plane(double x, [[maybe_unused]] float from_centre) {
     const std::size_t candidates = static_cast<std::size_t>(task_.points) * static_cast<std::size_t>(task_.points);
     if constexpr (kBounded) {
@@ -344,7 +345,7 @@ class Kernel {
     }
     for (std::size_t c = 0; c < candidates; c += kWidth) look_at(c, x);
   }
-  /// A pack of them, from number `c` on. Is one better than all before?
+  /// Evaluates a pack of candidates, from number `c` on. Returns whether one is better than all before.
   bool look_at(std::size_t c, double x) {
     const D first = D::load_aligned(plane_[0] + c), second = D::load_aligned(plane_[1] + c);
     D value;
@@ -358,7 +359,7 @@ class Kernel {
     return true;
   }
 
-  /// Among equals the candidate of lowest index.
+  /// Takes the best candidate of a pack; among equals that of lowest index.
   void take_best(D value, std::size_t c, double x) {
     alignas(64) double values[kWidth];
     value.store_aligned(values);
@@ -372,20 +373,20 @@ class Kernel {
   }
 
   const Task& task_;
-  Sieve<D> first_, second_;  // of the two metrics
+  Sieve<D> first_, second_;  // for the two metrics
   SecondMetric<Frame, D> second_metric_ = nullptr;
   SecondRank<Frame, D> second_rank_;
-  double least_second_ = 0.0;       // the rank that the second metric must exceed; 0: not known
-  double best_ = 0.0;               // worth
-  double at_[3] = {0.0, 0.0, 0.0};  // where: along the last two axes, and in space along the first
-  double part_[kMaxPoints];         // an axis' candidates, as parts of the grid's size
+  double least_second_ = 0.0;       // the rank that the second metric must exceed; 0: unknown
+  double best_ = 0.0;               // score of the best place
+  double at_[3] = {0.0, 0.0, 0.0};  // best place: along the last two axes, and in space along the first
+  double part_[kMaxPoints];         // candidates of an axis, as parts of the grid's size
   alignas(64) double plane_[2][kMaxPlane];
   alignas(64) float from_centre_[2][kBounded ? kMaxPlane : 1];
   std::conditional_t<kBounded, RatioBounds<Frame, D, F>, int> bounds_;
   std::conditional_t<kCut, PlanarCuts<F>, int> cuts_;
 };
 
-/// The kernel for the first metric with this translation unit's widest packs.
+/// Kernel for the first metric with this translation unit's widest packs.
 template <class Frame, class D>
 CompositeKernel<Frame> kernel_for(Metric first) {
   return with_metric_of<Frame>(first, []<Metric M>() -> CompositeKernel<Frame> { return &Kernel<M, Frame, D>::run; });

@@ -1,6 +1,6 @@
 #pragma once
-// What the kernel for two aims asks of a star's metrics, for a pack of places at a time: the least, given up where no place is hopeful any
-// more. Only composite_kernel_impl.h includes it; see lane_kernel_impl.h for what that asks of the code.
+// Metrics of a star for the kernel for two aims, for a pack of places at a time: the least, given up where no place is hopeful any more.
+// Only composite_kernel_impl.h includes it; see lane_kernel_impl.h for what that asks of the code.
 
 #include <array>
 #include <cstdint>
@@ -8,7 +8,7 @@
 #include <type_traits>
 
 #include "core/numeric/pack.h"
-// After the packs:
+// Headers that must come after the packs:
 #include "core/search/grid_search.h"
 #include "core/smooth/kernels/composite_kernel.h"
 
@@ -23,7 +23,7 @@ template <class Frame, class F>
     return formulas::with_planar_metric(metric, f);
 }
 
-/// What Objective asks of a star.
+/// Star as Objective needs it.
 template <class Frame>
 struct Lists {
   const CompositeLists<Frame>* star;
@@ -34,7 +34,7 @@ struct Lists {
   }
 };
 
-/// The least of a metric over the corners that stay as they are when corner `moving` moves: found once for all places.
+/// Least of a metric over the corners that stay as they are when corner `moving` moves: found once for all places.
 template <Metric M, class V, class Ideal, std::size_t N, class Corners>
 formulas::RealOf<V> least_elsewhere(const formulas::CorneredSolid<V, Ideal, N, Corners>& solid, Index moving) {
   using scalar::min;
@@ -47,19 +47,19 @@ formulas::RealOf<V> least_elsewhere(const formulas::CorneredSolid<V, Ideal, N, C
   }
   return least;
 }
-/// Is an element judged by its corners, of which some stay?
+/// Returns whether an element is judged by its corners, of which some stay.
 template <class Shape>
 inline constexpr bool kHasCorners = requires(const Shape& shape) {
   least_elsewhere<Metric::MeanRatio>(shape, Index{});
 };
 
-/// What is kept of one metric from a pack of places to the next.
+/// State of one metric that is kept from a pack of places to the next.
 template <class D>
 struct Sieve {
   Sieve(std::size_t simplices, bool with_others) : keeps_others(with_others) {
     for (std::size_t i = 0; i < simplices; ++i) order[i] = static_cast<std::uint16_t>(i);
   }
-  /// The one that decided is likely to decide the next.
+  /// Moves an element to the front: the one that decided is likely to decide the next.
   void to_front(std::size_t i) {
     const std::uint16_t k = order[i];
     for (; i > 0; --i) order[i] = order[i - 1];
@@ -67,13 +67,13 @@ struct Sieve {
   }
   std::uint16_t order[kMaxSimplices];  // of the simplices
   bool keeps_others;
-  // Values of the elements with the vertex at the places that were looked at last:
+  // Qualities of the elements with the vertex at the places evaluated last:
   std::array<D, kMaxSimplices> quality;
   std::array<D, kMaxOthers> others;
-  std::array<D, kMaxOthers> elsewhere;  // of their corners that stay
+  std::array<D, kMaxOthers> elsewhere;  // least of their corners that stay
 };
 
-/// Finds what stays of the elements that are no simplices.
+/// Finds the least of the corners that stay for the elements that are no simplices.
 template <Metric M, class Frame, class D>
 void find_elsewhere(const CompositeLists<Frame>& star, Sieve<D>& sieve) {
   std::size_t k = 0;
@@ -84,7 +84,7 @@ void find_elsewhere(const CompositeLists<Frame>& star, Sieve<D>& sieve) {
   });
 }
 
-/// `least`: of the simplices.
+/// Least of the other elements and `least`, that of the simplices.
 template <Metric M, class Frame, class D, class Hopeful>
 D least_of_others(const CompositeLists<Frame>& star, const OffsetIn<Frame, D>& p, Sieve<D>& sieve, D least, const Hopeful& hopeful) {
   using scalar::min;
@@ -110,8 +110,8 @@ D least_of_others(const CompositeLists<Frame>& star, const OffsetIn<Frame, D>& p
   return least;
 }
 
-/// The least of a metric with the vertex at each of the places, as Objective finds it; where no slot is hopeful any more, hopeful(least so
-/// far), whatever it is then.
+/// Least of a metric with the vertex at each of the places, as Objective finds it; where no slot is hopeful any more, hopeful(least so
+/// far), the least so far.
 template <Metric M, class Frame, class D, class Hopeful>
 D least_at(const CompositeLists<Frame>& star, const OffsetIn<Frame, D>& p, Sieve<D>& sieve, const Hopeful& hopeful) {
   using Point = OffsetIn<Frame, D>;
@@ -133,8 +133,8 @@ D least_at(const CompositeLists<Frame>& star, const OffsetIn<Frame, D>& p, Sieve
   return least;
 }
 
-/// `threshold` plus the least value of the second metric; in slots where that does not exceed `best`, any value that does not either. One
-/// function for each metric, so that no kernel is needed for each pair of metrics.
+/// Function that gives `threshold` plus the least value of the second metric; in slots where that does not exceed `best`, any value that
+/// does not either. One function for each metric, so that no kernel is needed for each pair of metrics.
 template <class Frame, class D>
 using SecondMetric = D (*)(const CompositeLists<Frame>& star, const OffsetIn<Frame, D>& p, Sieve<D>& sieve, D threshold, D best);
 template <Metric M, class Frame, class D>
@@ -142,8 +142,8 @@ D second_metric(const CompositeLists<Frame>& star, const OffsetIn<Frame, D>& p, 
   return threshold + least_at<M, Frame, D>(star, p, sieve, [&](D least) { return xsimd::any(threshold + least > best); });
 }
 
-/// What costs less than the second metric, and tells most places that are worse than the best one: the least rank (see formulas::rank) with
-/// the vertex at each of the places or, where none is above `floor`, that so far; and by how much ranks must differ so that it is certain.
+/// Cheap test that most places fail that are worse than the best one: the least rank (see formulas::rank) with the vertex at each of the
+/// places or, where none is above `floor`, that so far; and the difference of ranks that is certain.
 template <class Frame, class D>
 struct SecondRank {
   D (*least)(const CompositeLists<Frame>& star, const OffsetIn<Frame, D>& p, Sieve<D>& sieve, double floor) = nullptr;
@@ -165,7 +165,7 @@ D least_rank(const CompositeLists<Frame>& star, const OffsetIn<Frame, D>& p, Sie
     });
   return least;
 }
-/// None of metrics whose rank they are themselves or costs as much, or whose sign does not tell inverted elements.
+/// Rank test for a metric; none for metrics that are their own rank or cost as much, or whose sign does not tell inverted elements.
 template <Metric M, class Frame, class D>
 SecondRank<Frame, D> second_rank() {
   using Point = OffsetIn<Frame, D>;

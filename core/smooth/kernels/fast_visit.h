@@ -1,6 +1,6 @@
 #pragma once
-// One vertex's visit by the fast search: what the processor's lanes do (core/smooth/kernels/lane_kernel_impl.h), but for one vertex:
-// for one lane of a GPU or a team of them, and for inspecting a visit. The same bits.
+// Visit of one vertex by the fast search: the same as the processor's lanes (core/smooth/kernels/lane_kernel_impl.h), with the same bits,
+// for one lane of a GPU or a team of them, and for inspecting a visit.
 
 #include <array>
 
@@ -13,7 +13,7 @@
 
 namespace dmoscope {
 
-/// A closed fan of N triangles around a vertex, each point known once, in registers.
+/// Closed fan of N triangles around a vertex, each point known once, in registers.
 template <class R, std::size_t N>
 struct FanStar {
   std::array<Vec2<R>, N> ring;
@@ -25,11 +25,11 @@ struct FanStar {
   }
 };
 
-/// Which stars a kernel is made for: the closed fans of the sizes that nearly all triangle meshes have, whose search runs in registers, 4
-/// to 6 triangles or 7 and 8, which take more of them; all others that have a place in lanes; or all three.
+/// Stars that a kernel is made for: the closed fans of the sizes that nearly all triangle meshes have, whose search runs in registers, 4 to
+/// 6 triangles or 7 and 8, which take more of them; all others that have a place in lanes; or all three.
 enum class Stars { SmallFans, LargeFans, Others, All };
 
-/// The first three: which of them the star is.
+/// Kind of a star, one of the first three.
 template <Metric M>
 [[nodiscard]] DMOSCOPE_ANYWHERE Stars kind_of_star(const StarShape& shape, const SearchParameters& parameters) {
   const bool is_fan = kIsRatio<M> && shape.kind == StarShape::Kind::Fan && shape.triangles >= 4 && shape.triangles <= 8;
@@ -37,19 +37,19 @@ template <Metric M>
   return shape.triangles <= 6 ? Stars::SmallFans : Stars::LargeFans;
 }
 
-/// One vertex's visit by a team of lanes; only the first lane learns the verdict. Task: anything with the `shapes`, `others` and `ranked`
+/// Visit of one vertex by a team of lanes; only the first lane learns the verdict. Task: anything with the `shapes`, `others` and `ranked`
 /// positions (Vec3) of a StarTable, a `frame` and search `parameters`.
 template <Metric M, class Team, Stars S, class Task>
 class FastVisit {
  public:
   using Verdict = visit_rules::Verdict;
   struct Outcome {
-    bool ready = false;  // false: the star is the exact visit's
+    bool ready = false;  // false: the exact visit must judge the star
     Verdict verdict = Verdict::Stay;
     Displacement to{};
   };
 
-  /// `rank`: of a vertex whose star is not Alone.
+  /// Takes the `rank` of a vertex whose star is not Alone.
   DMOSCOPE_ANYWHERE FastVisit(const Task& task, Index rank, const Team& team)
       : task_(task), team_(team), shape_(task.shapes[rank]), others_(task.others + shape_.first), origin_(&task.ranked[rank].x) {}
 
@@ -62,7 +62,7 @@ class FastVisit {
       if constexpr (S != Stars::SmallFans)
         if (stars == Stars::LargeFans) {
           if (shape_.triangles == 7) return visit_fan<7>(trace);
-          // A team's lanes, which keep more in registers, would spill.
+          // Leaves fans of 8 to single lanes: those of a team, which keep more in registers, would spill.
           if constexpr (Team::kSize == 1) return visit_fan<8>(trace);
         }
     }
@@ -71,7 +71,7 @@ class FastVisit {
   }
 
  private:
-  static constexpr std::size_t kPoints = 8;  // RatioSearch's
+  static constexpr std::size_t kPoints = 8;  // as in RatioSearch
   static constexpr bool kQuadrilaterals = formulas::kDefinedForQuadrilaterals<M, Vec2<float>>;
   static constexpr bool kBlind = visit_rules::kBlind<M, Vec2<float>>;
 
@@ -84,7 +84,7 @@ class FastVisit {
     return {static_cast<float>(exact.x * task_.frame.inverse), static_cast<float>(exact.y * task_.frame.inverse)};
   }
 
-  /// Width and height of the bounding box of points that are added one by one.
+  /// Bounding box of points that are added one by one.
   class Box {
    public:
     DMOSCOPE_ANYWHERE explicit Box(Vec2<float> first) : low_(first), high_(first) {}
@@ -122,7 +122,7 @@ class FastVisit {
     });
   }
 
-  /// A star of any kind that has a place in lanes.
+  /// Visits a star of any kind that has a place in lanes.
   template <class Trace>
   [[nodiscard]] DMOSCOPE_ANYWHERE Outcome visit_any(Trace& trace) const {
     std::array<StarTriangle<float>, kMaxFan> triangles;
@@ -180,7 +180,7 @@ class FastVisit {
     return Objective<M, false, float, Value::Rank, StarT>(star);
   }
 
-  /// search(size): the best candidate of a grid over a box of that size.
+  /// Searches a star and judges the winner. search(size): the best candidate of a grid over a box of that size.
   template <class StarT, class Search>
   [[nodiscard]] DMOSCOPE_ANYWHERE Outcome decide(const StarT& star, Vec2<float> size, Search search) const {
     const float extent = size.x + size.y;
@@ -205,7 +205,7 @@ class FastVisit {
     return 1e30F;
   }
 
-  /// In double, at the very position that would be stored.
+  /// Judges a step in double, at the very position that would be stored.
   [[nodiscard]] DMOSCOPE_ANYWHERE Verdict judge(Vec2<double> step, float extent) const {
     Worth<M, false, double, Value::Rank, Vec2<double>> before, after;
     const auto take = [&](const auto& element) {

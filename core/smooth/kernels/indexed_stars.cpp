@@ -15,7 +15,7 @@ struct TurnedElement {
   std::array<Index, 7> others;  // vertices
 };
 
-/// An element as the star of its corner `at.corner` has it.
+/// Element as the star of its corner `at.corner` has it.
 TurnedElement turned_element(std::span<const Index> corners, Index corner, bool planar) {
   TurnedElement element{};
   if (planar) {

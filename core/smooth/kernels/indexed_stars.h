@@ -1,5 +1,5 @@
 #pragma once
-// The stars of all free vertices laid out for speed, in the order of the visits: each of a star's other vertices is known once.
+// Stars of all free vertices laid out for speed, in the order of the visits: each of a star's other vertices is known once.
 
 #include <array>
 #include <cstddef>
@@ -19,17 +19,17 @@ class ThreadPool;
 class IndexedStars {
  public:
   struct Star {
-    std::span<const Index> vertices;  // the others, each once
+    std::span<const Index> vertices;  // other vertices of the star, each once
     IndexedStar elements;
     bool fits = false;  // no kind has more than kMaxSolids elements; else there are no vertices and no elements
   };
 
-  /// Of the vertices of a colouring, which are visited in its order, in a planar mesh or a volume, which need not outlive it.
+  /// Makes the stars of a colouring's vertices, which are visited in its order, in a planar mesh or a volume, which need not outlive it.
   IndexedStars(const InputMesh& input, const Colouring& colouring, ThreadPool* pool);
-  /// Of one vertex.
+  /// Makes the star of one vertex.
   IndexedStars(const InputMesh& input, Index vertex);
 
-  /// Of one of those vertices.
+  /// Star of one of those vertices.
   [[nodiscard]] Star of(Index vertex) const {
     const std::size_t visit = visit_of_vertex_.empty() ? 0 : visit_of_vertex_[vertex];
     const Chunk& chunk = chunks_[visit / kStarsAtOnce];

@@ -1,11 +1,11 @@
 #pragma once
-// What all kernels for lanes do: gather stars, one vertex a slot of a pack, and move the vertices that gain. Only the kernels' own headers
-// include it; see lane_kernel_impl.h for what that asks of the code.
+// Common part of all kernels for lanes: gathers stars, one vertex a slot of a pack, and moves the vertices that gain. Only the kernels' own
+// headers include it; see lane_kernel_impl.h for what that asks of the code.
 
 #include <array>
 
 #include "core/numeric/pack.h"
-// After the packs:
+// Headers that must come after the packs:
 #include "core/search/grid_search.h"
 #include "core/search/star.h"
 #include "core/smooth/kernels/lane_kernel.h"
@@ -13,19 +13,19 @@
 
 namespace dmoscope::lanes {
 
-/// The elements that a group of stars has room for. Real: a pack.
+/// Elements of a group of stars. Real: a pack.
 template <class R, bool Quadrilaterals>
 struct Elements {
   std::array<StarTriangle<R>, kMaxFan> triangles;
   std::array<StarQuadrilateral<R>, Quadrilaterals ? kMaxQuadrilaterals : 1> quadrilaterals;
 };
 
-/// F: pack of floats, one vertex a slot. D: the pack of doubles, of which it takes one or more for as many vertices. Kernel, which derives
-/// from it, has:
-/// - gather_targets(slot, rank): what else it knows of a vertex;
-/// - search(): the best candidate of every slot; it sets `ready_` for the slots for which that holds;
-/// - judge(): what the places in to_ are worth, against where the vertices stand;
-/// - verdict(slot): what follows from that.
+/// Group of vertices that are visited together. F: pack of floats, one vertex a slot. D: pack of doubles, one or more for as many vertices.
+/// Kernel, which derives from it, has:
+/// - gather_targets(slot, rank): reads targets or other data of a vertex;
+/// - search(): the best candidate of every slot; it sets `ready_` for the slots for which that is valid;
+/// - judge(): compares the places in to_ with the vertices' positions;
+/// - verdict(slot): the verdict that follows from that.
 template <class Kernel, bool Quadrilaterals, class F, class D>
 class LaneGroup {
  protected:
@@ -64,7 +64,7 @@ class LaneGroup {
   [[nodiscard]] bool is_awake(std::size_t rank) const { return __atomic_load_n(task_.awake + rank, __ATOMIC_RELAXED) != 0; }
   void set_awake(std::size_t rank, bool awake) const { __atomic_store_n(task_.awake + rank, awake ? 1 : 0, __ATOMIC_RELAXED); }
 
-  /// Do these two fit into one pack?
+  /// Returns whether two stars fit into one pack.
   [[nodiscard]] bool alike(Index a, Index b) const {
     const StarShape &x = task_.shapes[a], &y = task_.shapes[b];
     return x.kind == y.kind && (x.triangles > 0) == (y.triangles > 0) && (x.quadrilaterals > 0) == (y.quadrilaterals > 0);
@@ -79,7 +79,7 @@ class LaneGroup {
     return moved ? 1 : 0;
   }
 
-  /// Visits rank_[0 .. count_), all alike.
+  /// Visits rank_[0 .. count_), whose stars fit into one pack.
   std::uint64_t visit_group() {
     gather();
     const Candidate<F> found = kernel().search();
@@ -150,7 +150,7 @@ class LaneGroup {
     return {D::load_aligned(exact_x_[i] + slot), D::load_aligned(exact_y_[i] + slot)};
   }
 
-  /// The stars' elements out of their points: at(i) is point i.
+  /// Elements of the stars, made of their points: at(i) is point i.
   template <class R, class At>
   StarView<R> elements(At at, Elements<R, Quadrilaterals>& out) const {
     if (fan_) {
@@ -229,10 +229,10 @@ class LaneGroup {
   [[nodiscard]] Kernel& kernel() { return static_cast<Kernel&>(*this); }
 
   const LaneTask& task_;
-  std::size_t count_ = 0;  // of the group's vertices
+  std::size_t count_ = 0;  // number of vertices in the group
   Index rank_[kWidth];
   bool fan_ = false;
-  std::size_t triangles_ = 0, quadrilaterals_ = 0;  // the most of any slot
+  std::size_t triangles_ = 0, quadrilaterals_ = 0;  // most of any slot
   alignas(64) float x_[kMaxPoints][kWidth], y_[kMaxPoints][kWidth];
   alignas(64) double exact_x_[kMaxPoints][kWidth], exact_y_[kMaxPoints][kWidth];
   alignas(64) float ready_[kWidth];

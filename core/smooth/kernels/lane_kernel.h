@@ -11,23 +11,23 @@
 
 namespace dmoscope {
 
-/// All a kernel needs to know, as plain data. Ranks: see StarTable.
+/// Task of a kernel, as plain data. Ranks: see StarTable.
 struct LaneTask {
   const StarShape* shapes;
   const Index* others;
-  double* ranked;       // 3 per rank: the positions
-  std::uint8_t* awake;  // one per rank: has its star changed since it was last found at its best?
+  double* ranked;       // positions, 3 numbers per rank
+  std::uint8_t* awake;  // one per rank: whether its star has changed since it was last found at its best
   SearchFrame frame;
   SearchParameters parameters;
-  const double* targets;              // of elements that have targets: see StarTargets; else null
-  const std::uint32_t* first_target;  // likewise, by rank
+  const double* targets;              // targets of elements that have any: see StarTargets; else null
+  const std::uint32_t* first_target;  // offset of a star's targets, by rank; else null
 
   void* owner;      // for the two below
-  bool is_guarded;  // must every move be asked for?
-  /// Exactly: would the vertex of this rank gain by standing at `position` (3 coordinates)? A guard may change the position. Leaves the
-  /// vertex where it is.
+  bool is_guarded;  // whether every move must be confirmed
+  /// Returns, exactly, whether the vertex of this rank would gain by standing at `position` (3 coordinates). A guard may change the
+  /// position. Leaves the vertex in its place.
   bool (*gains)(void* owner, Index rank, double* position);
-  /// The reference's visit of the vertex of this rank; true if it moved.
+  /// Visits the vertex of this rank as the reference does; true if it moved.
   bool (*visit_alone)(void* owner, Index rank);
 };
 
@@ -35,7 +35,7 @@ struct LaneTask {
 /// move. Returns how many moved.
 using LaneKernel = std::uint64_t (*)(const LaneTask& task, std::size_t first, std::size_t last);
 
-/// Visits a call of a kernel should make: enough to fill its lanes, few enough to share among threads.
+/// Number of visits that a call of a kernel should make: enough to fill its lanes, few enough to share among threads.
 inline constexpr std::size_t kLaneGrain = 1024;
 
 }  // namespace dmoscope

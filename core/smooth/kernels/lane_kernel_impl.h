@@ -1,18 +1,18 @@
 #pragma once
-// The one definition of the lanes' kernel. Only the kernel_set_*.cpp, each compiled for one kind of processor, include it. Whatever
-// runs here must be a template over the packs or always inlined, so that no copy compiled for one processor can be linked into another's
-// code; tests/walls.sh looks after that in optimised builds (others inline less).
+// Sole definition of the lanes' kernel. Only the kernel_set_*.cpp, each compiled for one kind of processor, include it. Whatever runs here
+// must be a template over the packs or always inlined, so that no copy compiled for one processor can be linked into another's code;
+// tests/walls.sh looks after that in optimised builds (others inline less).
 
 #include <array>
 
 #include "core/numeric/pack.h"
-// After the packs:
+// Headers that must come after the packs:
 #include "core/search/ratio_search.h"
 #include "core/smooth/kernels/lane_group.h"
 
 namespace dmoscope::lanes {
 
-/// By a built-in metric.
+/// Kernel by a built-in metric.
 template <Metric M, class F, class D>
 class Kernel : LaneGroup<Kernel<M, F, D>, formulas::kDefinedForQuadrilaterals<M, Vec2<F>>, F, D> {
  public:
@@ -36,8 +36,8 @@ class Kernel : LaneGroup<Kernel<M, F, D>, formulas::kDefinedForQuadrilaterals<M,
 
   void gather_targets(std::size_t /*slot*/, Index /*rank*/) const {}
 
-  /// The best candidate of every slot; `ready_` tells the slots for which it holds: those whose star floats can hold and whose rank is
-  /// not too near to 0, the inverted ones' included. The others are the reference's.
+  /// Best candidate of every slot; `ready_` tells the slots for which it is valid: those whose star floats can hold and whose rank is not
+  /// too near to 0, the inverted ones' included. The reference visits the others.
   Candidate<F> search() {
     using scalar::select;
     const StarView<F> star = this->template elements<F>([this](std::size_t i) { return point(i); }, elements_);
@@ -85,19 +85,19 @@ class Kernel : LaneGroup<Kernel<M, F, D>, formulas::kDefinedForQuadrilaterals<M,
   }
 
   [[nodiscard]] visit_rules::Verdict verdict(std::size_t slot) const {
-    // A metric that does not see a corner turn over says nothing of how near it is to that.
+    // Requires sound corners of a metric that does not see a corner turn over: it does not tell how near it is to that.
     const bool sound = !kBlind || quadrilaterals_ == 0 || corner_[slot] > visit_rules::kSoundCorner * static_cast<double>(extent2_[slot]);
     return visit_rules::judge<M>(before_[slot], after_[slot], to_[slot].step, sound);
   }
 
   alignas(64) double corner_[kWidth];  // kBlind: the smallest Jacobian after the move, in units of scale^2
-  alignas(64) float extent2_[kWidth];  // kBlind: the square of the star's extent, likewise
+  alignas(64) float extent2_[kWidth];  // kBlind: the square of the star's extent, in units of scale^2
   Elements<F, kQuadrilaterals> elements_;
   std::array<RatioForm<F>, RatioSearch<F>::kMaxForms> forms_;
   RatioSearch<F> rounds_;
 };
 
-/// The kernel for `metric` with this translation unit's widest packs.
+/// Kernel for `metric` with this translation unit's widest packs.
 template <class F, class D>
 LaneKernel kernel_for(Metric metric) {
   return formulas::with_planar_metric(metric, []<Metric M>() -> LaneKernel { return &Kernel<M, F, D>::run; });

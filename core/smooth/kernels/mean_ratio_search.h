@@ -1,10 +1,8 @@
 #pragma once
-// The grid search by the least of many mean ratios in space, with a look at few candidates only.
-//
+// Grid search by the least of many mean ratios in space, with a look at few candidates only.
 // A form (MeanRatioForm) ranks above t where v - sqrt(t) s^(3/2) is positive. The determinant v is affine in the candidate's place, and
 // s^(1/2), the length of an affine function, is convex; so that set is convex, and the tangent at a candidate that is no better tells a
 // half-space in which none is. The candidate that is found is the one that a look at all would find.
-//
 // Only the kernels' sources include it; see lane_kernel_impl.h for what that asks of the code.
 
 #include <bit>
@@ -16,7 +14,7 @@
 #include <type_traits>
 
 #include "core/numeric/pack.h"
-// After the packs:
+// Headers that must come after the packs:
 #include "core/smooth/kernels/grid_cuts.h"
 #include "core/smooth/kernels/indexed_star.h"
 #include "core/smooth/kernels/solid_target.h"
@@ -24,7 +22,7 @@
 
 namespace dmoscope::volumes {
 
-/// A form of its numbers in order: of(i).
+/// Form of its numbers in order: of(i).
 template <template <class> class Form, class R, class Of>
 [[gnu::always_inline]] [[nodiscard]] inline Form<R> form_of(const Of& of) {
   if constexpr (std::is_same_v<Form<float>, MeanRatioForm<float>>)
@@ -33,7 +31,7 @@ template <template <class> class Form, class R, class Of>
     return {of(0), of(1), of(2), of(3), of(4), of(5), of(6), of(7), of(8), of(9), of(10), of(11), of(12), of(13)};
 }
 
-/// F: pack of floats, a form per slot. Form: MeanRatioForm or StretchedForm.
+/// Search among forms. F: pack of floats, a form per slot. Form: MeanRatioForm or StretchedForm.
 template <class F, template <class> class Form = MeanRatioForm>
 class MeanRatioSearch {
  public:
@@ -44,7 +42,7 @@ class MeanRatioSearch {
     for (std::size_t i = n_; i % kWidth != 0; ++i) part_[i] = 0.0F;
   }
 
-  /// A pack of forms, each slot in use. At most kMaxPacks in all.
+  /// Takes a pack of forms, each slot in use. At most kMaxPacks in all.
   void take(const Form<F>& forms) {
     alignas(64) F fields[kFormFields];
     static_assert(sizeof(fields) == sizeof(forms));
@@ -55,21 +53,21 @@ class MeanRatioSearch {
     ++count_;
   }
 
-  /// The least rank with the vertex where it is; the search begins there.
+  /// Least rank with the vertex at its present place; the search begins there.
   [[nodiscard]] float begin() {
     best_ = evaluate(0.0F, 0.0F, 0.0F);
     return best_.rank;
   }
 
-  /// Goes to the best candidate of a grid around the best place so far, where one is better. Among equals to the one of lowest index.
+  /// Goes to the best candidate of a grid around the best place so far, where one is better; among equals to that of lowest index.
   void search_level(float size_x, float size_y, float size_z) {
-    for (std::size_t i = 0; i < n_; i += kWidth) {  // as CandidateGrid has them
+    for (std::size_t i = 0; i < n_; i += kWidth) {  // placed as in CandidateGrid
       const F part = F::load_aligned(part_ + i);
       (F(best_.x) + F(size_x) * part).store_aligned(x_ + i);
       (F(best_.y) + F(size_y) * part).store_aligned(y_ + i);
       (F(best_.z) + F(size_z) * part).store_aligned(z_ + i);
     }
-    index_ = n_ * n_ * n_;  // of what was there before: higher than all
+    index_ = n_ * n_ * n_;  // index of the place before: higher than all
     cuts_.begin(x_, y_, z_);
     note_rounding();
     cut_at(best_);
@@ -77,7 +75,7 @@ class MeanRatioSearch {
       const std::size_t row = cuts_.row(), i = cuts_.i(), j = cuts_.j(), k = cuts_.middle();
       cut_at(look(i, j, k));
       if (!cuts_.in_question(row, k)) continue;
-      // It is as good as the best, or too near to it for the cut to tell.
+      // Compares the row one by one: the place is as good as the best, or too near to it for the cut to tell.
       if (!cuts_.drop_end(row, k)) {
         for (std::size_t other = 0; other < n_; ++other)
           if (other != k && cuts_.in_question(row, other)) (void)look(i, j, other);
@@ -90,7 +88,7 @@ class MeanRatioSearch {
   [[nodiscard]] Vec3Of<float> best() const { return {best_.x, best_.y, best_.z}; }
 
  private:
-  /// A place, its least rank, and the form that has it.
+  /// Place, its least rank, and the form that has it.
   struct Looked {
     float x = 0.0F, y = 0.0F, z = 0.0F, rank = 0.0F;
     std::size_t form = 0;
@@ -104,7 +102,7 @@ class MeanRatioSearch {
     for (std::size_t i = 0; i < count_; ++i) {
       const F rank = rank_of(forms_at(i), p, square);
       least = min(least, rank);
-      // The lowest bits tell which form it is: of some that are equally bad but for these bits any will do.
+      // Notes the form in the lowest bits: among forms that are equally bad but for these bits any will do.
       worst = min(worst, (rank & rough) | F::load_aligned(which_[i]));
     }
     return {x, y, z, scalar::least_slot(least), std::bit_cast<std::uint32_t>(scalar::least_slot(worst)) & (kForms - 1)};
@@ -124,7 +122,7 @@ class MeanRatioSearch {
     return form_of<Form, F>([&](std::size_t field) { return F::load_aligned(forms_[i][field]); });
   }
 
-  /// How far rounding may go at any candidate of the level, by the size of what is added up there.
+  /// Bounds rounding at any candidate of the level, by the size of the terms that are added up there.
   void note_rounding() {
     const Vec3Of<float> reach = cuts_.reach();
     const F x(reach.x), y(reach.y), z(reach.z), square = x * x + y * y + z * z;
@@ -137,7 +135,7 @@ class MeanRatioSearch {
     }
   }
 
-  /// Cuts off what the worst form of a place tells to be no better than the best.
+  /// Cuts off the half-space that the worst form of a place tells to be no better than the best.
   void cut_at(const Looked& here) {
     const auto of = [&, slot = here.form % kWidth](std::size_t field) { return forms_[here.form / kWidth][field][slot]; };
     const Form<float> f = form_of<Form, float>(of);
@@ -154,7 +152,7 @@ class MeanRatioSearch {
 
   static constexpr float kRounding = 4e-6F;
   static constexpr std::size_t kFormFields = sizeof(Form<float>) / sizeof(float);
-  static constexpr std::size_t kFields = kFormFields + 2;  // of a form, and how far v and s^(3/2) may be rounded
+  static constexpr std::size_t kFields = kFormFields + 2;  // fields of a form, and how far v and s^(3/2) may be rounded
   static constexpr std::uint32_t kForms = 2048;            // a power of two: more than four corners of kMaxSolids elements of each kind are
 
  public:
@@ -163,7 +161,7 @@ class MeanRatioSearch {
 
  private:
   Looked best_;
-  std::size_t n_, count_ = 0, index_ = 0;  // packs of forms; the best's in its level
+  std::size_t n_, count_ = 0, index_ = 0;  // packs of forms; the best place's index in its level
   alignas(64) float part_[GridCuts<F>::kMaxPoints], x_[GridCuts<F>::kMaxPoints], y_[GridCuts<F>::kMaxPoints], z_[GridCuts<F>::kMaxPoints];
   GridCuts<F> cuts_;
   alignas(64) float forms_[kMaxPacks][kFields][kWidth];

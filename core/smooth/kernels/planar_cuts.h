@@ -1,10 +1,9 @@
 #pragma once
-// Which candidates of a planar grid may win, for two aims of which a star of triangles keeps the places in convex sets: those where its
-// least mean ratio is above a value, and where its least angle is (or its scaled Jacobian, which rises with the least angle), or the
-// vertex's distance from a wanted place is below one. A candidate that is no better than the best so far lies outside of one, and the
-// tangent there cuts off a half-plane of them. In float, with room for all rounding: the few candidates that are left are for an exact
-// look.
-//
+// Finds the candidates of a planar grid that may win, for two aims by which a star of triangles keeps the places in convex sets: those
+// where its least mean ratio is above a value, and where its least angle is (or its scaled Jacobian, which rises with the least angle), or
+// the vertex's distance from a wanted place is below one. A candidate that is no better than the best so far lies outside of one of these
+// sets, and the tangent there cuts off a half-plane of them. In float, with room for all rounding: the few candidates that are left are for
+// an exact look.
 // Only composite_kernel_impl.h includes it; see lane_kernel_impl.h for what that asks of the code.
 
 #include <array>
@@ -14,26 +13,26 @@
 #include <limits>
 
 #include "core/numeric/pack.h"
-// After the packs:
+// Headers that must come after the packs:
 #include "core/smooth/kernels/composite_kernel.h"
 
 namespace dmoscope::composite {
 
-/// F: pack of floats, a triangle per slot.
+/// Cuts in the plane. F: pack of floats, a triangle per slot.
 template <class F>
 class PlanarCuts {
  public:
   using Offset = Vec2<double>;
   using Task = CompositeSearch<Plane>;
-  /// Candidate (i, j) is bit kStride * i + j.
+  /// Set of candidates: candidate (i, j) is bit kStride * i + j.
   using Candidates = std::uint64_t;
   static constexpr std::size_t kStride = 8;
 
-  /// Can it tell anything of this task? Its first metric must be the mean ratio.
+  /// Returns whether it can tell anything of this task. Its first metric must be the mean ratio.
   static bool speaks_for(const Task& task) {
     if (task.points > static_cast<int>(kStride) || task.star.quadrilaterals.size > 0 || task.star.simplices.size == 0) return false;
     if (task.second == Task::Second::Metric) return task.metric == Metric::MinAngle || task.metric == Metric::ScaledJacobian;
-    // Elsewhere the exact search rounds densities of places that are apart to the same number.
+    // Leaves out other sizes: there the exact search rounds densities of places that are apart to the same number.
     return task.second == Task::Second::Density && task.edge > 1e-2 && task.edge < 1e3;
   }
 
@@ -50,9 +49,9 @@ class PlanarCuts {
     for (std::size_t pack = 0; pack < packs_; ++pack) take_pack(task, pack);
   }
 
-  /// Is a place beyond the threshold, where the star is sound? Unsure: rounding may decide, or an element may be inverted.
+  /// Side of the threshold on which a place is, where the star is sound. Unsure: rounding may decide, or an element may be inverted.
   enum class Side : std::uint8_t { Beyond, Short, Unsure };
-  /// Goes to the grid around `centre` whose candidates stand at x[i], y[j]; tells where the centre is.
+  /// Goes to the grid around `centre` whose candidates stand at x[i], y[j]; returns the centre's side.
   Side begin(Offset centre, const double* x, const double* y) {
     float reach = reach_of_star_;
     for (std::size_t i = 0; i < points_; ++i) {
@@ -70,10 +69,10 @@ class PlanarCuts {
   }
 
   struct Left {
-    Candidates hopeful = 0;   // those that may be better than the centre
-    bool has_winner = false;  // there is one, and it is certain to be better than the centre
+    Candidates hopeful = 0;   // candidates that may be better than the centre
+    bool has_winner = false;  // whether there is one that is certain to be better than the centre
   };
-  /// `beyond`: is the centre beyond the threshold? The star must be sound there.
+  /// Searches a grid. `beyond`: whether the centre is beyond the threshold. The star must be sound there.
   Left search(bool beyond) {
     begin_at_centre(beyond);
     std::array<Hopeful, kStride * kStride> found;
@@ -105,33 +104,34 @@ class PlanarCuts {
 
  private:
   static constexpr std::size_t kWidth = F::size, kMaxPacks = (kMaxSimplices + kWidth - 1) / kWidth;
-  // Of the square of the largest coordinate: some three times what the roundings of a form, its tangent and a place can add up to.
+  // Relative rounding, of the square of the largest coordinate: some three times what the roundings of a form, its tangent and a place can
+  // add up to.
   static constexpr float kRounding = 3e-5F;
   static constexpr float kMost = std::numeric_limits<float>::max();
   static constexpr float kTiny = 1e-30F;
-  static constexpr float kRatio = 3.46410162F;  // the mean ratio is 2 sqrt(3) (twice the area) / (the squares of the edges)
+  static constexpr float kRatio = 3.46410162F;  // 2 sqrt(3): the mean ratio is this times twice the area over the squares of the edges
 
   struct Point {
     float x, y;
   };
-  /// The triangle that decides about a place.
+  /// Triangle that decides about a place.
   struct Worst {
     std::size_t slot;
-    bool by_second;  // by the second aim
+    bool by_second;  // whether it decides by the second aim
   };
   struct Look {
     Worst worst;
     bool is_hopeful;
   };
-  /// What a place is certain to reach of both aims, and the most that it may reach; the second in set_second()'s units.
+  /// Values of both aims that a place is certain to reach, and the most that it may reach; the second in set_second()'s units.
   struct Reached {
     float first, most_first, second, most_second;
-    std::size_t first_slot, second_slot;  // of the worst triangles
+    std::size_t first_slot, second_slot;  // slots of the worst triangles
   };
   struct Hopeful {
     std::size_t bit;
     Reached reached;
-    bool beyond;  // was the best beyond the threshold when it was found?
+    bool beyond;  // whether the best was beyond the threshold when it was found
   };
   enum Field : std::uint8_t { Area0, AreaX, AreaY, Edges0, Apex0, SumX, SumY, Base0, Length, kFields };
 
@@ -176,7 +176,7 @@ class PlanarCuts {
     cut(place_of_centre_, worst_of(centre_));
   }
 
-  /// What the second aim must reach: the tangent of the least angle, 0 or more, or minus the square of the distance.
+  /// Sets what the second aim must reach: the tangent of the least angle, 0 or more, or minus the square of the distance.
   void set_second(float value) {
     second_ = by_angle_ ? greater(value, 0.0F) : value;
     if (!by_angle_) return;
@@ -184,9 +184,9 @@ class PlanarCuts {
     sine_ = second_ * cosine_;
   }
 
-  /// Takes what a hopeful place is certain to reach as what others must.
+  /// Requires of others what a hopeful place is certain to reach.
   void note(const Reached& reached) {
-    const bool is_beyond = reached.first > threshold_;  // else it may be, and tells nothing of what is
+    const bool is_beyond = reached.first > threshold_;  // else it may be, and tells nothing of places that are
     if (!beyond_ && is_beyond) {
       beyond_ = true;
       first_ = threshold_;
@@ -195,7 +195,7 @@ class PlanarCuts {
     if (is_beyond && reached.second > second_) set_second(reached.second);
   }
 
-  /// The one by what is needed now.
+  /// Worst triangle by the aim that is needed now.
   [[nodiscard]] Worst worst_of(const Reached& reached) const {
     return beyond_ ? Worst{reached.second_slot, true} : Worst{reached.first_slot, false};
   }
@@ -205,7 +205,7 @@ class PlanarCuts {
     return x * x + y * y;
   }
 
-  /// Where a pack of triangles has the vertex at p.
+  /// Shapes of a pack of triangles with the vertex at p.
   struct Shape {
     F area, edges, dot;  // twice the area, the sum of the edges' squares, the greatest dot product of two edges at a corner
   };
@@ -276,7 +276,7 @@ class PlanarCuts {
     return reached;
   }
 
-  /// Cuts off where the triangle that decides about a place, or its distance, is certain to be below what is needed.
+  /// Cuts off the places where the triangle that decides about a place, or its distance, is certain to be below what is needed.
   void cut(Point p, Worst worst) {
     const auto of = [&](Field field) { return forms_[worst.slot / kWidth][field][worst.slot % kWidth]; };
     if (worst.by_second && !by_angle_) {
@@ -307,7 +307,7 @@ class PlanarCuts {
     take_out(cosine_ * area - sine_ * dot, p, cosine_ * area_slope.x - sine_ * slope.x, cosine_ * area_slope.y - sine_ * slope.y);
   }
 
-  /// Takes out where margin + slope . (place - p) is certain to be negative.
+  /// Takes out the candidates where margin + slope . (place - p) is certain to be negative.
   void take_out(float margin, Point p, float slope_x, float slope_y) {
     const F start(margin + room_ - slope_x * p.x - slope_y * p.y), along_x(slope_x), along_y(slope_y);
     Candidates kept = 0;
@@ -318,7 +318,7 @@ class PlanarCuts {
     open_ &= kept;
   }
 
-  /// One of those in question, near their middle.
+  /// Candidate in question near their middle.
   [[nodiscard]] std::size_t middle() const {
     const auto lowest = static_cast<std::size_t>(__builtin_ctzll(open_)), highest = 63 - static_cast<std::size_t>(__builtin_clzll(open_));
     const std::size_t row = (lowest / kStride + highest / kStride) / 2 * kStride;
@@ -331,14 +331,14 @@ class PlanarCuts {
 
   bool by_angle_ = true, beyond_ = false;
   float threshold_ = 0.0F, reach_of_star_ = 0.0F, room_ = 0.0F;
-  float first_ = 0.0F, second_ = 0.0F;  // what a candidate must reach
-  float cosine_ = 1.0F, sine_ = 0.0F;   // of the angle whose tangent is second_
+  float first_ = 0.0F, second_ = 0.0F;  // values that a candidate must reach
+  float cosine_ = 1.0F, sine_ = 0.0F;   // cosine and sine of the angle whose tangent is second_
   Point wanted_{}, place_of_centre_{};
   Reached centre_{};
   std::size_t points_ = 0, packs_ = 0;
-  Candidates all_ = 0, open_ = 0;  // of the grid; of those in question
+  Candidates all_ = 0, open_ = 0;  // candidates of the grid, and those in question
   static constexpr std::size_t kRow = kWidth > kStride ? kWidth : kStride;
-  alignas(64) float x_[kStride * kStride] = {}, y_[kRow] = {};  // of the bits; y is the same in all rows
+  alignas(64) float x_[kStride * kStride] = {}, y_[kRow] = {};  // coordinates of the bits' candidates; y is the same in all rows
   alignas(64) float forms_[kMaxPacks][kFields][kWidth];
 };
 

@@ -9,15 +9,15 @@
 #include <type_traits>
 
 #include "core/numeric/pack.h"
-// After the packs:
+// Headers that must come after the packs:
 #include "core/search/target_form.h"
 #include "core/smooth/kernels/composite_kernel.h"
 #include "core/smooth/kernels/solid_target.h"
 
 namespace dmoscope::composite {
 
-/// Second-order part of a squared norm: a number times |p|^2 or, crossed, in x^2, y^2, z^2, xy, xz, yz. F: a pack, so that no other
-/// processor's code shares the functions.
+/// Second-order part of a squared norm: a number times |p|^2 or, crossed, the coefficients of x^2, y^2, z^2, xy, xz, yz. F: a pack, so that
+/// no other processor's code shares the functions.
 template <bool Crossed, class F>
 struct SecondOrder {
   double square = 0.0;
@@ -55,14 +55,14 @@ struct SecondOrder<true, F> {
   }
 };
 
-/// Every simplex, and every corner of another element that changes with the vertex, is a form: of two functions of the vertex's place, v
-/// affine and s quadratic. In the plane its mean ratio is v / s (see RatioForm), in space the cube root of v |v| / s^3 (see MeanRatioForm).
-/// That without the root is its rank. Both functions are taken around the centre of a grid and, in float, with room for all rounding: never
-/// below the true v, never above the true s. What a mean adds up of a rank is concave: at most its tangent at the rank that the element has
-/// in the centre. So no root is needed, and the bound is closest where the grid is fine. Steps of the harmonic mean that an element pays
-/// wherever the vertex goes count once a grid; of one that may rise a step they are looked up at each place.
-/// Against targets in the plane an element's metric may be its ratio less a shift (see TargetForm). All but needs and sums is of ratios.
-/// D, F: packs of doubles and of floats of one processor; Crossed: see SecondOrder.
+/// Bounds by forms. Every simplex, and every corner of another element that changes with the vertex, is a form: it has two functions of the
+/// vertex's place, v affine and s quadratic. In the plane its mean ratio is v / s (see RatioForm), in space the cube root of v |v| / s^3
+/// (see MeanRatioForm). Its rank is that without the root. Both functions are taken around the centre of a grid and, in float, with room
+/// for all rounding: never below the true v, never above the true s. The term of a rank in a mean is concave: at most its tangent at the
+/// rank that the element has in the centre. So no root is needed, and the bound is closest where the grid is fine. Steps of the harmonic
+/// mean that an element pays wherever the vertex goes count once a grid; for an element that may rise a step they are looked up at each
+/// place. Against targets in the plane an element's metric may be its ratio less a shift (see TargetForm). All numbers but needs and sums
+/// belong to ratios. D, F: packs of doubles and of floats of one processor; Crossed: see SecondOrder.
 template <class Frame, class D, class F, bool Crossed = false>
 class RatioBounds {
  public:
@@ -70,7 +70,7 @@ class RatioBounds {
   using Place = OffsetIn<Frame, F>;
   using Hope = typename F::batch_bool_type;
 
-  /// `elsewhere`: in space, by element that is no simplex, the least mean ratio of the corners that stay; null: not known.
+  /// Takes a star. `elsewhere`: in space, by element that is no simplex, the least mean ratio of the corners that stay; null: unknown.
   void take(const Lists& star, MeanKind mean, const D* elsewhere) {
     begin(mean);
     for (std::size_t i = 0; i < star.simplices.size; ++i) {
@@ -85,13 +85,13 @@ class RatioBounds {
     end();
   }
 
-  /// The same piece by piece: of each element begin_element(), and take() of each of its forms.
+  /// Begins a star that is taken piece by piece: for each element begin_element(), and take() of each of its forms.
   void begin(MeanKind mean) {
     mean_ = mean;
     pieces_ = elements_ = 0;
     amiss_ = 1.0;
   }
-  /// `most`: what the rank of the element's corners that stay is; `shift`: of the metric from the ratio.
+  /// Begins an element. `most`: the rank of the element's corners that stay; `shift`: from the ratio to the metric.
   void begin_element(double most, double shift = 0.0) {
     first_[elements_] = static_cast<std::uint16_t>(pieces_);
     shifts_[elements_] = shift;
@@ -115,14 +115,14 @@ class RatioBounds {
                          0.0,         f.s0.get(0), f.sx.get(0),
                          f.sy.get(0), 0.0,         {f.sxx.get(0), f.syy.get(0), 0.0, f.sxy.get(0), 0.0, 0.0}};
   }
-  /// By how much forms are worse than sums of a few products: the more the farther their targets stretch.
+  /// Sets how much worse forms are than sums of a few products: the more the farther their targets stretch.
   void set_amiss(double factor) { amiss_ = factor; }
   void end() {
     first_[elements_] = static_cast<std::uint16_t>(pieces_);
     for (std::size_t i = 0; i < elements_; ++i) order_[i] = static_cast<std::uint16_t>(i);
   }
 
-  /// For places that are no farther from `centre` than `half` along each axis; in the plane of two.
+  /// Moves to places that are no farther from `centre` than `half` along each axis; the plane has two.
   void move_to(const std::array<double, 3>& centre, const std::array<double, 3>& half) {
     greatest_sum_ = sizes_ = paid_ = 0.0;
     for (std::size_t i = 0; i < elements_; ++i) {
@@ -142,21 +142,22 @@ class RatioBounds {
     }
   }
 
-  /// What a place must reach: the least mean ratio around the vertex, and the mean of all elements; 0: whatever it is.
+  /// Sets what a place must reach: the least mean ratio around the vertex, and the mean of all elements; 0: any.
   void set_needs(double least, double mean) {
     if (!(mean > 0.0)) return set_least(least);
-    // What rounding `least` + `mean`, the worth of a place, takes from the sum.
+    // Allows for what rounding `least` + `mean`, the worth of a place, takes from the sum.
     const double sum = sum_of(mean) * static_cast<double>(elements_), of_worth = 0x1p-51 * (1.0 + least) / mean;
     set_needs_of_sum(least, has_steps() ? sum + of_worth * sum : sum);
   }
-  /// The same by what the mean's elements add up: their inverses, or the inverses' squares, are negative.
+  /// Sets what a place must reach, with the sum of the mean's terms instead of the mean: their inverses, or the inverses' squares, are
+  /// negative.
   void set_needs_of_sum(double least, double sum) {
     set_least(least);
     const double room = (static_cast<double>(elements_) + 8.0) * 0x1p-22 * (sizes_ + 1.0);
     if (mean_ != MeanKind::Geometric) sum_ = static_cast<float>(sum + paid_ - room);
   }
 
-  /// May a place reach what is needed? `d`: from the centre.
+  /// Returns whether a place may reach what is needed. `d`: from the centre.
   [[nodiscard]] Hope may_reach(const Place& d) {
     F square = xsimd::fma(d.x, d.x, d.y * d.y);
     if constexpr (kSpace) square = xsimd::fma(d.z, d.z, square);
@@ -182,7 +183,7 @@ class RatioBounds {
   }
 
  private:
-  /// Whatever the mean is.
+  /// Sets the least that a place must reach, for any mean.
   void set_least(double least) {
     for (std::size_t i = 0; i < elements_; ++i) {
       const double rank = rank_of_ratio(least) + shifts_[i];
@@ -193,30 +194,30 @@ class RatioBounds {
 
   static constexpr bool kSpace = std::is_same_v<Frame, Space>;
   static constexpr std::size_t kMaxElements = kMaxSimplices + kMaxOthers, kMaxPieces = kMaxSimplices + 4 * kMaxOthers;
-  // Room for rounding. Of a float's 24 bits a sum of four products loses less than 4, a product or quotient less than 1; of a double's 53,
-  // which moving to another centre costs a few, those of the exact search among them, less than 9.
+  // Room for rounding. Of a float's 24 bits a sum of four products loses less than 4, a product or quotient less than 1. Of a double's 53
+  // less than 9 are lost, the few that moving to another centre costs and those of the exact search among them.
   static constexpr double kOfFloats = 0x1p-20, kOfDoubles = 0x1p-44, kMore = 1.0 + 0x1p-19, kLess = 1.0 - 0x1p-19;
   static constexpr double kLeastTangent = 1e-3;
   static constexpr std::size_t kSteps = std::size(kMeanSteps);
   static constexpr float kMost = std::numeric_limits<float>::max();
-  static constexpr float kUnknown = 1e6F;        // of a rank: more than any
-  static constexpr float kLeastSquares = 1e-6F;  // of 1, beneath which a norm may be rounding alone
+  static constexpr float kUnknown = 1e6F;        // a rank above any
+  static constexpr float kLeastSquares = 1e-6F;  // share of 1 beneath which a norm may be rounding alone
 
   struct Form {
     double v0, vx, vy, vz, s0, sx, sy, sz;
     SecondOrder<Crossed, F> second;
   };
-  /// A form around the centre, where its squared norm is 1.
+  /// Form around the centre, where its squared norm is 1.
   struct Near {
     float v0, vx, vy, vz, s0, sx, sy, sz;
     typename SecondOrder<Crossed, F>::Narrow second;
   };
-  /// The rank of a piece in the centre, and the most that it may be anywhere.
+  /// Rank of a piece in the centre, and the most that it may be anywhere.
   struct Reach {
     double here, most;
   };
 
-  /// The rank of the element that was begun last is at most this.
+  /// Bounds the rank of the element that was begun last from above.
   void cap(double most) {
     double& known = caps_[elements_ - 1];
     known = most < 0.0 ? 0.0 : most < known ? most : known;
@@ -245,7 +246,7 @@ class RatioBounds {
   }
 
   [[nodiscard]] bool has_steps() const { return mean_ == MeanKind::Harmonic; }
-  /// The rank below which an element pays a step for certain.
+  /// Rank below which an element pays a step for certain.
   [[nodiscard]] double step_rank(std::size_t i, std::size_t step) const {
     const double rank = rank_of_ratio(kMeanSteps[step]) + shifts_[i];
     return rank - (1.0 - kLess) * size(rank);
@@ -255,7 +256,7 @@ class RatioBounds {
     for (std::size_t k = 0; k < kSteps; ++k) adds += rank < step_rank(i, k) ? kMeanStepAdds[k] : 0.0;
     return adds;
   }
-  /// `rank`: of an element in the centre; `most`: what it may be anywhere.
+  /// Takes the steps of an element. `rank`: its rank in the centre; `most`: that which it may have anywhere.
   void take_steps(std::size_t i, double rank, double most) {
     rises_[i] = false;
     if (!has_steps()) return;
@@ -269,7 +270,7 @@ class RatioBounds {
       step_adds_[i][k] = most < step_rank(i, k) ? 0.0F : static_cast<float>(kMeanStepAdds[k]);
     }
   }
-  /// What it pays at places of these ranks and not wherever it goes.
+  /// Steps that an element pays at places of these ranks beyond those that it pays anywhere.
   [[nodiscard]] F more_steps(std::size_t i, const F& rank) const {
     F adds(0.0F);
     for (std::size_t k = 0; k < kSteps; ++k) adds = adds + xsimd::select(rank < F(step_ranks_[i][k]), F(step_adds_[i][k]), F(0.0F));
@@ -277,12 +278,12 @@ class RatioBounds {
   }
 
   static double rank_of_ratio(double ratio) { return kSpace ? ratio * ratio * ratio : ratio; }
-  /// A rising function of the mean: what the mean of that many equal qualities adds up for each.
+  /// Term of a quality in the mean's sum, a rising function.
   [[nodiscard]] double sum_of(double quality) const {
     if (mean_ == MeanKind::Harmonic) return -1.0 / quality;
     return mean_ == MeanKind::InverseSquare ? -1.0 / (quality * quality) : quality;
   }
-  /// A line that is never below sum_of() the mean ratio of a rank: at_zero + slope * rank.
+  /// Line that is never below sum_of() the mean ratio of a rank: at_zero + slope * rank.
   struct Tangent {
     double at_zero, slope;
   };
@@ -290,14 +291,14 @@ class RatioBounds {
     if (!kSpace && mean_ == MeanKind::Arithmetic) return {0.0, 1.0};
     const double at = rank > kLeastTangent ? rank : kLeastTangent;
     const double quality = kSpace ? scalar::refined_cube_root(at, scalar::rough_cube_root(at)) : at;
-    const double by_rank = kSpace ? 1.0 / (3.0 * quality * quality) : 1.0;  // the slope of the quality
+    const double by_rank = kSpace ? 1.0 / (3.0 * quality * quality) : 1.0;  // slope of the quality
     const double by_quality = mean_ == MeanKind::Harmonic        ? 1.0 / (quality * quality)
                               : mean_ == MeanKind::InverseSquare ? 2.0 / (quality * quality * quality)
                                                                  : 1.0;
     const double slope = by_quality * by_rank;
     return {sum_of(quality) - slope * at, slope};
   }
-  /// The rank of v and s.
+  /// Rank of v and s.
   static double rank(double v, double s) { return kSpace ? v * size(v) / (s * s * s) : v / s; }
 
   static double size(double a) { return a < 0.0 ? -a : a; }
@@ -323,10 +324,10 @@ class RatioBounds {
                 static_cast<float>(vz),         static_cast<float>(1.0 - s_room), static_cast<float>(sx),
                 static_cast<float>(sy),         static_cast<float>(sz),           f.second.narrow(by_s)};
     const double most_v = v + v_room + v_way, least_s = 1.0 - s_room - s_way;
-    return {rank(v, 1.0), least_s > 0.1 ? rank(most_v, least_s) : kUnknown};  // of no element more than its cap
+    return {rank(v, 1.0), least_s > 0.1 ? rank(most_v, least_s) : kUnknown};  // an element's cap bounds it
   }
   static std::array<double, 3> sizes_of(const std::array<double, 3>& c) { return {size(c[0]), size(c[1]), size(c[2])}; }
-  /// A norm that rounding has eaten says nothing.
+  /// Gives a form up whose norm rounding has eaten: it says nothing.
   Reach give_up(std::size_t k) {
     near_[k] = {kUnknown, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, {}};
     return {kUnknown, kUnknown};
@@ -353,7 +354,7 @@ class RatioBounds {
     return kSpace ? part * xsimd::abs(part) * inverse : part;
   }
 
-  /// The one that decided is likely to decide the next.
+  /// Moves an element to the front: the one that decided is likely to decide the next.
   void to_front(std::size_t n) {
     const std::uint16_t i = order_[n];
     for (; n > 0; --n) order_[n] = order_[n - 1];
@@ -362,16 +363,16 @@ class RatioBounds {
 
   std::size_t pieces_ = 0, elements_ = 0;
   MeanKind mean_ = MeanKind::Harmonic;
-  double greatest_sum_ = 0.0, sizes_ = 0.0;  // of the sum's terms
-  double paid_ = 0.0;                        // of the mean's steps, wherever the vertex goes
+  double greatest_sum_ = 0.0, sizes_ = 0.0;  // size of the sum's terms
+  double paid_ = 0.0;                        // the mean's steps that are paid wherever the vertex goes
   float sum_ = 0.0F;
   double amiss_ = 1.0;
-  std::uint16_t first_[kMaxElements + 1];  // of an element's pieces
+  std::uint16_t first_[kMaxElements + 1];  // offset of an element's pieces
   std::uint16_t order_[kMaxElements];
-  double caps_[kMaxElements], shifts_[kMaxElements];  // the most that an element's rank may be, by its corners that stay
+  double caps_[kMaxElements], shifts_[kMaxElements];  // the most that a rank may be, by the corners that stay; shift of the metric
   float least_[kMaxElements];                         // the rank that it must reach
-  float slopes_[kMaxElements], most_[kMaxElements];   // of the tangent; the most that the rank may be near the centre
-  bool rises_[kMaxElements];                          // may an element rise a step?
+  float slopes_[kMaxElements], most_[kMaxElements];   // slope of the tangent; the most that the rank may be near the centre
+  bool rises_[kMaxElements];                          // whether an element may rise a step
   float step_ranks_[kMaxElements][kSteps], step_adds_[kMaxElements][kSteps];
   Form forms_[kMaxPieces];
   Near near_[kMaxPieces];

@@ -1,5 +1,5 @@
 #pragma once
-// The plane and the unit in which vertices are searched.
+// Plane and unit in which vertices are searched.
 
 #include <cmath>
 
@@ -11,17 +11,17 @@
 
 namespace dmoscope {
 
-/// A vertex that stands elsewhere.
+/// New place of a vertex.
 struct Displacement {
-  double target[3];   // where it stands, as it will be stored
-  Vec2<double> step;  // the way there in the plane, as stored
+  double target[3];   // the position as it will be stored
+  Vec2<double> step;  // the step to there in the plane, as stored
 };
 
-/// Plain data, for any processor. Its functions are always inlined: code for different processors shares them, and must not share one
-/// compiled copy.
+/// Search frame, as plain data for any processor. Its functions are always inlined: code for different processors shares them, and must not
+/// share one compiled copy.
 struct SearchFrame {
   double u[3], v[3];      // the mesh's plane
-  int u_axis, v_axis;     // the coordinates they are, or -1 where the plane is parallel to no coordinate plane
+  int u_axis, v_axis;     // their coordinates, or -1 where the plane is parallel to no coordinate plane
   double scale, inverse;  // a power of two about as large as an edge, and 1 / scale
   bool single_precision;  // see Mesh
   double period, west;    // see Plane
@@ -30,7 +30,7 @@ struct SearchFrame {
   float largest_extent;
   static constexpr float kLargestExtent = 0x1p20F;
 
-  /// From `origin` to `at`, in the plane and in mesh units. Axes: u_axis and v_axis are coordinates.
+  /// Offset from `origin` to `at`, in the plane and in mesh units. Axes: u_axis and v_axis are coordinates.
   template <bool Axes>
   [[gnu::always_inline]] [[nodiscard]] DMOSCOPE_ANYWHERE Vec2<double> offset(const double* at, const double* origin) const {
     if constexpr (Axes) {
@@ -41,7 +41,7 @@ struct SearchFrame {
     }
   }
 
-  /// Where a vertex at `at` comes to by an offset in units of `scale`, and the step to there.
+  /// New place of a vertex at `at` after an offset in units of `scale`.
   [[gnu::always_inline]] [[nodiscard]] DMOSCOPE_ANYWHERE Displacement displace(const double* at, float x, float y) const {
     const double along_u = static_cast<double>(x) * scale, along_v = static_cast<double>(y) * scale;
     Displacement to{};

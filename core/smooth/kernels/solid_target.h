@@ -1,7 +1,6 @@
 #pragma once
-// The mean ratio of tetrahedra that have targets: forms (see volume_form.h) of J = K A W^-1, whose columns are sums of the corners' places
+// Mean ratio of tetrahedra that have targets: forms (see volume_form.h) of J = K A W^-1, whose columns are sums of the corners' places
 // times numbers of the target.
-//
 // Turning J or W^-1 changes nothing, so W^-1 may be lower triangular and K upper triangular; and neither does their size, so that their
 // determinants are 1.
 
@@ -13,24 +12,24 @@
 
 namespace dmoscope::volumes {
 
-/// How many numbers the target of a tetrahedron has in memory: W^-1 (g11, g21, g22, g31, g32, g33), and where any is crossed K (k11, k12,
-/// k13, k22, k23, k33).
+/// Number of numbers that the target of a tetrahedron has in memory: W^-1 (g11, g21, g22, g31, g32, g33), and where any is crossed K (k11,
+/// k12, k13, k22, k23, k33).
 [[nodiscard]] constexpr std::size_t solid_target_numbers(bool crossed) { return crossed ? 12 : 6; }
 
-/// K.
+/// Matrix K.
 template <class R>
 struct Stretch {
   R k11, k12, k13, k22, k23, k33;
   [[nodiscard]] DMOSCOPE_ANYWHERE Vec3Of<R> operator()(Vec3Of<R> a) const {
     return {k11 * a.x + k12 * a.y + k13 * a.z, k22 * a.y + k23 * a.z, k33 * a.z};
   }
-  /// The transposed one.
+  /// Product with the transposed matrix.
   [[nodiscard]] DMOSCOPE_ANYWHERE Vec3Of<R> back(Vec3Of<R> a) const {
     return {k11 * a.x, k12 * a.x + k22 * a.y, k13 * a.x + k23 * a.y + k33 * a.z};
   }
 };
 
-/// As MeanRatioForm, but what is of second order in s has six terms.
+/// Form of a stretched tetrahedron, like MeanRatioForm, but s has six terms of second order.
 template <class R>
 struct StretchedForm {
   R v0, vx, vy, vz;
@@ -57,7 +56,7 @@ template <class F, class R>
   return formulas::square_over_cube(determinant_of(f, p), squares_of(f, p, square));
 }
 
-/// The most that what is of second order may be where |x| and so on are not larger than these; `square`: the sum of their squares.
+/// Greatest value of the terms of second order where |x| and so on are not larger than these; `square`: the sum of their squares.
 template <class F>
 [[nodiscard]] DMOSCOPE_ANYWHERE F second_order_bound(const MeanRatioForm<F>& f, F /*x*/, F /*y*/, F /*z*/, F square) {
   return f.square * square;
@@ -68,7 +67,7 @@ template <class F>
   return f.xx * x * x + f.yy * y * y + f.zz * z * z + abs(f.xy) * x * y + abs(f.xz) * x * z + abs(f.yz) * y * z;
 }
 
-/// A tetrahedron and its target: the places b, c, d of the other corners, and each one's three numbers of W^-1: a row of it, or for the
+/// Tetrahedron and its target: the places b, c, d of the other corners, and each one's three numbers of W^-1: a row of it, or for the
 /// element's first corner the negative of their sum.
 template <class R>
 struct TargetTetrahedron {
@@ -82,20 +81,20 @@ struct TargetTetrahedron {
   }
 };
 
-/// sqrt(27): the rank of an element is (3 v^(2/3) / s)^3.
+/// Unit of rank, sqrt(27): the rank of an element is (3 v^(2/3) / s)^3.
 template <class R>
 [[nodiscard]] DMOSCOPE_ANYWHERE R unit_of_rank() {
   return scalar::constant<R>(5.196152422706632);
 }
 
-/// Its form.
+/// Form of the tetrahedron.
 template <bool Crossed, class R>
 [[nodiscard]] DMOSCOPE_ANYWHERE auto target_form(const TargetTetrahedron<R>& t) {
   using Point = Vec3Of<R>;
   const Point &b = t.at[0], &c = t.at[1], &d = t.at[2];
   const R unit = unit_of_rank<R>(), less = R(0) - unit;
   const Point n = cross(b, c) + cross(c, d) + cross(d, b);
-  const Point shares = t.rows[0] + t.rows[1] + t.rows[2];  // of the vertex's place in the columns, which are less by that
+  const Point shares = t.rows[0] + t.rows[1] + t.rows[2];  // shares of the vertex's place in the columns, by which these are less
   Point columns[3] = {t.column([](const Point& row) { return row.x; }), t.column([](const Point& row) { return row.y; }),
                       t.column([](const Point& row) { return row.z; })};
   if constexpr (Crossed)
@@ -126,7 +125,7 @@ template <bool Crossed, class R>
   }
 }
 
-/// Its rank with the vertex where the places are relative to.
+/// Rank of the tetrahedron with the vertex at the origin of its places.
 template <bool Crossed, class R>
 [[nodiscard]] DMOSCOPE_ANYWHERE R target_rank(const TargetTetrahedron<R>& t) {
   using Point = Vec3Of<R>;

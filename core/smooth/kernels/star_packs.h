@@ -1,5 +1,5 @@
 #pragma once
-// The elements of a volume's star for the kernels: one by one, or in packs with an element per slot.
+// Elements of a volume's star for the kernels: one by one, or in packs with an element per slot.
 //
 // Only the kernels' sources include it; see lane_kernel_impl.h for what that asks of the code.
 
@@ -7,13 +7,13 @@
 #include <type_traits>
 
 #include "core/numeric/pack.h"
-// After the packs:
+// Headers that must come after the packs:
 #include "core/search/star.h"
 #include "core/smooth/kernels/indexed_star.h"
 
 namespace dmoscope::volumes {
 
-/// A star's element whose other corner i is corner(i).
+/// Element of a star whose other corner i is corner(i).
 template <class Element, class Corner>
 [[gnu::always_inline]] inline Element element_of(const Corner& corner) {
   Element element{};

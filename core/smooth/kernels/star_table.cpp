@@ -13,15 +13,15 @@ namespace dmoscope {
 
 namespace {
 
-constexpr std::size_t kStarsAtOnce = 8192;  // vertices a chunk
+constexpr std::size_t kStarsAtOnce = 8192;  // vertices in a chunk
 
-/// Other corners that a star has for each of its elements, at most.
+/// Greatest number of other corners that a star has for each of its elements.
 constexpr std::size_t kOthersAnElement = 3;
 
-/// What one chunk of vertices makes; `first` of its shapes counts from the chunk's own beginning. No ranks: vertices stand for them.
+/// Stars of one chunk of vertices; `first` of its shapes counts from the chunk's own beginning. No ranks: vertices stand for them.
 class Chunk {
  public:
-  /// `others`: where their other corners go; room for kOthersAnElement for each element of each star.
+  /// `others`: memory for their other corners, kOthersAnElement for each element of each star.
   Chunk(const Mesh& mesh, const Topology& topology, std::span<const Index> rank, Index* others)
       : mesh_(mesh), topology_(topology), rank_(rank), others_(others) {}
 
@@ -88,7 +88,7 @@ class Chunk {
   std::vector<Index> pairs_, triples_;
 };
 
-/// Ranks of all vertices; fills their inverse.
+/// Ranks of all vertices; fills the inverse of their table.
 std::vector<Index> rank_vertices(std::size_t count, std::span<const Index> visits, std::vector<Index>& vertex_of_rank, ThreadPool* pool) {
   auto rank = large_vector<Index>(count, kNoIndex);
   vertex_of_rank = large_vector<Index>(count);
@@ -126,7 +126,7 @@ StarTable build_star_table(const Mesh& mesh, const Topology& topology, const Col
   const std::vector<Index>& rank = table.rank_of_vertex;
   table.shapes = large_vector<StarShape>(visits.size() + 1);
 
-  // In the mesh's order, in which a star's elements lie together in memory, and from there to each one's place.
+  // Makes the stars in the mesh's order, in which a star's elements lie together in memory, and moves them from there to each one's place.
   // One piece of memory, of which every chunk has its part: to ask the system for many takes longer than to fill them.
   const std::size_t room = kOthersAnElement * topology.incidences().size();
   const auto scratch = std::make_unique_for_overwrite<Index[]>(room);

@@ -1,6 +1,6 @@
 #pragma once
-// When the result of the fast search in float is used for a star, and when it must be judged exactly: the same rules for the processor's
-// lanes and a GPU's.
+// Rules that decide whether the result of the fast search in float is used for a star or must be judged exactly: the same for the
+// processor's lanes and a GPU's.
 
 #include "core/base/host_device.h"
 #include "core/quality/formulas.h"
@@ -8,19 +8,19 @@
 
 namespace dmoscope::visit_rules {
 
-/// A star below this rank, the inverted ones' included, is the reference's; formulas::rank_doubt relies on it.
+/// Rank below which a star, the inverted ones' included, is the reference's; formulas::rank_doubt relies on it.
 inline constexpr float kLeastRank = 1e-4F;
 /// Width plus height of the star's bounding box that floats can hold, in units of SearchFrame::scale; see SearchFrame::largest_extent, too.
 inline constexpr float kSmallestExtent = 0x1p-20F;
-/// The smallest corner Jacobian of a star whose metric is blind, over the square of its extent: at first, and after a move.
+/// Smallest corner Jacobian of a star whose metric is blind, over the square of its extent: at first, and after a move.
 inline constexpr float kLeastCorner = 1e-5F;
 inline constexpr double kSoundCorner = 1e-9;
 
-/// Positive quality does not mean that no corner has turned over.
+/// Tells metrics that are blind: their positive quality does not mean that no corner has turned over.
 template <Metric M, class V>
 inline constexpr bool kBlind = formulas::kDefinedForQuadrilaterals<M, V> && !formulas::Formula<M>::kSeesInversion;
 
-/// The least of all corners of the quadrilaterals, with the vertex at `p`.
+/// Least Jacobian of all corners of the quadrilaterals, with the vertex at `p`.
 template <class R>
 [[nodiscard]] DMOSCOPE_ANYWHERE R smallest_corner(const StarView<R>& star, Vec2<R> p) {
   using scalar::min;
@@ -30,11 +30,11 @@ template <class R>
   return least;
 }
 
-/// Stay; move; or move if the statistics' own formulas say that it gains.
+/// Verdict: stay; move; or move if the statistics' own formulas say that it gains.
 enum class Verdict { Stay, Move, MoveIfExact };
 
-/// `before`, `after`: the star's rank in double here and at the position that would be stored, `step` away. `sound`: no corner of a blind
-/// metric is near to turning over.
+/// Judges a step. `before`, `after`: the star's rank in double here and at the position that would be stored, `step` away. `sound`: no
+/// corner of a blind metric is near to turning over.
 template <Metric M>
 [[gnu::always_inline]] [[nodiscard]] DMOSCOPE_ANYWHERE Verdict judge(double before, double after, Vec2<double> step, bool sound) {
   const double doubt = formulas::rank_doubt<M>(before);

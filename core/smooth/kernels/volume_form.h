@@ -1,5 +1,5 @@
 #pragma once
-// What the fast search of volumes computes of one element, for packs of candidates and for a GPU's lanes alike: the same operations in the
+// Formulas of one element for the fast search of volumes, for packs of candidates and for a GPU's lanes alike: the same operations in the
 // same order, so that both find the same bits.
 
 #include "core/base/host_device.h"
@@ -7,18 +7,18 @@
 
 namespace dmoscope::volumes {
 
-/// The mean ratio of a tetrahedron or of a corner of another volume element as the vertex moves, as its rank (its cube, formulas::rank): v
-/// |v| / s^3. The determinant v is affine in the vertex's place p, the squared norm s affine plus `square` |p|^2. R: float or a pack of it.
+/// Mean ratio of a tetrahedron or of a corner of another volume element as the vertex moves, as its rank (its cube, formulas::rank): v |v|
+/// / s^3. The determinant v is affine in the vertex's place p, the squared norm s affine plus `square` |p|^2. R: float or a pack of it.
 template <class R>
 struct MeanRatioForm {
   R v0, vx, vy, vz;
   R s0, sx, sy, sz, square;
 };
 
-/// The form of the tetrahedron of the vertex and b, c, d.
+/// Form of the tetrahedron of the vertex and b, c, d.
 template <class R>
 [[nodiscard]] DMOSCOPE_ANYWHERE MeanRatioForm<R> tetrahedron_form(Vec3Of<R> b, Vec3Of<R> c, Vec3Of<R> d) {
-  // det(b - p, c - p, d - p) = det(b, c, d) - p . ((b x c) + (c x d) + (d x b)).
+  // Uses det(b - p, c - p, d - p) = det(b, c, d) - p . ((b x c) + (c x d) + (d x b)).
   using Point = Vec3Of<R>;
   const Point n = cross(b, c) + cross(c, d) + cross(d, b), sum = b + c + d;
   const Point bc = c - b, cd = d - c, db = b - d;
@@ -28,14 +28,14 @@ template <class R>
   return {unit * formulas::determinant(b, c, d), less * n.x, less * n.y, less * n.z, squares, two * sum.x, two * sum.y, two * sum.z, R(3)};
 }
 
-/// The form of a corner whose edges are u, v and w while the vertex is at the origin. `with`: by what factor each edge follows the vertex:
+/// Form of a corner whose edges are u, v and w while the vertex is at the origin. `with`: the factor by which each edge follows the vertex:
 /// 1 if it leads to the vertex, -1 if it comes from it, else 0.
 template <class Ideal, class R>
 [[nodiscard]] DMOSCOPE_ANYWHERE MeanRatioForm<R> corner_form(Vec3Of<R> u, Vec3Of<R> v, Vec3Of<R> w, Vec3Of<R> with) {
   using Point = Vec3Of<R>;
   const R unit = scalar::constant<R>(5.196152422706632 * Ideal::kDeterminant);  // sqrt(27)
   const Point n = unit * (with.x * cross(v, w) + with.y * cross(w, u) + with.z * cross(u, v));
-  // The columns of the corner's Jacobian against the ideal one are those at the origin plus their shares of p.
+  // Takes the columns of the corner's Jacobian against the ideal one as those at the origin plus their shares of p.
   const std::array<Point, 3> at = Ideal::against_ideal(u, v, w);
   const std::array<Point, 3> share = Ideal::against_ideal(Point{with.x, R(0), R(0)}, Point{with.y, R(0), R(0)}, Point{with.z, R(0), R(0)});
   const Point linear = R(2) * (share[0].x * at[0] + share[1].x * at[1] + share[2].x * at[2]);
@@ -55,7 +55,7 @@ DMOSCOPE_ANYWHERE void for_corner_forms(const formulas::CorneredSolid<Point, Ide
   }
 }
 
-/// The determinant and the squared norm with the vertex at p; `square`: |p|^2.
+/// Determinant and squared norm with the vertex at p; `square`: |p|^2.
 template <class F, class R>
 [[nodiscard]] DMOSCOPE_ANYWHERE F determinant_of(const MeanRatioForm<R>& f, const Vec3Of<F>& p) {
   return F(f.v0) + F(f.vx) * p.x + F(f.vy) * p.y + F(f.vz) * p.z;
@@ -69,14 +69,14 @@ template <class F, class R>
   return formulas::square_over_cube(determinant_of(f, p), squares_of(f, p, square));
 }
 
-/// How the squared norm changes with p.
+/// Gradient of the squared norm by p.
 template <class F, class R>
 [[nodiscard]] DMOSCOPE_ANYWHERE Vec3Of<F> slope_of_squares(const MeanRatioForm<R>& f, const Vec3Of<F>& p) {
   const F twice = F(2) * F(f.square);
   return {F(f.sx) + twice * p.x, F(f.sy) + twice * p.y, F(f.sz) + twice * p.z};
 }
 
-/// Below this rank the search is the reference's, since floats do not tell such elements apart.
+/// Rank below which the reference searches, since floats do not tell such elements apart.
 inline constexpr float kLeastRank = 1e-6F;
 
 }  // namespace dmoscope::volumes

@@ -1,12 +1,12 @@
 #pragma once
-// The one definition of the volumes' kernel. Only the kernel_set_*.cpp, each compiled for one kind of processor, include it; see
+// Sole definition of the volumes' kernel. Only the kernel_set_*.cpp, each compiled for one kind of processor, include it; see
 // lane_kernel_impl.h for what that asks of the code.
 
 #include <array>
 #include <limits>
 
 #include "core/numeric/pack.h"
-// After the packs:
+// Headers that must come after the packs:
 #include "core/quality/validity.h"
 #include "core/search/grid_search.h"
 #include "core/smooth/kernels/mean_ratio_search.h"
@@ -17,7 +17,7 @@
 
 namespace dmoscope::volumes {
 
-/// The grid search by any metric's rank. F: pack of floats, a candidate per slot.
+/// Grid search by any metric's rank. F: pack of floats, a candidate per slot.
 template <Metric M, class F>
 class RankSearch {
  public:
@@ -28,10 +28,10 @@ class RankSearch {
     });
   }
 
-  /// The least rank with the vertex where it is; the search begins there.
+  /// Least rank with the vertex at its present place; the search begins there.
   [[nodiscard]] float begin() { return best_ = least({F(0), F(0), F(0)}, F(-1)).get(0); }
 
-  /// Goes to the best candidate of a grid around the best place so far, where one is better. Among equals to the one of lowest index.
+  /// Goes to the best candidate of a grid around the best place so far, where one is better; among equals to that of lowest index.
   void search_level(float size_x, float size_y, float size_z) {
     const auto n = static_cast<std::size_t>(task_.points);
     const CandidateGrid<F, Point> grid{{F(at_[0]), F(at_[1]), F(at_[2])}, {F(size_x), F(size_y), F(size_z)}, task_.points};
@@ -40,7 +40,7 @@ class RankSearch {
       y_[i] = p.y.get(0);
       z_[i] = p.z.get(0);
     }
-    for (std::size_t i = n * n; i % kWidth != 0; ++i) {  // once more the last, which cannot be better than itself
+    for (std::size_t i = n * n; i % kWidth != 0; ++i) {  // repeats the last, which cannot be better than itself
       y_[i] = y_[n * n - 1];
       z_[i] = z_[n * n - 1];
     }
@@ -70,7 +70,7 @@ class RankSearch {
     });
   }
 
-  /// The least rank of the star with its vertex at each of the places; anything not above `floor` where it is not above it in any slot.
+  /// Least rank of the star with its vertex at each of the places; any rank not above `floor` where it is not above it in any slot.
   F least(Point p, F floor) {
     using scalar::min;
     F worth(std::numeric_limits<float>::max());
@@ -93,14 +93,14 @@ class RankSearch {
     return worth;
   }
 
-  /// The one that decided is likely to decide the next.
+  /// Moves an element to the front: the one that decided is likely to decide the next.
   void to_front(std::size_t i) {
     const std::uint16_t k = order_[i];
     for (; i > 0; --i) order_[i] = order_[i - 1];
     order_[0] = k;
   }
 
-  /// Among equals the candidate of lowest index.
+  /// Takes the best candidate of a pack; among equals that of lowest index.
   void take_best(F rank, F x, std::size_t j) {
     alignas(64) float ranks[kWidth];
     rank.store_aligned(ranks);
@@ -114,15 +114,15 @@ class RankSearch {
   }
 
   const VolumeSearch& task_;
-  float best_ = 0.0F;  // rank
+  float best_ = 0.0F;  // rank of the best place
   float at_[3] = {0.0F, 0.0F, 0.0F};
-  std::size_t count_ = 0;  // of the tetrahedra
+  std::size_t count_ = 0;  // number of tetrahedra
   std::uint16_t order_[kMaxSolids];
   alignas(64) float y_[kMaxPlane], z_[kMaxPlane];
   std::array<StarTetrahedron<F>, kMaxSolids> tetrahedra_;
 };
 
-/// By the mean ratio.
+/// Grid search by the mean ratio.
 template <class F>
 class FormSearch : public MeanRatioSearch<F> {
  public:
@@ -137,7 +137,7 @@ class FormSearch : public MeanRatioSearch<F> {
   }
 };
 
-/// Of the elements for which the metric is defined. D: pack of doubles, an element per slot.
+/// Least ranks of the elements for which the metric is defined. D: pack of doubles, an element per slot.
 template <Metric M, class D>
 [[gnu::flatten]] BeforeAndAfter least_ranks(const VolumeComparison& task) {
   using scalar::min;
@@ -192,7 +192,7 @@ template <class D>
   return least_slot_of(least) > validity::kRounding;
 }
 
-/// The kernel for `metric` with this translation unit's widest packs of floats, F, and of doubles, D.
+/// Kernel for `metric` with this translation unit's widest packs of floats, F, and of doubles, D.
 template <class F, class D>
 VolumeKernel kernel_for(Metric metric) {
   return formulas::with_volume_metric(metric, []<Metric M>() -> VolumeKernel {

@@ -1,14 +1,14 @@
 #pragma once
-// What the volumes' kernels share. Only they include it; see lane_kernel_impl.h for what that asks of the code.
+// Common part of the volumes' kernels. Only they include it; see lane_kernel_impl.h for what that asks of the code.
 
 #include "core/numeric/pack.h"
-// After the packs:
+// Headers that must come after the packs:
 #include "core/smooth/kernels/volume_form.h"
 #include "core/smooth/kernels/volume_kernel.h"
 
 namespace dmoscope::volumes {
 
-/// Level after level, from a star that floats tell apart.
+/// Searches level after level, from a star that floats tell apart.
 template <class Search>
 VolumeFound search_levels(const VolumeSearch& task) {
   Search search(task);
@@ -25,7 +25,7 @@ VolumeFound search_levels(const VolumeSearch& task) {
   return found;
 }
 
-/// The least number of a pack of doubles.
+/// Least number of a pack of doubles.
 template <class D>
 [[nodiscard]] double least_slot_of(const D& pack) {
   alignas(64) double numbers[D::size];

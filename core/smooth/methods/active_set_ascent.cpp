@@ -10,13 +10,13 @@ namespace dmoscope {
 
 namespace {
 
-// Lengths are in units of the star's scale, in which its other vertices are about 1 away.
-constexpr double kActive = 3e-5;  // above the least
+// Limits in units of the star's scale, in which its other vertices are about 1 away.
+constexpr double kActive = 3e-5;  // height above the least
 constexpr double kLeastStep = 1e-6, kLeastGain = 1e-6, kLongestStep = 1.0;
 constexpr double kNearEstimate = 0.9;
 constexpr int kSteps = 20;
 
-/// The value and the gradient of one of the functions at a place. V: double on a curve, Vec2<double> in a plane, Vec3 in space.
+/// Value and gradient of one of the functions at a place. V: double on a curve, Vec2<double> in a plane, Vec3 in space.
 template <class V>
 struct Piece {
   double value;
@@ -25,7 +25,7 @@ struct Piece {
 template <class V>
 struct AscentScratch {
   std::vector<Piece<V>> pieces;
-  std::vector<V> active;  // gradients
+  std::vector<V> active;  // gradients of the active pieces
 };
 
 double times(double a, double s) { return a * s; }
@@ -34,7 +34,7 @@ double norm(double a) { return std::abs(a); }
 double norm(Vec2<double> a) { return std::hypot(a.x, a.y); }
 double norm(Vec3 a) { return std::sqrt(dot(a, a)); }
 
-/// The point of the segment from a to b that is nearest to 0.
+/// Point of the segment from a to b that is nearest to 0.
 template <class V>
 V nearest_to_zero(V a, V b) {
   const V way = b - a;
@@ -43,17 +43,17 @@ V nearest_to_zero(V a, V b) {
   return a + times(way, std::clamp(-dot(a, way) / square, 0.0, 1.0));
 }
 
-/// The foot of 0 on the plane of three points, where it lies in their triangle.
+/// Foot of 0 on the plane of three points, where it lies in their triangle.
 std::optional<Vec3> foot_of_zero(Vec3 a, Vec3 b, Vec3 c) {
   const Vec3 ab = b - a, bc = c - b, ca = a - c, n = cross(ab, bc);
   const double square = dot(n, n);
-  if (!(square > 1e-24 * dot(ab, ab) * dot(bc, bc))) return std::nullopt;  // next to a segment
+  if (!(square > 1e-24 * dot(ab, ab) * dot(bc, bc))) return std::nullopt;  // the foot is next to a segment
   const Vec3 foot = times(n, dot(n, a) / square);
   const auto inside = [&](Vec3 from, Vec3 edge) { return dot(cross(edge, foot - from), n) >= 0.0; };
   return inside(a, ab) && inside(b, bc) && inside(c, ca) ? std::optional(foot) : std::nullopt;
 }
 
-/// Looks for what is nearer to 0 than `best` inside the hull's faces: but in space it has none but its edges.
+/// Looks for a point nearer to 0 than `best` inside the hull's faces, which the hull has in space alone.
 template <class V>
 void look_at_faces(const std::vector<V>& /*gradients*/, V& /*best*/) {}
 void look_at_faces(const std::vector<Vec3>& gradients, Vec3& best) {
@@ -65,7 +65,7 @@ void look_at_faces(const std::vector<Vec3>& gradients, Vec3& best) {
           best = *foot;
 }
 
-/// The point of the gradients' convex hull that is nearest to 0: along it all of them rise, by its length at least. 0 where they cannot.
+/// Point of the gradients' convex hull that is nearest to 0: along it all of them rise, by its length at least. 0 where they cannot.
 template <class V>
 V steepest(const std::vector<V>& gradients) {
   V best = gradients.front();
@@ -75,7 +75,7 @@ V steepest(const std::vector<V>& gradients) {
       if (dot(p, p) < dot(best, best)) best = p;
     }
   look_at_faces(gradients, best);
-  // The hull's edges and faces are among these, so that one that lies on the wrong side of none of the gradients is its nearest.
+  // Accepts an edge or face of the hull that lies on the wrong side of none of the gradients: that one is its nearest.
   constexpr double kRounding = 1e-9;
   for (const V g : gradients)
     if (dot(g, best) < (1.0 - kRounding) * dot(best, best)) return {};
@@ -83,7 +83,7 @@ V steepest(const std::vector<V>& gradients) {
 }
 
 /// Raises the least of the pieces from a place. for_pieces(p, f): calls f(value, gradient) of each with the star's vertex at p. worth(p):
-/// the least of them, or what else the place is worth.
+/// the least of them, or another score of the place.
 template <class V, class ForPieces, class Worth>
 class Ascent {
  public:
@@ -118,14 +118,15 @@ class Ascent {
       scratch_.pieces.push_back({value, gradient});
     });
     for (const Piece<V>& piece : scratch_.pieces) {
-      // The corner across a quadrilateral never changes: one that is only near the least bounds the gain, but is no reason to stay.
+      // Takes the corner across a quadrilateral, which never changes, as active only at the least: above it, it bounds the gain, but is no
+      // reason to stay.
       const bool constant = piece.gradient == V{};
       if (piece.value <= least + (constant ? 0.0 : kActive)) scratch_.active.push_back(piece.gradient);
     }
     return least;
   }
 
-  /// How far until another piece would be as low as the active ones, if all were linear.
+  /// Distance at which another piece would be as low as the active ones, if all were linear.
   [[nodiscard]] double next_activation(double least, V unit, double rate) const {
     double nearest = kLongestStep;
     for (const Piece<V>& piece : scratch_.pieces) {
@@ -135,7 +136,7 @@ class Ascent {
     return nearest;
   }
 
-  /// Halves the step until it gains about what it should, or the last longer one gained more. Returns the gain of the best, at `next`.
+  /// Halves the step until it gains about as much as expected, or the last longer one gained more. Returns the gain of the best, at `next`.
   double search(V place, double worth, V unit, double rate, double step, V& next) const {
     double best = 0.0;
     for (; step > kLeastStep; step *= 0.5) {
@@ -171,7 +172,7 @@ class ActiveSet {
     using Offset = OffsetIn<Frame, double>;
     const auto coordinates = [&](V p) { return places.shifted(times(p, places.unit())); };
     const auto offset = [&](V p) { return p == V{} ? std::optional(Offset{}) : places.offset(coordinates(p)); };
-    // f(value, gradient) of what append(offset, out) appends.
+    // Calls f(value, gradient) for the pieces that append(offset, out) appends.
     const auto each = [&](V p, const auto& append, const auto& f) {
       const auto at = offset(p);
       room.pieces.clear();

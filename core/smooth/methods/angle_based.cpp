@@ -1,5 +1,5 @@
 // Angle-based smoothing (Zhou and Shimada 2000): each vertex goes to the mean of the places at which it halves the angles of the ring of
-// its edge neighbours, one place per angle, whatever becomes of the elements.
+// its edge neighbours, one place per angle, even if elements become worse.
 
 #include <vector>
 
@@ -11,7 +11,7 @@ namespace {
 
 using V = Vec2<double>;
 
-/// The ring's edge that an element cuts off: from the neighbour after the vertex to the one before it, relative to the vertex.
+/// Edge of the ring that an element cuts off: from the neighbour after the vertex to the one before it, relative to the vertex.
 struct RingEdge {
   Index from, to;
   V at_from, at_to;
@@ -22,14 +22,14 @@ V unit(V a) {
   return length > 0.0 ? V{a.x / length, a.y / length} : V{};
 }
 
-/// The direction that halves the angle from u counter-clockwise to w, of length 1; 0 where both are 0.
+/// Direction that halves the angle from u counter-clockwise to w, of length 1; 0 where both are 0.
 V halfway(V u, V w) {
-  const V sum = u + w, difference = u - w;  // both are on the line wanted, the latter after a quarter turn
+  const V sum = u + w, difference = u - w;  // both on the line wanted, the latter after a quarter turn
   if (dot(difference, difference) >= dot(sum, sum)) return unit({-difference.y, difference.x});
   return cross(u, w) >= 0.0 ? unit(sum) : unit(V{} - sum);
 }
 
-/// The mean of the places that halve the angles of the ring around a vertex, as they are seen in the plane that touches it.
+/// Mean of the places that halve the angles of the ring around a vertex, as seen in the plane that touches the surface there.
 class HalvedAngles {
  public:
   static constexpr bool kSearches = false, kPlanar = true, kDependsOnIteration = false;
@@ -42,7 +42,7 @@ class HalvedAngles {
     gather(places, ring);
     V sum{};
     int count = 0;
-    // The ring need not be one loop, nor its edges be in order: an angle is wherever one edge ends and another begins.
+    // Pairs the ring's edges in any order, for it need not be one loop: an angle is wherever one edge ends and another begins.
     for (const RingEdge& in : ring)
       for (const RingEdge& out : ring) {
         if (out.from != in.to) continue;
@@ -69,7 +69,7 @@ class HalvedAngles {
     });
   }
 
-  double relaxation_;  // the share of the way that is gone
+  double relaxation_;  // the share of the way that the vertex goes
 };
 
 }  // namespace

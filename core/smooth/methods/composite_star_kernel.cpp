@@ -6,12 +6,12 @@ namespace dmoscope {
 
 namespace {
 
-/// Does its sign tell whether a quadrilateral is inverted?
+/// Returns whether the metric's sign tells that a quadrilateral is inverted.
 bool sees_inversion(Metric metric) {
   return formulas::with_planar_metric(metric, []<Metric M>() { return formulas::Formula<M>::kSeesInversion; });
 }
 
-/// The least metric; 0 where the star is not certain to be sound.
+/// Least metric; 0 where the star is not certain to be sound.
 BeforeAndAfter least(Metric metric, const VolumeKernel& kernel, const VolumeComparison& task) {
   const BeforeAndAfter rank = kernel.least_ranks(task);
   if (!(rank.before > kLeastCertain) || !(rank.after > kLeastCertain)) return {};
@@ -68,7 +68,7 @@ typename CompositeStarKernel<Frame>::Found CompositeStarKernel<Frame>::find(Posi
   return {found.ready, times(found.offset, room.star.scale), {}};
 }
 
-/// By the star as it was searched.
+/// Compares the two places by the star as it was searched.
 template <class Frame>
 std::optional<bool> CompositeStarKernel<Frame>::gains(PositionView positions, Index vertex, Vec3 target) const {
   const Vec3 from = positions[vertex];
@@ -78,7 +78,7 @@ std::optional<bool> CompositeStarKernel<Frame>::gains(PositionView positions, In
     const CompositeObjective& composite = judge_.composite();
     const Metric* second = std::get_if<Metric>(&composite.second);
     const Star& searched = room().star;
-    // That no corner turns over is for the statistics' formulas to say where the metric does not; what densities are, too.
+    // Leaves soundness of corners to the statistics' formulas where the metric does not tell it, and densities, too.
     if ((!searched.quadrilaterals.empty() && !sees_inversion(composite.first)) || (second == nullptr && !composite.raise_mean()))
       return std::nullopt;
     const JudgedStarView<Frame> star(searched);

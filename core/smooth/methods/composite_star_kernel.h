@@ -1,5 +1,5 @@
 #pragma once
-// The grid search for two aims by packs of candidates, in double: it finds what the plain search finds.
+// Grid search for two aims by packs of candidates, in double: it finds the same as the plain search.
 
 #include <optional>
 
@@ -11,8 +11,8 @@
 
 namespace dmoscope {
 
-/// Does a vertex gain, as confirm_composite() has it where no element is inverted? Nothing where that has to say. `first`: the least first
-/// metric. second(): the second aim. Both found by the search's formulas; where the star is not certain to be sound, 0.
+/// Returns whether a vertex gains, as confirm_composite() has it where no element is inverted; none where that has to decide. `first`: the
+/// least first metric. second(): the second aim. Both found by the search's formulas; where the star is not certain to be sound, 0.
 template <class Second>
 [[nodiscard]] std::optional<bool> gains_for_certain(double threshold, BeforeAndAfter first, const Second& second) {
   const auto known = [](Certainty certainty) {
@@ -28,15 +28,15 @@ template <class Second>
   return known(compare(values.after, values.before));
 }
 
-/// In a volume, by the kernels.
+/// Comparison of two places in a volume, by the kernels.
 class CompositeComparison {
  public:
-  /// `aims`: of two metrics, or of the mean.
+  /// `aims`: two metrics, or a metric and the mean.
   CompositeComparison(SimdLevel level, Metric first, const PlainComposite& aims);
 
-  /// Would the star's vertex gain by going to `target`? See gains_for_certain().
+  /// Returns whether the star's vertex would gain by going to `target`; see gains_for_certain().
   [[nodiscard]] std::optional<bool> gains(const IndexedStar& star, const StarPoints<Space>& points, Vec3 from, Vec3 target) const;
-  /// Are the star's elements certain to be valid inside with its vertex at `target`?
+  /// Returns whether the star's elements are certain to be valid inside with its vertex at `target`.
   [[nodiscard]] bool valid_at(const IndexedStar& star, const StarPoints<Space>& points, Vec3 target) const {
     return first_kernel_.valid_after({star, points.at.data(), target, target});
   }
@@ -47,7 +47,7 @@ class CompositeComparison {
   VolumeKernel first_kernel_, second_kernel_;
 };
 
-/// Frame: Plane or Space. The mesh must outlive it.
+/// Kernel for one star. Frame: Plane or Space. The mesh must outlive it.
 template <class Frame>
 class CompositeStarKernel final : public StarKernel<Frame> {
  public:
@@ -55,7 +55,7 @@ class CompositeStarKernel final : public StarKernel<Frame> {
   using typename StarKernel<Frame>::Found;
   using Star = StarIn<Frame, double>;
 
-  /// All metrics of the objective must be built in: see is_for_kernels().
+  /// Takes an objective whose metrics are all built in: see is_for_kernels().
   CompositeStarKernel(const SmoothingTask& task, const CompositeObjective& objective);
 
   [[nodiscard]] Found find(PositionView positions, Index vertex, const Untangling& untangling) const override;
@@ -63,7 +63,7 @@ class CompositeStarKernel final : public StarKernel<Frame> {
   [[nodiscard]] bool valid_at(Index vertex, Vec3 target) const override;
   [[nodiscard]] std::span<const Index> others(Index vertex) const override { return stars_.of(vertex).vertices; }
 
-  /// The winner of a vertex's star, in units of its scale.
+  /// Winner of a vertex's star, in units of its scale.
   [[nodiscard]] CompositeFound<Frame> search(const Star& star, PositionView positions, Index vertex) const;
 
  private:

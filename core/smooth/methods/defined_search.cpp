@@ -37,7 +37,7 @@ DefinedSearch<Frame>::DefinedSearch(const DefinedStarJudge<Frame>& judge, const 
       narrow_(formula_kernel<float>(parameters.simd.value_or(best_simd_level()))),
       wide_(formula_kernel<double>(parameters.simd.value_or(best_simd_level()))) {}
 
-/// One vertex's search.
+/// Search for one vertex.
 template <class Frame>
 template <class Real>
 struct DefinedSearch<Frame>::Visit {
@@ -47,8 +47,8 @@ struct DefinedSearch<Frame>::Visit {
   const DefinedSearch& search;
   const Found& star;
   Room<Real>& room;
-  double unit;                                      // of what the programs are given, in units of the star's scale
-  Real ceiling = std::numeric_limits<Real>::max();  // no place of the vertex is worth more
+  double unit;                                      // unit of the programs' variables, in units of the star's scale
+  Real ceiling = std::numeric_limits<Real>::max();  // no place of the vertex has a greater score
 
   /// Takes in the star's elements, the worst first.
   void gather(PositionView positions, Index vertex) {
@@ -85,13 +85,13 @@ struct DefinedSearch<Frame>::Visit {
     std::ranges::stable_sort(room.elements, {}, [](const auto& element) { return element.here; });
   }
 
-  /// Of what offsets are relative to: only of programs in mesh units.
+  /// Origin of the offsets along an axis; 0 but for programs in mesh units.
   [[nodiscard]] double origin(Vec3 here, std::size_t axis) const {
     if constexpr (std::is_same_v<Frame, Plane>) return coordinate(search.judge_.mesh.frame.project(here), axis);
     return coordinate(here, axis);
   }
 
-  /// What one element says of the first `count` places of room.at.
+  /// Values of one element at the first `count` places of room.at.
   [[nodiscard]] const Real* evaluate(const typename Room<Real>::Element& element, std::size_t count) {
     const FormulaProgram& program = *element.program;
     Real* registers = room.registers.reserve(0);
@@ -110,7 +110,7 @@ struct DefinedSearch<Frame>::Visit {
     return FormulaResult<Real>(program, uniforms, registers).values();
   }
 
-  /// Looks at the candidates that were listed, at most kFormulaBatch; the first of the best becomes `best` where it is better.
+  /// Evaluates the candidates that were listed, at most kFormulaBatch; the first of the best becomes `best` where it is better.
   void look(Real& best, Point& offset) {
     std::size_t count = room.at[0].size();
     room.least.assign(count, std::numeric_limits<Real>::max());

@@ -13,7 +13,7 @@ Visit<Frame, Grid> grid_visit(const SmoothingTask& task, const CompositeObjectiv
   return {task, objective, Grid(task, objective), star_kernel<Frame>(task, objective)};
 }
 
-/// Lanes of many vertices of a planar mesh; null where there is no kernel for the objective.
+/// Makes lanes for the many vertices of a planar mesh; null where there is no kernel for the objective.
 std::unique_ptr<Smoother> make_lanes(const SmoothingTask& task, const CompositeObjective& objective) {
   if (!objective.is_single() || task.search.precision != Precision::Float) return nullptr;
   if (is_built_in(objective.first))

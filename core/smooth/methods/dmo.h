@@ -7,9 +7,9 @@
 
 namespace dmoscope {
 
-/// See make_smoother, which checks the arguments.
+/// Makes the smoother. See make_smoother, which checks the arguments.
 [[nodiscard]] std::unique_ptr<Smoother> make_dmo_smoother(const SmoothingTask& task);
-/// By another objective than the task's.
+/// Makes the smoother for another objective than the task's.
 [[nodiscard]] std::unique_ptr<Smoother> make_dmo_smoother(const SmoothingTask& task, const CompositeObjective& objective);
 
 }  // namespace dmoscope

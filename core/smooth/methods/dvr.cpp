@@ -35,8 +35,8 @@ void for_corners(const Star<double>& star, const Take& take) {
   }
 }
 
-/// The best place on the line for a planar star by the mean ratio: where it is valid, on the stretch where it stays so; else where the
-/// smallest Jacobian over its reference measure is greatest. In units of the star's scale.
+/// Best place on the line for a planar star by the mean ratio: where it is valid, on the stretch where it stays so; else where the smallest
+/// Jacobian over its reference measure is greatest. In units of the star's scale.
 double best_on_line(const Star<double>& star, Vec2<double> direction) {
   thread_local std::vector<LineFraction> fractions;  // kept: a visit allocates nothing
   fractions.clear();
@@ -52,8 +52,8 @@ double best_on_line(const Star<double>& star, Vec2<double> direction) {
   });
   return fractions.empty() ? 0.0 : maximise_least(fractions, low, high);
 }
-/// For that of a volume. A star with inverted elements goes where none is inverted; if there is no such place, where DMO's measure of
-/// inversion is best.
+/// Best place on the line for a volume's star. With inverted elements it is one where none is inverted; if there is no such place, where
+/// DMO's measure of inversion is best.
 double best_on_line(const VolumeStar<double>& star, Vec3 direction) {
   constexpr LineStretch kSpaceReach{-kReach, kReach};
   thread_local std::vector<LineCorner> corners;
@@ -68,7 +68,7 @@ Vec2<double> way_on_line(double at, Vec2<double> direction, double scale) {
 }
 Vec3 way_on_line(double at, Vec3 direction, double scale) { return times(times(direction, at), scale); }
 
-/// The best place on a line through the vertex, of one direction an iteration: exactly by the mean ratio where the vertex is free, else the
+/// Best place on a line through the vertex, of one direction an iteration: exactly by the mean ratio where the vertex is free, else the
 /// best of as many candidates a level as where a vertex slides along a curve. On a curve that is the line.
 class Line {
  public:
@@ -105,7 +105,7 @@ class Line {
     else
       return places.along(in_space_);
   }
-  /// The width of a box along a direction: how far it goes until it leaves it, both ways.
+  /// Width of a box along a direction: the length of the direction's line inside it.
   static double width_along(Vec2<double> box, Vec2<double> d) { return std::min(box.x / std::abs(d.x), box.y / std::abs(d.y)); }
   static double width_along(Vec3 box, Vec3 d) { return std::min({box.x / std::abs(d.x), box.y / std::abs(d.y), box.z / std::abs(d.z)}); }
 
@@ -115,7 +115,7 @@ class Line {
     auto best = places.here();
     const double full = width_along(places.box(), direction);
     if (!std::isfinite(full)) return places.way(best);
-    double worth = score({}), width = score.tangled() ? 2.0 * kReach : parameters_.omega * full;  // a stray vertex comes back from afar
+    double worth = score({}), width = score.tangled() ? 2.0 * kReach : parameters_.omega * full;  // a stray comes back from afar
     const int count = parameters_.grid_points * parameters_.grid_points;
     for (int level = 0; level < parameters_.levels; ++level) {
       const auto centre = best;
@@ -141,7 +141,7 @@ class Line {
 Vec2<double> dvr_direction(const MethodOptions& options, std::uint64_t iteration) {
   if (options.directions == Directions::Axes) return iteration % 2 == 0 ? Vec2<double>{1, 0} : Vec2<double>{0, 1};
   Random random(Random(options.seed).next() + iteration);
-  while (true) {  // from a ring around 0, so that no angle is more likely than another, and no library's sine is needed
+  while (true) {  // draws from a ring around 0, so that no angle is more likely than another, and no library's sine is needed
     const double x = random.between(-1, 1), y = random.between(-1, 1), square = x * x + y * y;
     if (square > 0.01 && square <= 1.0) return {x / std::sqrt(square), y / std::sqrt(square)};
   }
@@ -153,7 +153,7 @@ Vec3 volume_dvr_direction(const MethodOptions& options, std::uint64_t iteration)
     return kAxes[iteration % 3];
   }
   Random random(Random(options.seed).next() + iteration);
-  while (true) {  // from a shell around 0, so that no direction is likelier than another
+  while (true) {  // draws from a shell around 0, so that no direction is likelier than another
     const Vec3 p{random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)};
     const double square = dot(p, p);
     if (square > 0.01 && square <= 1.0) return times(p, 1.0 / std::sqrt(square));

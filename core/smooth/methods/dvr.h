@@ -8,14 +8,13 @@
 
 namespace dmoscope {
 
-/// The direction of an iteration's lines in the mesh's plane, of length 1 up to rounding: it follows from the options and the iteration
-/// alone.
+/// Direction of an iteration's lines in the mesh's plane, of length 1 up to rounding: it follows from the options and the iteration alone.
 [[nodiscard]] Vec2<double> dvr_direction(const MethodOptions& options, std::uint64_t iteration);
 
-/// In space.
+/// Direction of an iteration's lines in space, of length 1 up to rounding.
 [[nodiscard]] Vec3 volume_dvr_direction(const MethodOptions& options, std::uint64_t iteration);
 
-/// See make_smoother, which checks the arguments.
+/// Makes the smoother. See make_smoother, which checks the arguments.
 [[nodiscard]] std::unique_ptr<Smoother> make_dvr_smoother(const SmoothingTask& task);
 
 }  // namespace dmoscope

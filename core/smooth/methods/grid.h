@@ -1,5 +1,5 @@
 #pragma once
-// The choice of DMO (paper, Algorithm 1): the best candidate of a grid, level by level, each finer than the one before.
+// Grid search of DMO (paper, Algorithm 1): the best candidate of a grid, level by level, each finer than the one before.
 
 #include <optional>
 
@@ -10,13 +10,13 @@ namespace dmoscope {
 class Grid {
  public:
   static constexpr bool kSearches = true, kPlanar = false, kDependsOnIteration = false;
-  /// `objective`: of the visits, for kernels.
+  /// `objective`: that of the visits, for kernels.
   Grid(const SmoothingTask& task, const CompositeObjective& objective);
 
   [[nodiscard]] bool must_gain() const noexcept { return true; }
 
-  /// Finds the first of the best candidates of all levels; the own place if none is better. Grids after the first are centred on the best
-  /// place so far.
+  /// Finds the first of the best candidates of all levels; the vertex's own place if none is better. Grids after the first are centred on
+  /// the best place so far.
   template <class Places, class Frame>
   [[nodiscard]] typename Places::Coordinates choose(const Places& places, const StarScore<Frame>& score, SearchRoom<Frame>& room) const {
     auto best = places.here();
@@ -36,7 +36,8 @@ class Grid {
     return places.way(best);
   }
 
-  /// Makes the first of the best candidates the `best` place where it is worth more. candidates(take): calls take(coordinates) for each.
+  /// Makes the first of the best candidates the `best` place where its score is greater. candidates(take): calls take(coordinates) for
+  /// each.
   template <class Places, class Frame, class Candidates>
   static void look(const Places& places, const StarScore<Frame>& score, SearchRoom<Frame>& room, const Candidates& candidates,
                    typename Places::Coordinates& best, double& worth) {
@@ -51,13 +52,13 @@ class Grid {
     if (const std::size_t found = score.first_best(room.candidates, worth); found < coordinates.size()) best = coordinates[found];
   }
 
-  /// The way to the winner in the tangent plane, of a sound star's elements as they look from above: found by packs of candidates; none
-  /// where the kernel does not take the star.
+  /// Way to the winner in the tangent plane, for a sound star's elements as they look from above: found by packs of candidates; none where
+  /// the kernel does not take the star.
   [[nodiscard]] std::optional<Vec2<double>> from_above(const SurfacePlaces<Curved>& places, const SurfaceStar& star) const;
 
  private:
   SearchParameters parameters_;
-  CompositeKernel<Plane> flat_kernel_ = nullptr;  // of a curved surface
+  CompositeKernel<Plane> flat_kernel_ = nullptr;  // for curved surfaces
   CompositeSearch<Plane> flat_aims_;
 };
 

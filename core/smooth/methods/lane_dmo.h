@@ -1,5 +1,5 @@
 #pragma once
-// DMO of planar meshes for speed: lanes of many vertices.
+// DMO of planar meshes by lanes of many vertices, for speed.
 
 #include <algorithm>
 #include <atomic>
@@ -19,13 +19,13 @@
 
 namespace dmoscope {
 
-/// Works on its own copy of the positions in the order of the visits, and keeps who needs no visit because nothing of its star moved since
-/// it was last found at its best.
+/// Fast DMO on its own copy of the positions in the order of the visits. It notes the vertices that need no visit because nothing of their
+/// star has moved since they were last found at their best.
 class LaneDmo final : public Smoother {
  public:
-  /// `targets`: makes those of the stars where the kernel is for them.
+  /// Function that makes the targets of the stars where the kernel is for them.
   using MakeTargets = std::function<StarTargets(const StarTable& table)>;
-  /// `alone`: the rule for single vertices.
+  /// `alone`: rule for single vertices.
   LaneDmo(const SmoothingTask& task, Visit<Plane, Grid> alone, LaneKernel kernel, const MakeTargets& targets = {})
       : input_(task.input),
         colouring_(task.colouring),
@@ -54,12 +54,12 @@ class LaneDmo final : public Smoother {
     for_classes(*colouring_, first, count, [&](std::uint64_t from, std::uint64_t to) {
       wake_leaders();
       const auto chunk = [&](std::size_t begin, std::size_t end) {
-        // Those of one class do not wake each other, so who is awake now is who will be visited.
+        // Counts the vertices awake now, which will be visited: those of one class do not wake each other.
         const auto here = std::span(awake_).subspan(from + begin, end - begin);
         searched += untangling_.repair ? here.size() : static_cast<std::uint64_t>(std::ranges::count(here, std::uint8_t{1}));
         moved += untangling_.repair ? repair(from + begin, from + end) : kernel_(task_, from + begin, from + end);
       };
-      for_chunks(pool, to - from, kLaneGrain, std::cref(chunk));  // by reference: a function object of this size would be allocated
+      for_chunks(pool, to - from, kLaneGrain, std::cref(chunk));  // passed by reference: a function object of this size would be allocated
     });
     searched_ += searched;
     return moved;
@@ -90,7 +90,7 @@ class LaneDmo final : public Smoother {
  private:
   static constexpr std::size_t kCopyGrain = std::size_t{1} << 16U;
 
-  /// What does not change between visits.
+  /// Sets the part of the task that does not change between visits.
   LaneTask describe(const SearchParameters& parameters) {
     LaneTask task{};
     task.shapes = table_.shapes.data();
@@ -122,7 +122,7 @@ class LaneDmo final : public Smoother {
     return task;
   }
 
-  /// Takes along who moves with a vertex, and wakes its star.
+  /// Moves the follower of a vertex along, and wakes its star.
   void follow(Index rank) {
     const Index vertex = table_.vertex_of_rank[rank], follower = pairs_ ? pairs_->follower(vertex) : kNoIndex;
     if (follower == kNoIndex) return;
@@ -131,7 +131,7 @@ class LaneDmo final : public Smoother {
       for (const Index other : input_->mesh.elements.corners(at.element)) wake(table_.rank_of_vertex[other]);
   }
   void wake(Index rank) { std::atomic_ref(awake_[rank]).store(1, std::memory_order_relaxed); }
-  /// Whose follower was woken is awake.
+  /// Wakes the leaders of followers that are awake.
   void wake_leaders() {
     if (!pairs_) return;
     for (const Partners& pair : pairs_->pairs())
@@ -139,7 +139,7 @@ class LaneDmo final : public Smoother {
         awake_[table_.rank_of_vertex[pair.first]] = 1;
   }
 
-  /// Lanes are for sound stars, which wait.
+  /// Visits tangled stars alone: lanes are for sound stars, which wait.
   std::uint64_t repair(std::uint64_t first, std::uint64_t last) {
     std::uint64_t moved = 0;
     for (std::uint64_t rank = first; rank < last; ++rank) moved += task_.visit_alone(this, static_cast<Index>(rank)) ? 1U : 0U;
@@ -168,10 +168,10 @@ class LaneDmo final : public Smoother {
   std::vector<Vec3> ranked_;
   std::vector<std::uint8_t> awake_;
   LaneTask task_;
-  bool stale_ = true;    // ranked_ is older than the run's positions
-  bool stored_ = false;  // and these are as new as ranked_
+  bool stale_ = true;    // whether ranked_ is older than the run's positions
+  bool stored_ = false;  // whether the run's positions are as new as ranked_
   std::uint64_t searched_ = 0;
-  Untangling untangling_{};  // by which those asleep stay
+  Untangling untangling_{};  // the rule by which vertices that sleep stay
 };
 
 }  // namespace dmoscope

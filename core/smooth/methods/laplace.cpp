@@ -1,5 +1,5 @@
-// Laplacian smoothing: each vertex goes to the mean of its edge neighbours, whatever comes of it; or, smart (Freitag 1997), only where it
-// gains.
+// Laplacian smoothing: each vertex goes to the mean of its edge neighbours, even if elements become worse; or, smart (Freitag 1997), only
+// where it gains.
 
 #include "core/smooth/visit/visit.h"
 
@@ -7,8 +7,8 @@ namespace dmoscope {
 
 namespace {
 
-/// The mean of the neighbours: of a free vertex those that share an edge with it, on a surface those that share one of its edges, on a
-/// curve the two along it.
+/// Mean of the neighbours: for a free vertex those that share an edge with it, on a surface those that share one of its edges, on a curve
+/// the two along it.
 class Mean {
  public:
   static constexpr bool kSearches = false, kPlanar = false, kDependsOnIteration = false;
@@ -21,7 +21,7 @@ class Mean {
   }
 
  private:
-  double relaxation_;  // the share of the way that is gone
+  double relaxation_;  // the share of the way that the vertex goes
   bool must_gain_;
 };
 

@@ -8,7 +8,7 @@ namespace dmoscope {
 
 namespace {
 
-/// See compass_search().
+/// Choice of a place by compass_search().
 class Compass {
  public:
   static constexpr bool kSearches = true, kPlanar = false, kDependsOnIteration = false;
@@ -18,7 +18,7 @@ class Compass {
   [[nodiscard]] typename Places::Coordinates choose(const Places& places, const StarScore<Frame>& score,
                                                     SearchRoom<Frame>& /*room*/) const {
     using Coordinates = typename Places::Coordinates;
-    const bool shifts = Places::kFree && !score.positive_where_sound() && !score.tangled();  // sliding vertices never were: ties differ
+    const bool shifts = Places::kFree && !score.positive_where_sound() && !score.tangled();  // not where vertices slide: ties differ
     const auto worth = [&](Coordinates by) {
       const auto offset = by == Coordinates{} ? OffsetIn<Frame, double>{} : places.offset(places.shifted(by));
       if (!offset) return StarScore<Frame>::kAll;

@@ -14,7 +14,7 @@ namespace dmoscope {
 
 namespace {
 
-/// By a metric that is defined by a formula or a target, for sound stars.
+/// Kernel for a metric that is defined by a formula or a target, for sound stars.
 template <class Frame>
 class DefinedKernel final : public StarKernel<Frame> {
  public:
@@ -49,7 +49,7 @@ typename StarKernel<Space>::Found found_by(const VolumeFound& found) {
   return {found.ready, times(offset, points().scale), {}};
 }
 
-/// By a built-in metric, for stars that the search can handle: not with inverted or nearly inverted elements, nor too many.
+/// Kernel for a built-in metric, for stars that the search can handle: not with inverted or nearly inverted elements, nor too many.
 class FastVolumeKernel final : public StarKernel<Space> {
  public:
   FastVolumeKernel(const SmoothingTask& task, Metric metric)
@@ -77,7 +77,7 @@ class FastVolumeKernel final : public StarKernel<Space> {
   IndexedStars stars_;
 };
 
-/// By the mean ratio against targets, for stars of tetrahedra; all others by the kernel for formulas.
+/// Kernel for the mean ratio against targets, for stars of tetrahedra; all others by the kernel for formulas.
 class TargetVolumeKernel final : public StarKernel<Space> {
  public:
   TargetVolumeKernel(const SmoothingTask& task, Metric metric, TetrahedronTargets targets)
@@ -102,7 +102,7 @@ class TargetVolumeKernel final : public StarKernel<Space> {
   [[nodiscard]] std::span<const Index> others(Index vertex) const override { return stars_.of(vertex).vertices; }
 
  private:
-  /// Whether this thread's last winner belongs to a star of tetrahedra.
+  /// Returns whether this thread's last winner belongs to a star of tetrahedra.
   static bool& found_here() {
     thread_local bool found = false;
     return found;

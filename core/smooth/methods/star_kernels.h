@@ -1,5 +1,5 @@
 #pragma once
-// Which fast search of single vertices stands in for the plain grid search.
+// Choice of the fast search of single vertices that replaces the plain grid search.
 
 #include <memory>
 
@@ -8,10 +8,10 @@
 
 namespace dmoscope {
 
-/// Is the search that of KernelSet::target_lanes or target_volume? It is for the mean ratio against targets.
+/// Returns whether the search is that of KernelSet::target_lanes or target_volume, which are for the mean ratio against targets.
 [[nodiscard]] bool has_target_kernel(const InputMesh& input, Metric metric, const SearchParameters& parameters);
 
-/// For the free vertices of a task that aim at an objective; null: the plain search alone. Frame: Plane or Space.
+/// Kernel for the free vertices of a task that aim at an objective; null: the plain search alone. Frame: Plane or Space.
 template <class Frame>
 [[nodiscard]] std::shared_ptr<const StarKernel<Frame>> star_kernel(const SmoothingTask& task, const CompositeObjective& objective);
 

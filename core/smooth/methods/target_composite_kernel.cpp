@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kTargetStarsAtOnce = 1024;
 
-/// How a planar star's targets are to be searched.
+/// Facts on the search of a planar star's targets.
 PlanarStarTargets::Star facts_of_targets(std::span<const double> numbers, bool crossed) {
   PlanarStarTargets::Star star{numbers.data(), 0.0, 1.0, true};
   const std::size_t size = target_numbers(crossed);
@@ -27,7 +27,7 @@ PlanarStarTargets::Star facts_of_targets(std::span<const double> numbers, bool c
     const double right = t.l11 * t.l11 + t.l21 * t.l21 + t.l22 * t.l22, left = t.k11 * t.k11 + t.k12 * t.k12 + t.k22 * t.k22;
     star.doubt = std::max(star.doubt, target_star::doubt(t));
     star.stretch = std::max(star.stretch, right * left);
-    // A metric that falls more slowly than the mean ratio may be above 0 where an element is inverted.
+    // Excludes metrics that fall more slowly than the mean ratio: they may be above 0 where an element is inverted.
     star.fits = star.fits && t.steepness >= 1.0 && std::abs(t.k12) < target_star::kMostOblique * t.k22;
   }
   star.fits = star.fits && star.doubt < 1e-6;
@@ -51,12 +51,12 @@ PlanarStarTargets::PlanarStarTargets(const TargetTable& targets, const InputMesh
     numbers.shrink_to_fit();
     for (std::size_t visit = first, from = 0; visit < last; from = ends[visit - first], ++visit)
       stars_[colouring.order[visit]] = facts_of_targets(std::span(numbers).subspan(from, ends[visit - first] - from), crossed_);
-    chunks_[first / kTargetStarsAtOnce] = std::move(numbers);  // whose numbers stay where they are
+    chunks_[first / kTargetStarsAtOnce] = std::move(numbers);  // the numbers stay at their place in memory
   });
 }
 
 PlanarStarTargets::Star SolidStarTargets::of(Index vertex) const {
-  constexpr double kDoubt = 1e-8;  // far more than rounding, of targets that fit
+  constexpr double kDoubt = 1e-8;  // far more than rounding, for targets that fit
   const auto star = view_.star(vertex);
   if (!targets_.fit(star)) return {};
   thread_local std::vector<double> numbers;  // kept: a visit allocates nothing

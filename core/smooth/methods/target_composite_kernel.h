@@ -1,5 +1,5 @@
 #pragma once
-// The search of single vertices for the mean of the mean ratio against targets: it finds what the plain search finds.
+// Search of single vertices for the mean of the mean ratio against targets: it finds the same as the plain search.
 
 #include <memory>
 #include <optional>
@@ -16,14 +16,14 @@ namespace dmoscope {
 
 class ThreadPool;
 
-/// The targets of the stars of a planar mesh's vertices, as TargetMeanSearch has them.
+/// Targets of the stars of a planar mesh's vertices, as TargetMeanSearch has them.
 class PlanarStarTargets {
  public:
   PlanarStarTargets(const TargetTable& targets, const InputMesh& input, const Colouring& colouring, ThreadPool* pool);
   struct Star {
     const double* numbers = nullptr;
     double doubt = 0.0, stretch = 1.0;  // see TargetMeanSearch
-    bool fits = false;                  // else the star is the plain search's
+    bool fits = false;                  // else the plain search takes the star
   };
   [[nodiscard]] Star of(Index vertex) const { return stars_[vertex]; }
   [[nodiscard]] bool crossed() const noexcept { return crossed_; }
@@ -33,7 +33,7 @@ class PlanarStarTargets {
   std::vector<std::vector<double>> chunks_;
   std::vector<Star> stars_;  // by vertex
 };
-/// The same of a volume's, whose numbers are gathered at each visit.
+/// Targets of the stars of a volume's vertices, whose numbers are gathered at each visit.
 class SolidStarTargets {
  public:
   SolidStarTargets(const TargetTable& targets, const InputMesh& input) : targets_(targets, input.mesh), view_(input.view<Space>()) {}
@@ -45,7 +45,7 @@ class SolidStarTargets {
   MeshView<Space> view_;
 };
 
-/// Frame: Plane or Space. The mesh must outlive it.
+/// Kernel for one star. Frame: Plane or Space. The mesh must outlive it.
 template <class Frame>
 class TargetCompositeKernel final : public StarKernel<Frame> {
  public:

@@ -61,9 +61,9 @@ class ThenMean final : public Smoother {
 
   std::unique_ptr<Smoother> first_, second_;  // the second where the mean is raised now
   SmoothingTask task_;
-  std::pair<std::optional<double>, std::optional<double>> floors_{};  // of the second
-  bool unstored_ = false;                                             // `first_` has visits that are not stored
-  bool moved_on_ = false;                                             // positions are others than `first_` knows
+  std::pair<std::optional<double>, std::optional<double>> floors_{};  // floors of the second
+  bool unstored_ = false;                                             // whether `first_` has visits that are not stored
+  bool moved_on_ = false;                                             // whether positions differ from those that `first_` knows
   std::optional<std::uint64_t> searched_ = 0;
 };
 

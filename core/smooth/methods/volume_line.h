@@ -1,10 +1,9 @@
 #pragma once
-// What the corners of a volume's star are worth where its vertex stands on a line, and where on it the least of them is largest.
-//
+// Values of the corners of a volume's star with its vertex on a line, and the place on it where the least of them is largest.
 // With the vertex at t along the line the determinant J of a corner's three edges is a t + b, also where all of them move, since two that
 // move alike cancel. The edges against the ideal corner, A, are affine in t, so that |A|^2 is c t^2 + e t + f and |A|^3 convex: J / |A|^3,
 // which rises with the mean ratio, is worth some constant or more on one stretch of the line alone. The least of such functions is like
-// that too: it rises to its maximum and falls from there on, and which of the two it does at some t, its slope there tells.
+// that, too: it rises to its maximum and falls from there on, and its slope at some t tells which of the two it does there.
 
 #include <algorithm>
 #include <span>
@@ -16,7 +15,7 @@
 
 namespace dmoscope {
 
-/// One corner, or one tetrahedron, on the line.
+/// Corner, or tetrahedron, on the line.
 struct LineCorner {
   double a, b;                    // its determinant against the ideal corner's, a t + b
   double c, e, f;                 // |A|^2
@@ -24,12 +23,12 @@ struct LineCorner {
 
   [[nodiscard]] double determinant(double t) const { return a * t + b; }
   [[nodiscard]] double jacobian(double t) const { return jacobian_a * t + jacobian_b; }
-  /// Rises with the mean ratio, where that is positive.
+  /// Rank of the corner, which rises with the mean ratio, where that is positive.
   [[nodiscard]] double rank(double t) const {
     const double n = determinant(t), s = (c * t + e) * t + f, inverse = 1.0 / s, part = n * inverse;
     return part * part * inverse;
   }
-  /// Positive where the rank rises.
+  /// Slope of the rank, times a positive number.
   [[nodiscard]] double rank_slope(double t) const {
     const double s = (c * t + e) * t + f;
     return a * s - 1.5 * determinant(t) * (2.0 * c * t + e);
@@ -42,17 +41,17 @@ struct LineStretch {
 
 namespace volume_line {
 
-/// Cuts off where a t + b <= 0. It must be positive somewhere in the stretch.
+/// Cuts off the part where a t + b <= 0. It must be positive somewhere in the stretch.
 inline void keep_positive(LineStretch& stretch, double a, double b) {
   if (a > 0.0) stretch.low = std::max(stretch.low, -b / a);
   if (a < 0.0) stretch.high = std::min(stretch.high, -b / a);
 }
 
-/// The t between low and high at which a function that rises and then falls is largest. slope(t): positive where it rises.
+/// Returns the t between low and high at which a function that rises and then falls is largest. slope(t): positive where it rises.
 template <class Slope>
 double top(LineStretch stretch, const Slope& slope) {
   constexpr int kHalvings = 60;
-  constexpr double kFine = 1e-12;  // of the star's size
+  constexpr double kFine = 1e-12;  // share of the star's size
   auto [low, high] = stretch;
   for (int i = 0; i < kHalvings && high - low > kFine; ++i) {
     const double middle = low + 0.5 * (high - low), rise = slope(middle);
@@ -62,7 +61,7 @@ double top(LineStretch stretch, const Slope& slope) {
   return low + 0.5 * (high - low);
 }
 
-/// The slope at t of the least of the functions value(corner, t).
+/// Slope at t of the least of the functions value(corner, t).
 template <class Value, class Slope>
 double slope_of_least(std::span<const LineCorner> corners, double t, const Value& value, const Slope& slope) {
   const LineCorner* least = nullptr;
@@ -74,7 +73,7 @@ double slope_of_least(std::span<const LineCorner> corners, double t, const Value
 
 }  // namespace volume_line
 
-/// Fills `out` with what changes along the line through the star's vertex, of direction d.
+/// Fills `out` with the corners that change along the line through the star's vertex, of direction d.
 inline void corners_on_line(const VolumeStar<double>& star, Vec3 d, std::vector<LineCorner>& out) {
   using V = Vec3Of<LineDual>;
   out.clear();
@@ -100,7 +99,7 @@ inline void corners_on_line(const VolumeStar<double>& star, Vec3 d, std::vector<
   return least;
 }
 
-/// Where the least mean ratio is largest, on the stretch of the line on which no corner is inverted; there must be one.
+/// Place where the least mean ratio is largest, on the stretch of the line on which no corner is inverted; there must be one.
 [[nodiscard]] inline double best_rank(std::span<const LineCorner> corners, LineStretch reach) {
   for (const LineCorner& corner : corners) volume_line::keep_positive(reach, corner.a, corner.b);
   return volume_line::top(reach, [corners](double t) {
@@ -110,7 +109,7 @@ inline void corners_on_line(const VolumeStar<double>& star, Vec3 d, std::vector<
   });
 }
 
-/// Where the least Jacobian over its reference measure is largest.
+/// Place where the least Jacobian over its reference measure is largest.
 [[nodiscard]] inline double best_jacobian(std::span<const LineCorner> corners, LineStretch reach) {
   return volume_line::top(reach, [corners](double t) {
     return volume_line::slope_of_least(
@@ -119,12 +118,12 @@ inline void corners_on_line(const VolumeStar<double>& star, Vec3 d, std::vector<
   });
 }
 
-/// Where, without the least Jacobian falling below what it is at 0, the mean is largest that counts while elements are inverted, see
-/// UntanglingMean: it is a sum of concave functions.
+/// Place where the mean is largest that counts while elements are inverted, see UntanglingMean, a sum of concave functions. The least
+/// Jacobian does not fall below its value at 0.
 [[nodiscard]] inline double best_untangling(std::span<const LineCorner> corners, LineStretch reach) {
   const double floor = least_jacobian(corners, 0.0);
   for (const LineCorner& corner : corners) volume_line::keep_positive(reach, corner.jacobian_a, corner.jacobian_b - floor);
-  constexpr double kInside = 1.0 - 1e-9;  // at its very ends rounding could put the least below
+  constexpr double kInside = 1.0 - 1e-9;  // at the stretch's ends rounding could put the least below
   return kInside * volume_line::top(reach, [corners](double t) {
            double slope = 0.0;
            for (const LineCorner& corner : corners)

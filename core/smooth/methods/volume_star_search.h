@@ -1,5 +1,5 @@
 #pragma once
-// The fast search of a volume's star: in float by the kernel.
+// Fast search of a volume's star, in float by the kernel.
 
 #include <optional>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace dmoscope {
 
-/// The fast search by a metric for a star of a volume.
+/// Fast search by a metric for a star of a volume.
 class VolumeStarSearch {
  public:
   struct Points : StarPoints<Space> {
@@ -18,19 +18,19 @@ class VolumeStarSearch {
   };
   VolumeStarSearch(Metric metric, const SearchParameters& parameters)
       : metric_(metric), kernel_(kernels(parameters).volume(metric)), parameters_(parameters) {}
-  /// By the mean ratio against targets.
+  /// Searches by the mean ratio against targets.
   VolumeStarSearch(const SearchParameters& parameters, bool crossed)
       : metric_(Metric::MeanRatio), kernel_(kernels(parameters).target_volume(crossed)), parameters_(parameters) {}
 
   /// Finds the winner of the first `levels` levels for the vertex; a search of fewer levels begins like one of more. Not ready where the
-  /// plain search has to do it.
+  /// plain search is needed.
   [[nodiscard]] VolumeFound find(const IndexedStars::Star& star, PositionView positions, Index vertex, int levels, Points& points,
                                  const VolumeTargets& targets = {}) const;
-  /// Would the vertex gain by going to `target`, as gains_at() has it where no element is inverted? Nothing where that has to say.
-  /// `points`: as find() left them.
+  /// Returns whether the vertex would gain by going to `target`, as gains_at() has it where no element is inverted; none where that has to
+  /// decide. `points`: as find() left them.
   [[nodiscard]] std::optional<bool> gains(const IndexedStars::Star& star, const Points& points, Vec3 from, Vec3 target,
                                           const VolumeTargets& targets = {}) const;
-  /// Are the star's elements certain to be valid inside with the vertex at `target`? `points`: as find() left them.
+  /// Returns whether the star's elements are certain to be valid inside with the vertex at `target`. `points`: as find() left them.
   [[nodiscard]] bool valid_at(const IndexedStars::Star& star, const Points& points, Vec3 target) const {
     return kernel_.valid_after({star.elements, points.at.data(), target, target});
   }

@@ -1,5 +1,5 @@
 #pragma once
-// The places of a vertex that slides along a curve: those between its neighbours there.
+// Places of a vertex that slides along a curve: those between its neighbours there.
 
 #include <algorithm>
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace dmoscope {
 
-/// Coordinates, and ways to them, are places on the curve: lengths along it in mesh units. Frame: Plane, Space or Curved.
+/// Places on a curve. Coordinates, and ways to them, are lengths along it in mesh units. Frame: Plane, Space or Curved.
 template <class Frame>
 class CurvePlaces {
  public:
@@ -18,7 +18,8 @@ class CurvePlaces {
   using Offset = OffsetIn<Frame, double>;
   static constexpr bool kFree = false;
 
-  /// None where the vertex, or a neighbour, stands beside the curve. All must outlive it; `scale`: of the vertex's star.
+  /// Makes the places; none where the vertex, or a neighbour, stands beside the curve. All arguments must outlive it; `scale`: that of the
+  /// vertex's star.
   [[nodiscard]] static std::optional<CurvePlaces> of(const SlidingDomain& domain, const MeshView<Frame>& mesh, PositionView positions,
                                                      Index vertex, double scale, SearchRoom<Frame>& room) {
     const auto place = domain.curves().place(vertex, positions[vertex]);
@@ -29,7 +30,7 @@ class CurvePlaces {
   }
 
   [[nodiscard]] double here() const { return place_; }
-  /// None beyond the neighbours.
+  /// Offset of a place in units of the scale; none beyond the neighbours.
   [[nodiscard]] std::optional<Offset> offset(double at) const {
     if (at == place_) return Offset{};
     if (!(beside_.place_before < at && at < beside_.place_after)) return std::nullopt;
@@ -37,7 +38,7 @@ class CurvePlaces {
   }
   [[nodiscard]] double shifted(double by) const { return place_ + by; }
   [[nodiscard]] double way(double to) const { return to; }
-  /// By the straight between two places next to it.
+  /// Turns a gradient by offsets into the slope along the curve, taken by the straight between two places next to it.
   template <class Gradient>
   [[nodiscard]] double slope(double at, Gradient gradient) const {
     const auto [before, after] = ends_around(at);
@@ -45,7 +46,7 @@ class CurvePlaces {
   }
   [[nodiscard]] double unit() const { return scale_; }
 
-  /// n * n candidates a level, as many as a free vertex in a plane has.
+  /// Gives n * n candidates a level, as many as a free vertex in a plane has.
   [[nodiscard]] static int candidates_per_axis(int grid_points) { return grid_points * grid_points; }
   template <class F>
   void for_grid(double centre, double omega, int grid_points, const F& f) const {
@@ -55,11 +56,11 @@ class CurvePlaces {
   }
   [[nodiscard]] std::optional<double> middle() const { return std::nullopt; }
   [[nodiscard]] double edge() const { return 0.5 * stretch(); }
-  /// The way to the middle of the two neighbours along the curve, or the share `relaxation` of it.
+  /// Way to the middle of the two neighbours along the curve, or the share `relaxation` of it.
   [[nodiscard]] double way_to_mean(double relaxation) const {
     return place_ + relaxation * (0.5 * (beside_.place_before + beside_.place_after) - place_);
   }
-  /// The plane in which angles around the vertex are seen: of a curved surface the one that touches it.
+  /// Plane in which angles around the vertex are seen: on a curved surface the one that touches it.
   [[nodiscard]] Plane plane() const requires(!std::is_same_v<Frame, Space>) {
     if constexpr (std::is_same_v<Frame, Plane>) {
       return mesh_.frame;
@@ -75,7 +76,7 @@ class CurvePlaces {
       return tangent_plane(size > 0.0 ? (1.0 / size) * sum : mesh_.frame.normal);
     }
   }
-  /// Not more than halfway to a neighbour.
+  /// Way along the curve for one in the plane, not more than halfway to a neighbour.
   [[nodiscard]] double way_along(Vec2<double> way) const requires(!std::is_same_v<Frame, Space>) {
     const auto [before, after] = ends_around(place_);
     const double to = place_ + dot(plane().lift(way), after - before) / (kAround * stretch());
@@ -87,8 +88,8 @@ class CurvePlaces {
     for (const Incidence& at : mesh_.star(vertex_)) f(mesh_.corners_of(at.element), at.corner, positions_);
   }
 
-  /// The longest way there, or half of it and so on, that confirm(place) lets it go and that keeps near the input; in a plane the first
-  /// alone.
+  /// Goes the longest way there, or half of it and so on, that confirm(place) allows and that keeps near the input; in a plane the whole
+  /// way alone.
   template <class Confirm>
   [[nodiscard]] std::optional<Vec3> go(double to, const Confirm& confirm) const {
     for (int i = 0; i <= kHalvings && to != place_; ++i) {
@@ -100,8 +101,8 @@ class CurvePlaces {
   }
 
  private:
-  static constexpr int kHalvings = 3;      // of a way that it may not go all of
-  static constexpr double kAround = 1e-6;  // of the stretch: between two places next to each other
+  static constexpr int kHalvings = 3;      // for a way that it may not go all of
+  static constexpr double kAround = 1e-6;  // share of the stretch: distance of two places next to each other
 
   CurvePlaces(const SlidingDomain& domain, const MeshView<Frame>& mesh, PositionView positions, Index vertex, double scale,
               SearchRoom<Frame>& room, double place, const Curves::Neighbours& beside)
@@ -132,12 +133,12 @@ class CurvePlaces {
     if (!keeps_near({vertex_, positions_[vertex_], target}, place_, place, beside_, fit_now_)) return std::nullopt;
     return follower == kNoIndex || follows_near(follower, behind) ? std::optional(target) : std::nullopt;
   }
-  /// Rounding may put a vertex elsewhere: it must still be between its neighbours.
+  /// Returns whether a vertex is still between its neighbours: rounding may put it elsewhere.
   [[nodiscard]] bool is_between(Index vertex, Vec3 target) const {
     const auto landed = domain_.curves().place(vertex, target);
     return landed && domain_.curves().neighbours(vertex, *landed, positions_);
   }
-  /// Do edges and faces stay as near to the input as they must?
+  /// Returns whether edges and faces stay as near to the input as they must.
   [[nodiscard]] bool keeps_near(const DeviationBound::Move& move, double from, double to, const Curves::Neighbours& beside,
                                 std::optional<Fit>& fit_now) const {
     const DeviationBound& bound = domain_.bound();
@@ -161,7 +162,7 @@ class CurvePlaces {
   SearchRoom<Frame>& room_;
   double place_;
   Curves::Neighbours beside_;
-  mutable std::optional<Fit> fit_now_{}, fit_of_follower_{};  // of the faces around, once it is known
+  mutable std::optional<Fit> fit_now_{}, fit_of_follower_{};  // fits of the faces around, once known
 };
 
 }  // namespace dmoscope

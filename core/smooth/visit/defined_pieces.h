@@ -1,5 +1,5 @@
 #pragma once
-// The smooth functions of which the quality of a star is the least, by a metric that is defined by a formula or a target.
+// Smooth functions of which the quality of a star is the least, by a metric that is defined by a formula or a target.
 
 #include <array>
 #include <vector>
@@ -10,16 +10,16 @@
 
 namespace dmoscope {
 
-/// The numbers of one element that a piece is given: its corners in its frame, and how its moving corner goes.
+/// Numbers of one element that a piece is given: its corners in its frame, and the movement of its moving corner.
 template <class Frame>
 struct PieceCorners {
   using R = std::conditional_t<std::is_same_v<Frame, Space>, SolidDual, Dual>;
   std::array<Vec3, 8> at{};
   std::array<R, 3> moving{};
   Vec3 origin{};
-  Plane plane{};  // of an element of a surface
+  Plane plane{};  // plane of an element of a surface
 };
-/// `p`: where the star's vertex is, in units of `scale` mesh units from where it stands.
+/// Corners for a piece. `p`: the place of the star's vertex, in units of `scale` mesh units from its present one.
 template <class Frame>
 [[nodiscard]] PieceCorners<Frame> piece_corners(const DefinedStarJudge<Frame>& star, PositionView positions, Index vertex,
                                                 const Incidence& incidence, double scale, OffsetIn<Frame, double> p) {
@@ -48,8 +48,8 @@ template <class Frame>
   return result;
 }
 
-/// Appends the pieces with the star's vertex there. Of volumes only those that change with its place: the others say nothing about where it
-/// should be.
+/// Appends the pieces with the star's vertex at `p`. In volumes only those that change with its place: the others say nothing about where
+/// it should be.
 template <class Frame>
 void append_defined_pieces(const DefinedStarJudge<Frame>& star, PositionView positions, Index vertex, double scale,
                            OffsetIn<Frame, double> p, std::vector<StarPiece<Frame>>& out) {

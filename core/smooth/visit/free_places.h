@@ -1,5 +1,5 @@
 #pragma once
-// The places of a free vertex: the plane of a planar mesh, or all of space.
+// Places of a free vertex: the plane of a planar mesh, or all of space.
 
 #include <optional>
 #include <vector>
@@ -14,13 +14,13 @@ namespace dmoscope {
 [[nodiscard]] double mean_edge(const Star<double>& star);
 [[nodiscard]] double mean_edge(const VolumeStar<double>& star);
 
-/// Coordinates are offsets in units of the star's scale. A way is one in mesh units. Frame: Plane or Space.
+/// Places of a free vertex. Coordinates are offsets in units of the star's scale. A way is one in mesh units. Frame: Plane or Space.
 template <class Frame>
 class FreePlaces {
  public:
   using Coordinates = OffsetIn<Frame, double>;
   static constexpr bool kFree = true;
-  /// `star`: of the vertex, for searches. All must outlive it.
+  /// `star`: that of the vertex, for searches. All arguments must outlive it.
   FreePlaces(const RuleMesh<Frame>& mesh, PositionView positions, Index vertex, const StarIn<Frame, double>& star)
       : mesh_(mesh), positions_(positions), vertex_(vertex), star_(star) {}
 
@@ -30,7 +30,7 @@ class FreePlaces {
   [[nodiscard]] Coordinates way(Coordinates to) const { return times(to, star_.scale); }
   /// Turns a gradient by offsets into one by coordinates at a place.
   [[nodiscard]] Coordinates slope(Coordinates /*at*/, Coordinates gradient) const { return gradient; }
-  /// How far the coordinates go in a unit of the star's scale.
+  /// Distance that the coordinates cover in a unit of the star's scale.
   [[nodiscard]] double unit() const { return 1.0; }
 
   [[nodiscard]] static int candidates_per_axis(int grid_points) { return grid_points; }
@@ -40,21 +40,21 @@ class FreePlaces {
     const CandidateGrid<double, Coordinates> grid{centre, times(star_.box, omega), grid_points};
     for (int i = 0; i < grid.points; ++i) grid.for_slice(i, [&f](int /*index*/, const Coordinates& p) { f(p); });
   }
-  /// The mean of the other corners, from which the search of a tangled star may begin.
+  /// Mean of the other corners, from which the search of a tangled star may begin.
   [[nodiscard]] std::optional<Coordinates> middle() const { return middle_of<Coordinates>(StarViewIn<Frame, double>(star_)); }
-  /// The mean length of its edges.
+  /// Mean length of its edges.
   [[nodiscard]] double edge() const { return mean_edge(star_); }
-  /// The way to the mean of its neighbours, or the share `relaxation` of it.
+  /// Way to the mean of its neighbours, or the share `relaxation` of it.
   [[nodiscard]] Coordinates way_to_mean(double relaxation) const {
     Vec3 sum{};
     double count = 0.0;
     for_neighbours([&](Index other) { sum = sum + mesh_.view.frame.difference(positions_[other], positions_[vertex_]), count += 1.0; });
     return times(mesh_.view.frame.project(1.0 / count * sum), relaxation);
   }
-  /// The coordinates that lead along a direction of space, and the width of the star's box along that.
+  /// Coordinates that lead along a direction of space, and the width of the star's box along that.
   [[nodiscard]] Coordinates along(Vec3 direction) const { return mesh_.view.frame.project(direction); }
   [[nodiscard]] Coordinates box() const { return star_.box; }
-  /// The plane in which angles around it are seen, and the way that leads along one in that.
+  /// Plane in which angles around the vertex are seen, and the way that leads along one in that.
   [[nodiscard]] Plane plane() const requires std::is_same_v<Frame, Plane> { return mesh_.view.frame; }
   [[nodiscard]] Coordinates way_along(Vec2<double> way) const requires std::is_same_v<Frame, Plane> { return way; }
   /// Calls f(corners, which of them the vertex is, positions) for each element around it.

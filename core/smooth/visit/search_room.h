@@ -13,12 +13,12 @@ namespace dmoscope {
 template <class Frame>
 struct SearchRoom {
   CandidateList candidates;
-  std::tuple<std::vector<double>, std::vector<Vec2<double>>, std::vector<Vec3>> coordinates;  // of the candidates, where they count
+  std::tuple<std::vector<double>, std::vector<Vec2<double>>, std::vector<Vec3>> coordinates;  // coordinates of candidates
   std::vector<StarPiece<Frame>> pieces;
   FacetWalks::Room walks;
   OverlayRoom overlay;
 
-  /// The list of coordinates of one type: double on a curve, Vec2 in a plane and on a surface, Vec3 in space.
+  /// List of coordinates of one type: double on a curve, Vec2 in a plane and on a surface, Vec3 in space.
   template <class Coordinates>
   [[nodiscard]] std::vector<Coordinates>& list() {
     return std::get<std::vector<Coordinates>>(coordinates);

@@ -1,5 +1,5 @@
 #pragma once
-// The curves and surfaces along which vertices slide (core/reference/domain.h), for visits of single vertices.
+// Curves and surfaces along which vertices slide (core/reference/domain.h), for visits of single vertices.
 
 #include <memory>
 #include <optional>
@@ -16,7 +16,7 @@ class SlidingDomain {
 
   [[nodiscard]] bool slides(Index vertex) const { return domain_ != nullptr && domain_->slides(vertex); }
   [[nodiscard]] bool on_curve(Index vertex) const { return domain_->on_curve(vertex); }
-  /// Who moves with a vertex, and where to: see Domain.
+  /// Vertex that moves with another one, and the place to which it goes: see Domain.
   [[nodiscard]] Index follower(Index vertex) const { return domain_->follower(vertex); }
   [[nodiscard]] Vec3 place_of_follower(Index vertex, Vec3 place) const { return domain_->place_of_follower(vertex, place); }
   [[nodiscard]] const Curves& curves() const { return domain_->curves(); }
@@ -32,14 +32,13 @@ class SlidingDomain {
 
  private:
   std::shared_ptr<const Domain> domain_;  // null: nothing slides
-  std::optional<DeviationBound> bound_;   // none: likewise
+  std::optional<DeviationBound> bound_;   // none: nothing slides
   bool single_precision_;
-  /// The last place of a vertex on the surface. It follows from the position, so no result depends on it; one visit at a time looks
-  /// at it.
+  /// Last place of a vertex on the surface. It follows from the position, so no result depends on it; one visit at a time looks at it.
   struct Found {
     Vec3 position{};
-    FacetPlace place{};  // facet: from where on to look for another position; kNoIndex: not found yet
-    bool valid = false;  // of the position
+    FacetPlace place{};  // facet: begin of the look for another position; kNoIndex: not found yet
+    bool valid = false;  // whether `place` belongs to the position
   };
   mutable std::vector<Found> found_;  // by vertex
 };

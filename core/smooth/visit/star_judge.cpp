@@ -17,7 +17,7 @@ double mean_of_star(const MeshView<Frame>& mesh, PositionView positions, Index v
   return mean_at_place<M>(mesh, positions, vertex, place, kind);
 }
 
-// Flattened: in a source with so many metrics the compiler leaves calls in the innermost loops, which take 2.5 times as long.
+// Flattened, because in a source with so many metrics the compiler leaves calls in the innermost loops, which take 2.5 times as long.
 template <Metric M, class Frame>
 [[gnu::flatten]] double least_at(const JudgedStarView<Frame>& star, OffsetIn<Frame, double> p, double enough) {
   using At = Worth<M, false, double, Value::Metric, OffsetIn<Frame, double>>;
@@ -28,7 +28,8 @@ template <Metric M, class Frame>
   return worth.value();
 }
 
-/// The least rank tells as well which of two places is better, and costs less; but where it is as rough as a float (see rank_doubt()).
+/// Least rank, which tells as well which of two places is better, and costs less; but the least metric where the rank is as rough as a
+/// float (see rank_doubt()).
 template <Metric M, class Frame>
 double least_rank_at(const JudgedStarView<Frame>& star, OffsetIn<Frame, double> p) {
   using At = Worth<M, false, double, M == Metric::Rectangularity ? Value::Metric : Value::Rank, OffsetIn<Frame, double>>;
@@ -81,14 +82,14 @@ std::array<MetricFunctions<Frame>, kMetricCount> make_table() {
   return table;
 }
 
-/// What the qualities whose mean is `mean` add up: see PowerMean.
+/// Sum of the terms of qualities whose mean is `mean`: see PowerMean.
 double total_of_mean(MeanKind kind, double mean, double count) {
   if (kind == MeanKind::Arithmetic) return mean * count;
   if (kind == MeanKind::Harmonic) return count / mean;
   return kind == MeanKind::InverseSquare ? count / (mean * mean) : mean;
 }
 
-/// A rising function that is above 0: formulas may be below.
+/// Rising function that is above 0: formulas may be below.
 double positive(double value) { return value > 0.0 ? 1.0 + value : 1.0 / (1.0 - value); }
 
 }  // namespace
@@ -227,7 +228,7 @@ void StarScore<Frame>::least(const CandidateList& candidates, double enough, std
   }
 }
 
-/// By the mean of a metric that is defined by a formula or a target; of places that are not beyond the threshold, below all.
+/// Scores of places beyond the threshold by the mean of a metric that is defined by a formula or a target; of other places, below all.
 template <class Frame>
 void StarScore<Frame>::worth_beyond(const CandidateList& candidates, std::vector<double>& out) const {
   thread_local std::vector<Offset> offsets;  // kept: a visit allocates nothing
@@ -279,7 +280,7 @@ void StarScore<Frame>::append_pieces(Offset p, std::vector<StarPiece<Frame>>& ou
   for (std::size_t i = 0; i < of_first; ++i) out[i].value += second - composite_.threshold;
 }
 
-/// The pieces of a metric; `defined`: its star where it is not built in.
+/// Appends the pieces of a metric; `defined`: its star where it is not built in.
 template <class Frame>
 void StarScore<Frame>::append(Metric metric, const DefinedStar<Frame>* defined, Offset p, std::vector<StarPiece<Frame>>& out) const {
   if (defined != nullptr) {
@@ -294,7 +295,7 @@ void StarScore<Frame>::append(Metric metric, const DefinedStar<Frame>* defined, 
 template <class Frame>
 void StarScore<Frame>::append_second(Offset p, std::vector<StarPiece<Frame>>& out) const {
   if (const auto* metric = std::get_if<Metric>(&composite_.second)) return append(*metric, defined_.second.get(), p, out);
-  if constexpr (std::is_same_v<Frame, Plane>) {  // sizes are of planar meshes: see require_possible()
+  if constexpr (std::is_same_v<Frame, Plane>) {  // sizes are for planar meshes: see require_possible()
     const Vec2<double> away = p - target_.offset;
     const double density = target_.density(p), square = target_.edge * target_.edge;
     out.push_back({density, square > 0.0 ? times(away, -2.0 * density * density / square) : Vec2<double>{}});
@@ -312,10 +313,10 @@ DensityTarget<Frame> StarJudge<Frame>::density_of(const Star& star, PositionView
   if constexpr (std::is_same_v<Frame, Plane>) {
     return density_target(**size, view_, positions, vertex).in_units(star.scale);
   }
-  return {};  // sizes are of planar meshes: see require_possible()
+  return {};  // sizes are for planar meshes: see require_possible()
 }
 
-/// The second aim with the vertex at `place`.
+/// Second aim with the vertex at `place`.
 template <class Frame>
 double StarJudge<Frame>::second(PositionView positions, Index vertex, Vec3 place) const {
   if constexpr (std::is_same_v<Frame, Plane>) {
@@ -382,7 +383,7 @@ double StarJudge<Frame>::own_mean(PositionView positions, Index vertex, Vec3 pla
 
 template <class Frame>
 bool StarJudge<Frame>::is_tangled(const Star& star) const {
-  const Metric metric = is_built_in(composite_.first) ? composite_.first : Metric::MeanRatio;  // which sees it
+  const Metric metric = is_built_in(composite_.first) ? composite_.first : Metric::MeanRatio;  // the metric that sees inversion
   return metric_functions<Frame>(metric).is_tangled(star, composite_.is_single() ? untangling_ : Untangling{});
 }
 

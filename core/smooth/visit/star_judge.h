@@ -1,5 +1,5 @@
 #pragma once
-// An objective on the star of one vertex: all that the methods see of metrics, formulas, targets and two aims (composite_objective.h).
+// Objective on the star of one vertex: all that the methods see of metrics, formulas, targets and two aims (composite_objective.h).
 
 #include <limits>
 #include <memory>
@@ -18,12 +18,12 @@
 
 namespace dmoscope {
 
-/// The second aim of the phase that raises the mean: the mean quality of the star, by the first metric.
+/// Second aim of the phase that raises the mean: the mean quality of the star, by the first metric.
 struct MeanOfStar {
   MeanKind kind = MeanKind::Harmonic;
 };
 
-/// The objective of a visit. Which of two places is better for a vertex is decided in this order. While an element of the star is inverted:
+/// Objective of a visit. Which of two places is better for a vertex is decided in this order. While an element of the star is inverted:
 /// where it is less so (see UntanglingObjective). While the star's least first metric is not beyond the threshold: where that is greater.
 /// Then: where the second aim is greater. Beyond means above the threshold; for the mean, not below it, so that a star whose least is the
 /// floor stays unless its mean rises. Nothing is beyond an infinite threshold: the first metric is the only aim.
@@ -31,35 +31,35 @@ struct CompositeObjective {
   Metric first = Metric::MeanRatio;
   double threshold = 0.7;  // at least 0
   std::variant<Metric, std::shared_ptr<const SizeField>, MeanOfStar> second = MeanOfStar{};
-  std::optional<Guard> guard{};  // of stars without inverted elements
+  std::optional<Guard> guard{};  // for stars without inverted elements
 
   [[nodiscard]] bool raise_mean() const noexcept { return std::holds_alternative<MeanOfStar>(second); }
   [[nodiscard]] bool beyond(double least) const noexcept { return is_beyond(least, threshold, raise_mean()); }
   [[nodiscard]] bool is_single() const noexcept { return threshold == std::numeric_limits<double>::infinity(); }
 };
 
-/// A metric as the only aim.
+/// Objective with a metric as the only aim.
 [[nodiscard]] CompositeObjective single_objective(Metric metric);
-/// The objective of a combination; `size`: its size function, null where the second aim is a metric.
+/// Objective of a combination; `size`: its size function, null where the second aim is a metric.
 [[nodiscard]] CompositeObjective composite_objective(Metric first, const CompositeTerms& combination,
                                                      std::shared_ptr<const SizeField> size);
-/// The objective of a phase that raises a mean of `metric` and keeps its least from falling below `floor`.
+/// Objective of a phase that raises a mean of `metric` and keeps its least from falling below `floor`.
 [[nodiscard]] CompositeObjective raise_mean_above(Metric metric, double floor, MeanKind kind = MeanKind::Harmonic);
-/// The objective of a sweep in that phase: with the sweep's floors, of which a combination has two.
+/// Objective of a sweep in that phase: with the sweep's floors, of which a combination has two.
 [[nodiscard]] CompositeObjective raise_mean_in(const Sweep& sweep, Metric metric, const std::optional<CompositeTerms>& combination,
                                                const std::optional<Guard>& guard);
-/// The objective of the task's own visits, which come before that phase.
+/// Objective of the task's own visits, which come before that phase.
 [[nodiscard]] CompositeObjective objective_of(const SmoothingTask& task);
-/// An objective as plain data; none where its sizes are those of a nodal field.
+/// Objective as plain data; none where its sizes are those of a nodal field.
 [[nodiscard]] std::optional<PlainComposite> plain_composite(const CompositeObjective& composite);
 
-/// The two aims that a visit has; none: one metric alone, maybe with a guard.
+/// Two aims that a visit has; none: one metric alone, maybe with a guard.
 [[nodiscard]] std::optional<CompositeObjective> composite_objective_of_visit(Metric metric,
                                                                              const std::optional<CompositeTerms>& combination,
                                                                              const std::shared_ptr<const SizeField>& size,
                                                                              const Sweep& sweep, const std::optional<Guard>& guard = {});
 
-/// The star of a vertex in double: Frame is Plane, Space or Curved.
+/// Star of a vertex in double: Frame is Plane, Space or Curved.
 template <class Frame>
 using JudgedStar = std::conditional_t<std::is_same_v<Frame, Curved>, SurfaceStar,
                                       std::conditional_t<std::is_same_v<Frame, Plane>, Star<double>, VolumeStar<double>>>;
@@ -67,41 +67,41 @@ template <class Frame>
 using JudgedStarView = std::conditional_t<std::is_same_v<Frame, Curved>, SurfaceStarView,
                                           std::conditional_t<std::is_same_v<Frame, Plane>, StarView<double>, VolumeStarView<double>>>;
 
-/// The functions of one metric in a table, so that any two can be combined without a template for each pair.
+/// Table of the functions of one metric, so that any two can be combined without a template for each pair.
 template <class Frame>
 struct MetricFunctions {
   using View = JudgedStarView<Frame>;
   using Offset = OffsetIn<Frame, double>;
-  // By the statistics' formulas, with the vertex at a place.
+  // Judges by the statistics' formulas, with the vertex at a place.
   StarState (*state)(const MeshView<Frame>&, PositionView, Index vertex, Vec3 place);
   double (*mean)(const MeshView<Frame>&, PositionView, Index vertex, Vec3 place, MeanKind kind);
-  // By the search's, with the vertex at an offset.
-  double (*least_at)(const View&, Offset, double enough);  // what is no more than `enough` may be greater than it is
+  // Judges by the search's formulas, with the vertex at an offset.
+  double (*least_at)(const View&, Offset, double enough);  // values of at most `enough` may come out greater than they are
   double (*least_rank_at)(const View&, Offset);            // a rising function of the least
   double (*mean_at)(const View&, Offset, MeanKind kind);
   bool (*is_tangled)(const View&, const Untangling&);
-  // At each of a list of offsets: least_at(), and what is raised while an element is inverted.
+  // Judge each of a list of offsets: least_at(), and the number that is raised while an element is inverted.
   void (*least)(const View&, const CandidateList&, double enough, double* out);
   void (*untangling)(const View&, const Untangling&, const CandidateList&, double* out);
-  void (*pieces)(const JudgedStar<Frame>&, Offset, std::vector<StarPiece<Frame>>& out);  // appends the metric's: see StarPiece
+  void (*pieces)(const JudgedStar<Frame>&, Offset, std::vector<StarPiece<Frame>>& out);  // appends the metric's pieces: see StarPiece
 };
-/// The row of a built-in metric.
+/// Row of a built-in metric.
 template <class Frame>
 [[nodiscard]] const MetricFunctions<Frame>& metric_functions(Metric metric);
 
-/// Are all of its metrics built in, so that kernels know them?
+/// Returns whether all of its metrics are built in, so that kernels know them.
 [[nodiscard]] bool is_for_kernels(const CompositeObjective& composite);
 
-/// The mean of the edge neighbours, weighted by the inverse of the size where each stands now.
+/// Mean of the edge neighbours, weighted by the inverse of the size at their present positions.
 [[nodiscard]] DensityTarget<Plane> density_target(const SizeField& size, const PlanarView& mesh, PositionView positions, Index vertex);
 
-/// A star by metrics that are defined by formulas or targets; none where the metric is built in.
+/// Stars by metrics that are defined by formulas or targets; none where the metric is built in.
 template <class Frame>
 struct DefinedStars {
   std::shared_ptr<const DefinedStar<Frame>> first, second, guard;
 };
 
-/// Describes the aims to a kernel, but for densities.
+/// Describes the aims to a kernel, without densities.
 template <class Frame>
 [[nodiscard]] CompositeSearch<Frame> search_for(const CompositeObjective& composite, const SearchParameters& parameters) {
   CompositeSearch<Frame> task;
@@ -117,7 +117,7 @@ template <class Frame>
   }
   return task;
 }
-/// Adds a star to that, and the place from which its density is measured.
+/// Adds a star to a kernel's task, and the place from which its density is measured.
 template <class Frame>
 void take_star(CompositeSearch<Frame>& task, const CompositeObjective& composite, const JudgedStar<Frame>& star,
                const DensityTarget<Frame>& target) {
@@ -128,37 +128,38 @@ void take_star(CompositeSearch<Frame>& task, const CompositeObjective& composite
   task.edge = target.edge;
 }
 
-/// The number that a search maximises, as the paper's eq. (8) has it: the least first metric (or, untangling, what is raised while an
-/// element is inverted, which is <= 0); beyond the threshold that plus the second aim, which is positive. The star must outlive it.
+/// Score, the number that a search maximises, as the paper's eq. (8) has it: the least first metric (or, untangling, the number raised
+/// while an element is inverted, which is <= 0); beyond the threshold that plus the second aim, which is positive. The star must outlive
+/// it.
 template <class Frame>
 class StarScore {
  public:
   using View = JudgedStarView<Frame>;
   using Offset = OffsetIn<Frame, double>;
-  /// `untangling`: of a star with inverted elements; else none. `list_kernel`: null: the plain search alone. `guarded`: whether no place is
-  /// worth anything to which the guard does not let the vertex go.
+  /// `untangling`: the rule for a star with inverted elements; else none. `list_kernel`: null: the plain search alone. `guarded`: whether
+  /// places to which the guard does not let the vertex go score below all.
   StarScore(const CompositeObjective& composite, const std::optional<Untangling>& untangling, const JudgedStar<Frame>& star,
             const DensityTarget<Frame>& target, DefinedStars<Frame> defined = {}, CompositeListKernel<Frame> list_kernel = nullptr,
             bool guarded = false);
 
   [[nodiscard]] bool tangled() const noexcept { return untangling_.has_value(); }
-  /// Whether the score is above 0 wherever nothing is inverted: that of a formula need not be.
+  /// Returns whether the score is above 0 wherever nothing is inverted: that of a formula need not be.
   [[nodiscard]] bool positive_where_sound() const noexcept { return !defined_.first; }
-  /// The score of the star as if no element were inverted where the vertex stands.
+  /// Score of the star as if no element were inverted at the vertex's present place.
   [[nodiscard]] StarScore of_sound_star() const {
     StarScore other(*this);
     other.untangling_.reset();
     return other;
   }
 
-  /// `best`: what is worth no more may come out greater than it is, but never above this: nobody goes there.
+  /// Score of a place. `best`: scores of at most this may come out greater than they are, but never above it: no vertex goes there.
   [[nodiscard]] double operator()(Offset p, double best = kAll) const {
     return guarded(p, with_second(p, this->least(p, std::min(best, greatest_below_))), best);
   }
-  /// The first of the candidates that are worth most, if that is more than `best`, which it becomes; else their number.
+  /// First of the candidates with the greatest score, if that is more than `best`, which it becomes; else their number.
   [[nodiscard]] std::size_t first_best(CandidateList& candidates, double& best) const;
   /// Appends the smooth functions of which the score is the least with the vertex at `p`, no element being inverted there: beyond the
-  /// threshold those of the second aim, and those of the first less what it takes for the star to be beyond. Not for the mean.
+  /// threshold those of the second aim, and those of the first less the amount by which the star is beyond. Not for the mean.
   void append_pieces(Offset p, std::vector<StarPiece<Frame>>& out) const;
   /// Appends the Jacobian of every corner that changes with the vertex, over its element's reference measure.
   void append_jacobians(Offset p, std::vector<StarPiece<Frame>>& out) const { dmoscope::append_jacobians<Frame>(*star_, p, out); }
@@ -167,13 +168,12 @@ class StarScore {
 
  private:
   [[nodiscard]] double least(Offset p, double enough) const;
-  /// The score of a place whose least first metric is `least`.
+  /// Score of a place whose least first metric is `least`.
   [[nodiscard]] double with_second(Offset p, double least) const {
     return composite_.beyond(least) ? composite_.threshold + second(p) : least;
   }
   [[nodiscard]] double second(Offset p) const;
-  /// The score of a place that is worth `value`, or below all where that is more than `best` and the guard does not let the vertex go
-  /// there.
+  /// Score of a place: `value`, or below all where that is more than `best` and the guard does not let the vertex go there.
   [[nodiscard]] double guarded(Offset p, double value, double best) const {
     return value > best && guard_floor_ > kAll && least_of_guard(p) < guard_floor_ ? kAll : value;
   }
@@ -189,41 +189,41 @@ class StarScore {
   std::optional<Untangling> untangling_;
   DefinedStars<Frame> defined_;
   CompositeListKernel<Frame> list_kernel_;
-  const MetricFunctions<Frame>* first_ = nullptr;  // of a built-in metric
+  const MetricFunctions<Frame>* first_ = nullptr;  // for a built-in metric
   double greatest_below_;                          // the greatest number not beyond the threshold
   double guard_floor_ = kAll;
-  double (*second_)(const View&, Offset, double enough) = nullptr;  // a built-in second metric; else null
+  double (*second_)(const View&, Offset, double enough) = nullptr;  // function of a built-in second metric; else null
 };
 
-/// Judges stars by an objective. The mesh must outlive it.
+/// Judge of stars by an objective. The mesh must outlive it.
 template <class Frame>
 class StarJudge {
  public:
   using Star = JudgedStar<Frame>;
-  /// `packs`: by which instructions many candidates are judged at once, which finds the same; none: one by one. `pairs`: of a vertex that
-  /// has a follower in it both stars are judged as one; null: none has.
+  /// `packs`: instructions by which many candidates are judged at once, which finds the same; none: one by one. `pairs`: both stars of a
+  /// vertex that has a follower in it are judged as one; null: none has.
   StarJudge(const InputMesh& input, CompositeObjective composite, std::optional<SimdLevel> packs = {},
             std::shared_ptr<const Domain> pairs = {});
   void begin(const Sweep& sweep) { untangling_ = sweep.untangling; }
   [[nodiscard]] const Untangling& untangling() const noexcept { return untangling_; }
 
-  /// The star of a vertex, whether an element of it is inverted, and what a search maximises in it.
+  /// Gathers the star of a vertex; then whether an element of it is inverted, and the score that a search maximises in it.
   void gather(PositionView positions, Index vertex, Star& star) const;
   [[nodiscard]] bool is_tangled(const Star& star) const;
   /// `guarded`: see StarScore.
   [[nodiscard]] StarScore<Frame> score_of(const Star& star, PositionView positions, Index vertex, bool tangled, bool guarded = false) const;
-  /// How good its star is by a metric, the first or second one, with a vertex at a place; by the statistics' formulas.
+  /// State of a vertex's star at a place by a metric, the first or second one; by the statistics' formulas.
   [[nodiscard]] StarState state(Metric metric, PositionView positions, Index vertex, Vec3 place) const;
-  /// By the statistics' own formulas: does the vertex gain by standing at `target`, whatever the guard says? `before`: its star by the
-  /// first metric where it stands, where that is known.
+  /// Returns, by the statistics' own formulas, whether the vertex gains by standing at `target`, whatever the guard says. `before`: its
+  /// star by the first metric at its present place, where known.
   [[nodiscard]] Confirmation confirm(PositionView positions, Index vertex, Vec3 target, const StarState* before = nullptr) const;
 
-  /// Whether the guard lets the vertex go there, where one is and no element of the star is inverted.
+  /// Returns whether the guard lets the vertex go there, where one is and no element of the star is inverted.
   [[nodiscard]] bool keeps_guard(PositionView positions, Index vertex, Vec3 target) const;
 
   [[nodiscard]] const CompositeObjective& composite() const noexcept { return composite_; }
   [[nodiscard]] const MeshView<Frame>& mesh() const noexcept { return view_; }
-  /// In units of the star's scale; all 0 where the second aim is none.
+  /// Density target in units of the star's scale; all 0 where the second aim is none.
   [[nodiscard]] DensityTarget<Frame> density_of(const Star& star, PositionView positions, Index vertex) const;
 
  private:
@@ -244,10 +244,10 @@ class StarJudge {
   CompositeListKernel<Frame> list_kernel_ = nullptr;
   std::shared_ptr<const Domain> pairs_;  // null: no vertices move together
 
-  std::shared_ptr<const DefinedJudge> first_, second_, guard_;  // of metrics that are not built in
+  std::shared_ptr<const DefinedJudge> first_, second_, guard_;  // for metrics that are not built in
 };
 
-/// How good the star of a vertex is by a metric, as the statistics judge it.
+/// State of a vertex's star by a metric, as the statistics judge it.
 [[nodiscard]] StarState star_state(const InputMesh& input, PositionView positions, Metric metric, Index vertex);
 
 }  // namespace dmoscope

@@ -1,5 +1,5 @@
 #pragma once
-// A search for the best candidate of a free vertex that does many at once. Where it cannot, the visit's plain search does it.
+// Search for the best candidate of a free vertex that evaluates many at once. Where it cannot, the visit's plain search does it.
 
 #include <optional>
 #include <span>
@@ -9,15 +9,15 @@
 
 namespace dmoscope {
 
-/// Immutable; by any number of threads at once. Frame: Plane or Space.
+/// Fast search for free vertices. Immutable; for any number of threads at once. Frame: Plane or Space.
 template <class Frame>
 class StarKernel {
  public:
   using Offset = OffsetIn<Frame, double>;
   struct Found {
-    bool ready = false;                 // false: the star is the plain search's
-    Offset way{};                       // to the winner, in mesh units; 0: the vertex is where it is best
-    std::optional<StarState> before{};  // its star, where that is known
+    bool ready = false;                 // false: the plain search must take the star
+    Offset way{};                       // to the winner, in mesh units; 0: the vertex is at its best place
+    std::optional<StarState> before{};  // its star, where known
   };
   StarKernel() = default;
   StarKernel(const StarKernel&) = delete;
@@ -25,14 +25,14 @@ class StarKernel {
   virtual ~StarKernel() = default;
 
   [[nodiscard]] virtual Found find(PositionView positions, Index vertex, const Untangling& untangling) const = 0;
-  /// Does the vertex that the same thread has just found a winner for gain at `target`, where rounding does not decide? None: the
-  /// statistics' formulas have to say.
+  /// Returns whether the vertex gains at `target` for which the same thread has just found a winner, where rounding does not decide. None:
+  /// the statistics' formulas have to.
   [[nodiscard]] virtual std::optional<bool> gains(PositionView /*positions*/, Index /*vertex*/, Vec3 /*target*/) const {
     return std::nullopt;
   }
-  /// Are its star's elements certain to be valid inside there?
+  /// Returns whether the star's elements are certain to be valid inside at `target`.
   [[nodiscard]] virtual bool valid_at(Index /*vertex*/, Vec3 /*target*/) const { return false; }
-  /// The other vertices of its star; none where nobody has noted them.
+  /// Other vertices of its star; none where they are not noted.
   [[nodiscard]] virtual std::span<const Index> others(Index /*vertex*/) const { return {}; }
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// The smooth functions of which the quality of a star is the least: one per triangle or tetrahedron, one per corner of any other element.
+// Smooth functions of which the quality of a star is the least: one per triangle or tetrahedron, one per corner of any other element.
 
 #include <type_traits>
 #include <vector>
@@ -11,7 +11,7 @@
 
 namespace dmoscope {
 
-/// One of them with the star's vertex at some offset, and how it rises there, per unit of the star's scale. Frame: Plane, Space or Curved.
+/// Piece with the star's vertex at some offset, and its gradient, per unit of the star's scale. Frame: Plane, Space or Curved.
 template <class Frame>
 using StarGradient = std::conditional_t<std::is_same_v<Frame, Plane>, Vec2<double>, Vec3>;
 template <class Frame>
@@ -61,7 +61,7 @@ constexpr void for_solids(const VolumeStar<double>& star, Vec3Of<R> p, const Tak
 
 }  // namespace star_pieces
 
-/// Calls f with the metric of each triangle and of each corner of the quadrilaterals, with the star's vertex at `p`; of a metric that is
+/// Calls f with the metric of each triangle and of each corner of the quadrilaterals, with the star's vertex at `p`; for a metric that is
 /// not the least of its corners, with that of the whole quadrilateral. R: the scalar, such as double or Dual.
 template <Metric M, class R, class F>
 constexpr void for_qualities(const Star<double>& star, Vec2<R> p, const F& f) {
@@ -70,7 +70,7 @@ constexpr void for_qualities(const Star<double>& star, Vec2<R> p, const F& f) {
   if constexpr (formulas::kDefinedForQuadrilaterals<M, V>) {
     for (const StarQuadrilateral<double>& q : star.quadrilaterals) {
       if constexpr (formulas::Formula<M>::kSeesInversion) {
-        // All corners of a parallelogram are as good as the one that it is made of.
+        // Evaluates a corner as the parallelogram made of it, all of whose corners are alike.
         star_pieces::for_corners(q, p, [&f](V corner, V next, V before) {
           f(formulas::metric<M>(formulas::Quadrilateral<V>(corner, next, next + before - corner, before)));
         });
@@ -90,7 +90,7 @@ constexpr void for_jacobians(const Star<double>& star, Vec2<R> p, const F& f) {
     star_pieces::for_corners(q, p, [&](V corner, V next, V before) { f(cross(next - corner, before - corner) / R(q.reference)); });
 }
 
-/// Likewise of a volume; only of what changes with the vertex's place.
+/// Calls f with the metric of each tetrahedron and of each corner of a volume's other elements that changes with the vertex's place.
 template <Metric M, class R, class F>
 constexpr void for_qualities(const VolumeStar<double>& star, Vec3Of<R> p, const F& f) {
   using V = Vec3Of<R>;

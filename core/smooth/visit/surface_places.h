@@ -1,5 +1,5 @@
 #pragma once
-// The places of a vertex that slides on a surface: wherever a straight way in the plane that touches it there leads, taken down to the
+// Places of a vertex that slides on a surface: the ends of straight ways in the plane that touches it at the vertex, taken down to the
 // facet beneath; not beyond a feature edge, nor where the surface turns away.
 
 #include <algorithm>
@@ -11,7 +11,8 @@
 
 namespace dmoscope {
 
-/// Coordinates are steps in the tangent plane in units of the star's scale, ways are such steps in mesh units. Frame: Space or Curved.
+/// Places on a surface. Coordinates are steps in the tangent plane in units of the star's scale, ways are such steps in mesh units. Frame:
+/// Space or Curved.
 template <class Frame>
 class SurfacePlaces {
  public:
@@ -19,7 +20,7 @@ class SurfacePlaces {
   using Offset = OffsetIn<Frame, double>;
   static constexpr bool kFree = false;
 
-  /// None where the vertex stands beside the surface. All must outlive it; `scale`: of the vertex's star.
+  /// Makes the places; none where the vertex stands beside the surface. All arguments must outlive it; `scale`: that of the vertex's star.
   [[nodiscard]] static std::optional<SurfacePlaces> of(const SlidingDomain& domain, const MeshView<Frame>& mesh, PositionView positions,
                                                        Index vertex, double scale, SearchRoom<Frame>& room) {
     const auto place = domain.place(vertex, positions[vertex]);
@@ -49,7 +50,7 @@ class SurfacePlaces {
     for (int i = 0; i < grid.points; ++i) grid.for_slice(i, [&f](int /*index*/, const Coordinates& p) { f(p); });
   }
   [[nodiscard]] std::optional<Coordinates> middle() const { return std::nullopt; }
-  /// The mean length of the edges of the surface at the vertex, in units of the star's scale.
+  /// Mean length of the edges of the surface at the vertex, in units of the star's scale.
   [[nodiscard]] double edge() const {
     double sum = 0.0, count = 0.0;
     for_neighbours([&](Vec3 way) { sum += length(way), count += 1.0; });
@@ -84,7 +85,7 @@ class SurfacePlaces {
     for (const Incidence& at : mesh_.star(vertex_)) f(mesh_.corners_of(at.element), at.corner, positions_);
   }
 
-  /// The longest way there, or half of it and so on, that confirm(place) lets it go and that keeps near the input.
+  /// Goes the longest way there, or half of it and so on, that confirm(place) allows and that keeps near the input.
   template <class Confirm>
   [[nodiscard]] std::optional<Vec3> go(Coordinates way, const Confirm& confirm) const {
     for (int i = 0; i <= kHalvings && !(way == Coordinates{}); ++i, way = times(way, 0.5))
@@ -93,7 +94,7 @@ class SurfacePlaces {
   }
 
  private:
-  static constexpr int kHalvings = 3;  // of a way that it may not go all of
+  static constexpr int kHalvings = 3;  // for a way that it may not go all of
 
   SurfacePlaces(const SlidingDomain& domain, const MeshView<Frame>& mesh, PositionView positions, Index vertex, double scale,
                 SearchRoom<Frame>& room, const FacetPlace& place, const Plane& plane)
@@ -146,10 +147,10 @@ class SurfacePlaces {
   double scale_;
   SearchRoom<Frame>& room_;
   FacetPlace place_;
-  Plane plane_;  // that touches the surface where the vertex stands
+  Plane plane_;  // touches the surface at the vertex
   mutable std::optional<Coordinates> box_{};
   mutable std::optional<FacetWalks> walks_{};
-  mutable std::optional<Fit> fit_now_{}, fit_of_follower_{};  // of the faces around, once it is known
+  mutable std::optional<Fit> fit_now_{}, fit_of_follower_{};  // fits of the faces around, once known
 };
 
 }  // namespace dmoscope

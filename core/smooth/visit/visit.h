@@ -1,6 +1,6 @@
 #pragma once
-// The visit of one vertex: where it may go, by what an objective chooses a place there for it, and whether it gains by that. Every method
-// is a way of choosing; every objective, every frame and every kind of place works with it.
+// Visit of one vertex: its possible places, the choice of one by an objective, and whether it gains there. Every method is a way of
+// choosing; every objective, every frame and every kind of place works with it.
 
 #include <memory>
 #include <optional>
@@ -14,11 +14,11 @@
 namespace dmoscope {
 
 /// A rule for RuleSmoother. The mesh must outlive it. Method has
-/// - choose(places, score, room): the way to the place that it chooses, in the units of the places' ways, where kSearches; else
-/// choose(places);
-/// - kSearches: whether it asks the objective where to go; kPlanar: whether it is none for volumes; kDependsOnIteration: see VertexRule;
-/// - must_gain(): else a vertex goes wherever it may, whatever becomes of the elements;
-/// - begin(sweep); from_above(places, star), a search that goes before choose() where no element is inverted: only where it needs them.
+/// - choose(places, score, room): the way to the place that it chooses, in the units of the places' ways, if kSearches; else
+///   choose(places);
+/// - kSearches: whether it asks the objective where to go; kPlanar: whether it excludes volumes; kDependsOnIteration: see VertexRule;
+/// - must_gain(): else a vertex goes wherever it may, even if elements become worse;
+/// - begin(sweep); from_above(places, star), a search that goes before choose() where no element is inverted: only if it needs them.
 template <class Frame, class Method>
 class Visit {
  public:
@@ -29,7 +29,7 @@ class Visit {
   static constexpr bool kDependsOnIteration = Method::kDependsOnIteration;
   static constexpr std::size_t kGrain = !Method::kSearches ? 128 : std::is_same_v<Frame, Space> ? 8 : 32;  // in space a visit may be long
 
-  /// `kernel`: of free vertices; null: the plain search alone.
+  /// `kernel`: search of free vertices; null: the plain search alone.
   Visit(const SmoothingTask& task, CompositeObjective objective, Method method, std::shared_ptr<const StarKernel<Frame>> kernel = {})
       : judge_(*task.input, std::move(objective), task.search.simd.value_or(best_simd_level()), task.domain),
         mesh_(*task.input),
@@ -45,7 +45,7 @@ class Visit {
   [[nodiscard]] std::span<const Index> others(Index vertex) const { return kernel_ ? kernel_->others(vertex) : std::span<const Index>(); }
   [[nodiscard]] bool slides(Index vertex) const { return domain_.slides(vertex); }
   [[nodiscard]] bool is_guarded() const noexcept { return judge_.composite().guard.has_value(); }
-  /// Where a free vertex goes for which a kernel has found a target: another one where the guard does not let it go there.
+  /// Place of a free vertex for which a kernel has found a target: another one where the guard does not let it go there.
   [[nodiscard]] std::optional<Vec3> confirmed(Index vertex, Vec3 target, PositionView positions, Scratch& scratch) const {
     bool breaks_guard = false;
     if (confirmation(positions, vertex, &breaks_guard)(target) == Confirmation::Gains) return target;
@@ -65,7 +65,7 @@ class Visit {
  private:
   [[nodiscard]] bool waits(bool tangled) const { return judge_.untangling().repair && method_.must_gain() && !tangled; }
 
-  /// `guarded`: see StarScore.
+  /// Chooses a way among places. `guarded`: see StarScore.
   template <class Places>
   [[nodiscard]] auto choose(const Places& places, PositionView positions, Index vertex, bool tangled, bool guarded,
                             Scratch& scratch) const {
@@ -74,8 +74,8 @@ class Visit {
     else
       return method_.choose(places);
   }
-  /// Whether the statistics' formulas let the vertex go to a place. `breaks_guard`: becomes true where the guard alone does not; null: a
-  /// place nearer to where it stands may do then.
+  /// Function that tells whether the statistics' formulas let the vertex go to a place. `breaks_guard`: becomes true where the guard alone
+  /// does not; null: a place nearer to its present one may do then.
   [[nodiscard]] auto confirmation(PositionView positions, Index vertex, bool* breaks_guard, const StarState* before = nullptr) const {
     return [this, positions, vertex, breaks_guard, before](Vec3 target) {
       if (!method_.must_gain()) return Confirmation::Gains;
@@ -86,7 +86,8 @@ class Visit {
       return Confirmation::GainsNothing;
     };
   }
-  /// Goes where the method chooses; where the guard does not let it, where the method chooses among the places to which it does.
+  /// Goes to the place that the method chooses or, where the guard forbids that, to the one that it chooses among places that the guard
+  /// allows.
   template <class Places>
   [[nodiscard]] std::optional<Vec3> go(const Places& places, PositionView positions, Index vertex, bool tangled, Scratch& scratch) const {
     bool breaks_guard = false;
@@ -125,7 +126,7 @@ class Visit {
       return go(SurfacePlaces<Frame>::of(domain_, judge_.mesh(), positions, vertex, scratch.star.scale, scratch.room));
   }
 
-  /// A free vertex.
+  /// Moves a free vertex.
   [[nodiscard]] std::optional<Vec3> move(PositionView positions, Index vertex, Scratch& scratch) const {
     const FreePlaces<Frame> places(mesh_, positions, vertex, scratch.star);
     if (kernel_ && !judge_.untangling().repair) {
@@ -134,7 +135,7 @@ class Visit {
     }
     return search(places, positions, vertex, scratch);
   }
-  /// After a search that did not know of the guard.
+  /// Searches again with the guard, of which the first search did not know.
   [[nodiscard]] std::optional<Vec3> search_guarded(const FreePlaces<Frame>& places, PositionView positions, Index vertex,
                                                    Scratch& scratch) const {
     if constexpr (Method::kSearches) judge_.gather(positions, vertex, scratch.star);
@@ -165,7 +166,7 @@ class Visit {
     return breaks_guard ? search_guarded(places, positions, vertex, scratch) : confirmed;
   }
 
-  /// Stands for the mesh of free vertices on curved surfaces, which have none.
+  /// Replaces the mesh of free vertices on curved surfaces, which have none.
   struct NoMesh {
     explicit NoMesh(const InputMesh& /*input*/) {}
   };
@@ -178,7 +179,7 @@ class Visit {
   bool has_inside_;
 };
 
-/// Smooths by a method, with whatever objective, in the frame of the task's mesh.
+/// Makes the smoother of a method, with any objective, in the frame of the task's mesh.
 template <class Method>
 [[nodiscard]] std::unique_ptr<Smoother> make_visits(const SmoothingTask& task, const CompositeObjective& objective, const Method& method) {
   const auto visits = [&]<class Frame>() -> std::unique_ptr<Smoother> {

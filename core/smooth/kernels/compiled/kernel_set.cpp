@@ -2,7 +2,7 @@
 
 namespace dmoscope {
 
-// Defined in the files of these names.
+// Sets of kernels, defined in the files of these names.
 const KernelSet& kernel_set_baseline();
 const KernelSet& kernel_set_avx2();
 const KernelSet& kernel_set_avx512();

@@ -8,7 +8,7 @@
 #include "core/smooth/kernels/targets/target_mean_kernel_impl.h"
 #include "core/smooth/kernels/targets/target_volume_kernel_impl.h"
 #include "core/smooth/kernels/volume_kernel_impl.h"
-// After the packs:
+// Headers that must come after the packs:
 #include "core/smooth/kernels/compiled/kernel_set.h"
 
 namespace dmoscope {

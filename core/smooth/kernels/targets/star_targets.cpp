@@ -14,14 +14,14 @@ namespace {
 
 constexpr std::size_t kStarsAtOnce = 8192;
 
-/// The targets of corners as they stand in memory.
+/// Writer of the targets of corners in their order in memory.
 class Writer {
  public:
   Writer(const TargetTable& targets, bool crossed, std::vector<double>& to) : targets_(targets), crossed_(crossed), to_(to) {}
 
-  /// Of a triangle, for the edges that leave `corner`. Its matrix is for those that leave the first.
+  /// Writes the target of a triangle for the edges that leave `corner`. Its matrix is for those that leave the first.
   void triangle(Index element, std::size_t corner) {
-    // The first corner's edges by those of this one, as columns.
+    // Gives the first corner's edges by those of this one, as columns.
     static const std::array<SmallMatrix, 3> kFirst{SmallMatrix{2, {{{1, 0, 0}, {0, 1, 0}, {}}}},
                                                    SmallMatrix{2, {{{0, 1, 0}, {-1, -1, 0}, {}}}},
                                                    SmallMatrix{2, {{{-1, -1, 0}, {1, 0, 0}, {}}}}};
@@ -38,7 +38,7 @@ class Writer {
     if (target.space == FormulaSpace::Target) right = at(target.matrices + 4 * matrix) * right;
     if (target.space == FormulaSpace::Stretched) left = at(target.matrices);
     right = first * right;
-    // Turned from the right until it is lower triangular.
+    // Turns the matrix from the right until it is lower triangular.
     const double l11 = std::hypot(right.at[0][0], right.at[0][1]), c = right.at[0][0] / l11, s = right.at[0][1] / l11;
     const double l21 = right.at[1][0] * c + right.at[1][1] * s, l22 = determinant(right) / l11;
     const double size = 1.0 / std::sqrt(l11 * l22);

@@ -1,18 +1,18 @@
 #pragma once
-// The one definition of the lanes' kernel for meshes whose elements have targets. Only the kernel_set_*.cpp include it; see
-// lane_kernel_impl.h for what that asks of the code.
+// Sole definition of the lanes' kernel for meshes whose elements have targets. Only the kernel_set_*.cpp include it; see lane_kernel_impl.h
+// for what that asks of the code.
 
 #include <array>
 
 #include "core/numeric/pack.h"
-// After the packs:
+// Headers that must come after the packs:
 #include "core/search/ratio_search.h"
 #include "core/smooth/kernels/lane_group.h"
 #include "core/smooth/kernels/targets/target_star.h"
 
 namespace dmoscope::lanes {
 
-/// By the mean ratio.
+/// Kernel by the mean ratio.
 template <bool Crossed, class F, class D>
 class TargetKernel : LaneGroup<TargetKernel<Crossed, F, D>, true, F, D> {
  public:
@@ -33,7 +33,7 @@ class TargetKernel : LaneGroup<TargetKernel<Crossed, F, D>, true, F, D> {
 
   explicit TargetKernel(const LaneTask& task) : Base(task) {}
 
-  /// As the elements of LaneGroup::gather_slot are: padded with repeated ones.
+  /// Gathers targets in the order of the elements of LaneGroup::gather_slot: padded with repeated ones.
   void gather_targets(std::size_t slot, Index rank) {
     const StarShape& shape = task_.shapes[rank];
     const double* from = task_.targets + kNumbers * std::size_t{task_.first_target[rank]};
@@ -99,13 +99,13 @@ class TargetKernel : LaneGroup<TargetKernel<Crossed, F, D>, true, F, D> {
 
   alignas(64) double exact_targets_[target_star::kMaxTargets][kNumbers][kWidth];
   alignas(64) float targets_[target_star::kMaxTargets][kNumbers][kWidth];
-  alignas(64) double room_[kWidth];  // for rounding
+  alignas(64) double room_[kWidth];  // room for rounding
   Elements<F, true> elements_;
   std::array<TargetForm<F, Crossed>, target_star::kMaxForms> forms_;
   Rounds rounds_;
 };
 
-/// The kernel with this translation unit's widest packs.
+/// Kernel with this translation unit's widest packs.
 template <class F, class D>
 LaneKernel target_kernel_for(bool crossed) {
   return crossed ? &TargetKernel<true, F, D>::run : &TargetKernel<false, F, D>::run;

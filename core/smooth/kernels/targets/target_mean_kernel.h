@@ -1,25 +1,25 @@
 #pragma once
-// The grid search for the mean of the mean ratio against targets, of a star without inverted elements whose least metric is beyond the
-// threshold. In float, by bounds, it finds which candidates may win, and in double, by packs, which of these does: for certain, or it
-// leaves the star to the plain search. The same code compiled for several processors, chosen at run time; all find the same.
+// Grid search for the mean of the mean ratio against targets, of a star without inverted elements whose least metric is beyond the
+// threshold. In float, by bounds, it finds the candidates that may win, and in double, by packs, the winner: for certain, or it leaves the
+// star to the plain search. The same code compiled for several processors, chosen at run time; all find the same.
 
 #include "core/numeric/simd.h"
 #include "core/smooth/kernels/composite_kernel.h"
 
 namespace dmoscope {
 
-/// A star, its targets and what is raised, as plain data. Lengths are in units of the star's scale. Frame: Plane or Space.
+/// Star, its targets and its aim, as plain data. Lengths are in units of the star's scale. Frame: Plane or Space.
 template <class Frame>
 struct TargetMeanSearch {
   using Offset = OffsetIn<Frame, double>;
 
-  CompositeLists<Frame> star;  // in space of tetrahedra alone
-  /// In the plane as StarTargets has them; in space of each tetrahedron the three rows of W^-1 of its other corners (TargetTetrahedron),
-  /// and K where any is crossed.
+  CompositeLists<Frame> star;  // in space only of tetrahedra
+  /// Targets: in the plane as StarTargets has them; in space for each tetrahedron the three rows of W^-1 of its other corners
+  /// (TargetTetrahedron), and K where any is crossed.
   const double* targets = nullptr;
   double doubt = 0.0;    // how far rounding may change the metric of an element
   double stretch = 1.0;  // how much more than without a target rounding may change its form, at least 1
-  Offset here{};         // where the vertex stands, in mesh units along the axes of offsets: places are rounded there
+  Offset here{};         // present place of the vertex, in mesh units along the axes of offsets: places are rounded there
   double scale = 1.0;
   Offset box{};
   int points = 8, levels = 3;
@@ -28,11 +28,11 @@ struct TargetMeanSearch {
   MeanKind mean = MeanKind::Harmonic;
 };
 
-/// What a place is worth, by the search's formulas.
+/// Score of a place, by the search's formulas.
 struct TargetMeanWorth {
   double least = 0.0;  // far below 0 where a corner is nearly inverted
-  double sum = 0.0;    // what the mean's elements add up, so that it rises with the mean
-  double doubt = 0.0;  // by how much rounding may change that
+  double sum = 0.0;    // sum of the mean's terms, which rises with the mean
+  double doubt = 0.0;  // most that rounding may change the sum
 };
 
 template <class Frame>

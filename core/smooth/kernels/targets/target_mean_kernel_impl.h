@@ -1,19 +1,19 @@
 #pragma once
-// The one definition of the kernel for the mean against targets. Only the kernel_set_*.cpp include it; see lane_kernel_impl.h for
-// what that asks of the code.
+// Sole definition of the kernel for the mean against targets. Only the kernel_set_*.cpp include it; see lane_kernel_impl.h for what that
+// asks of the code.
 
 #include <array>
 #include <limits>
 
 #include "core/numeric/pack.h"
-// After the packs:
+// Headers that must come after the packs:
 #include "core/smooth/kernels/ratio_bounds.h"
 #include "core/smooth/kernels/targets/target_mean_kernel.h"
 #include "core/smooth/kernels/targets/target_star.h"
 
 namespace dmoscope::target_mean {
 
-/// The elements of a star with their targets, in packs of the same number. D: pack of doubles.
+/// Elements of a star with their targets, in packs of the same number. D: pack of doubles.
 template <bool Crossed, class Frame, class D>
 class MeanStar;
 
@@ -42,7 +42,7 @@ class MeanStar<Crossed, Plane, D> {
       for (const auto& form : forms) bounds.take(form);
     });
   }
-  /// Calls take(metric) with that of each element while it returns true. The vertex is at `p`.
+  /// Calls take(metric) with the metric of each element while it returns true. The vertex is at `p`.
   template <class Take>
   void judge(const Vec2<D>& p, const Take& take) const {
     std::size_t next = 0;
@@ -182,7 +182,7 @@ class StarMean {
 
   [[nodiscard]] double floor() const { return task_.threshold > 0.0 ? task_.threshold : 0.0; }
 
-  /// With the vertex at `p`; where the least is below the floor for certain, that alone.
+  /// Score with the vertex at `p`; where the least is below the floor for certain, the least alone.
   [[nodiscard]] Worth worth(const Point& p) const {
     using scalar::min;
     PowerMean<D> mean(task_.mean);
@@ -212,12 +212,12 @@ class StarMean {
     });
     return {least, rising(mean.total()), xsimd::select(near > D(task_.doubt), doubt_of(mean.total(), slopes), D(kUnknown))};
   }
-  /// Rises with the mean.
+  /// Sum of the mean's terms as a number that rises with the mean.
   [[nodiscard]] D rising(const D& total) const {
     return task_.mean == MeanKind::Harmonic || task_.mean == MeanKind::InverseSquare ? D(0.0) - total : total;
   }
-  /// By how much rounding may change a sum, both here and where the plain search adds the mean to the threshold. `slopes`: of the sum by
-  /// its elements' qualities, of a product over it.
+  /// Most that rounding may change a sum, both here and where the plain search adds the mean to the threshold. `slopes`: sum of the slopes
+  /// by its elements' qualities, of a product over it.
   [[nodiscard]] D doubt_of(const D& total, const D& slopes) const {
     const D by_elements = D(2.0 * task_.doubt) * slopes, rounding = D(1e-13) * xsimd::abs(total);
     const D worth(8e-15 * (2.0 + floor())), count(count_);
@@ -260,7 +260,7 @@ class StarMean {
       bounds_.set_needs_of_sum(floor() - task_.doubt, best_ - 4.0 * best_doubt_);
   }
 
-  /// Where a level's candidates stand along the last two axes, in the order of their indices: as CandidateGrid has it.
+  /// Sets a level's candidates along the last two axes, in the order of their indices: as CandidateGrid has them.
   void set_plane(const std::array<double, 3>& centre, const std::array<double, 3>& width) {
     constexpr std::size_t kFirst = kAxes - 2;
     const auto n = static_cast<std::size_t>(task_.points);
@@ -276,7 +276,7 @@ class StarMean {
         from_centre_[axis][k] = static_cast<float>(plane_[axis][k] - centre[kFirst + axis]);
     }
   }
-  /// `x`: in space, the first coordinate of all candidates.
+  /// Evaluates the candidates of a plane. `x`: in space, the first coordinate of all of them.
   void search_plane(double x, const std::array<double, 3>& centre) {
     const std::size_t candidates = static_cast<std::size_t>(task_.points) * static_cast<std::size_t>(task_.points);
     for (std::size_t c = 0; c < candidates; c += kFloats) {
@@ -294,7 +294,7 @@ class StarMean {
       }
     }
   }
-  /// A pack of them, from number `c` on.
+  /// Evaluates a pack of candidates, from number `c` on.
   void look_at(std::size_t c, std::size_t candidates, double x, const std::array<double, 3>& centre) {
     const D first = D::load_aligned(plane_[0] + c), second = D::load_aligned(plane_[1] + c);
     Worth there;
@@ -311,7 +311,7 @@ class StarMean {
       if (!(least[k] >= floor() - task_.doubt)) continue;
       std::array<double, 3> at{plane_[0][c + k], plane_[1][c + k], 0.0};
       if constexpr (kSpace) at = {x, at[0], at[1]};
-      if (at == centre) continue;  // the best so far, once more
+      if (at == centre) continue;  // skips the best so far
       const bool wins = sum[k] > best_ && least[k] > floor() + task_.doubt && doubt[k] < kUnknown;
       const double other = wins ? best_ + best_doubt_ : sum[k] + doubt[k];
       if (!(other < rival_)) rival_ = other;
@@ -320,22 +320,22 @@ class StarMean {
       set_needs();
     }
   }
-  /// A coordinate of candidates, as it is from where the vertex stands once their places are rounded.
+  /// Coordinate of candidates from the vertex's present place once their places are rounded.
   [[nodiscard]] D landed(const D& offset, double here) const { return ((D(here) + offset * D(task_.scale)) - D(here)) / D(task_.scale); }
 
   const TargetMeanSearch<Frame>& task_;
   MeanStar<Crossed, Frame, D> star_;
   double count_ = 0.0;
   double best_ = 0.0, best_doubt_ = 0.0;  // sum
-  double rival_ = 0.0;                    // the most that any other place of the level may be worth
-  std::array<double, 3> at_{};            // where the best is
-  double part_[kMaxPoints];               // an axis' candidates, as parts of the grid's size
+  double rival_ = 0.0;                    // the most that any other place of the level may score
+  std::array<double, 3> at_{};            // best place
+  double part_[kMaxPoints];               // candidates of an axis, as parts of the grid's size
   alignas(64) double plane_[2][kMaxPlane];
   alignas(64) float from_centre_[2][kMaxPlane];
   Bounds bounds_;
 };
 
-/// The kernel with this translation unit's widest packs of doubles, D.
+/// Kernel with this translation unit's widest packs of doubles, D.
 template <class Frame, class D>
 TargetMeanKernel<Frame> kernel_for(bool crossed) {
   if (crossed) return {&StarMean<true, Frame, D>::run, &StarMean<true, Frame, D>::worth_at};

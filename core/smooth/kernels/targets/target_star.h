@@ -1,5 +1,5 @@
 #pragma once
-// A star whose elements have targets, for the fast search by the mean ratio: its forms, and what a place is worth. The same code for packs
+// Star whose elements have targets, for the fast search by the mean ratio: its forms, and the quality of a place. The same code for packs
 // of stars and for one.
 
 #include <cstddef>
@@ -12,16 +12,17 @@
 
 namespace dmoscope::target_star {
 
-/// The most targets that a star in lanes has, and the most forms.
+/// Limits for the targets of a star in lanes, and for its forms.
 inline constexpr std::size_t kMaxTargets = kMaxTriangles + kQuadrilateralTargets * kMaxQuadrilaterals;
 inline constexpr std::size_t kMaxForms = kMaxTriangles + kQuadrilateralTargetForms * kMaxQuadrilaterals;
 static_assert(kMaxForms >= kMaxFan && kMaxTargets >= kMaxFan);
 
-/// By how much K may mix y into x: floats lose the square of that.
+/// Limit for K's mixing of y into x: floats lose the square of that.
 inline constexpr float kMostOblique = 1e3F;
 
-/// Appends a star's forms to `forms`; `cap`: what no place can exceed, for a corner that does not change. Returns where the fast search may
-/// be used: no corner is inverted or nearly so, and floats hold its forms. `at(i)`: CornerTarget i, as StarTargets has them.
+/// Appends a star's forms to `forms`; `cap`: what no place can exceed, for a corner that does not change. Returns the slots for which the
+/// fast search may be used: no corner is inverted or nearly so, and floats hold its forms. `at(i)`: CornerTarget i, as StarTargets has
+/// them.
 template <bool Crossed, class R, class At>
 [[nodiscard]] DMOSCOPE_ANYWHERE auto take_forms(const StarView<R>& star, At at, TargetForm<R, Crossed>* forms, std::size_t& count, R& cap) {
   using scalar::abs, scalar::min;
@@ -48,10 +49,10 @@ template <bool Crossed, class R, class At>
   return ready;
 }
 
-/// Corners that are less than this are not told from inverted ones.
+/// Quality of corners below which they are not told from inverted ones.
 inline constexpr double kSoundRatio = 1e-9;
 
-/// The star's metric with its vertex at p; far below all others where a corner is inverted there.
+/// Metric of a star with its vertex at p; far below all others where a corner is inverted there.
 template <bool Crossed, class R, class At>
 [[nodiscard]] DMOSCOPE_ANYWHERE R quality(const StarView<R>& star, Vec2<R> p, At at) {
   using scalar::min, scalar::select;
@@ -72,8 +73,8 @@ template <bool Crossed, class R, class At>
   return least;
 }
 
-/// How far rounding may change the metric of a corner, that of the statistics' formulas included: with the steepness, and with how much the
-/// target stretches, which the squares of its numbers tell, for its determinant is 1.
+/// Most that rounding may change the metric of a corner, that of the statistics' formulas included: with the steepness, and with how much
+/// the target stretches, which the squares of its numbers tell, for its determinant is 1.
 template <class R>
 [[nodiscard]] DMOSCOPE_ANYWHERE R doubt(const CornerTarget<R>& t) {
   using scalar::max;
@@ -81,7 +82,7 @@ template <class R>
   return scalar::constant<R>(1e-10) * t.steepness * max(R(1), scalar::constant<R>(1e-4) * right * left);
 }
 
-/// `room`: the largest doubt() of the star's targets.
+/// Judges a move. `room`: the largest doubt() of the star's targets.
 [[gnu::always_inline]] [[nodiscard]] DMOSCOPE_ANYWHERE inline visit_rules::Verdict judge(double before, double after, double room,
                                                                                          Vec2<double> step) {
   using visit_rules::Verdict;

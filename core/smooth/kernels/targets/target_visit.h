@@ -1,5 +1,5 @@
 #pragma once
-// One vertex's visit as KernelSet::target_lanes does it, but for one vertex: for a GPU's lanes, and for inspecting it. The same bits.
+// Visit of one vertex, the same as KernelSet::target_lanes makes for many, with the same bits: for a GPU's lanes, and for inspecting it.
 
 #include <array>
 
@@ -10,17 +10,17 @@
 
 namespace dmoscope {
 
-/// By a team of lanes; only the first lane learns the verdict. Task: as FastVisit's.
+/// Visit by a team of lanes; only the first lane learns the verdict. Task: see FastVisit.
 template <bool Crossed, class Task, class Team = Solo>
 class TargetVisit {
  public:
   struct Outcome {
-    bool ready = false;  // false: the star is the rule's for single vertices
+    bool ready = false;  // false: the rule for single vertices must judge the star
     visit_rules::Verdict verdict = visit_rules::Verdict::Stay;
     Displacement to{};
   };
 
-  /// `rank`: of a vertex whose star is not Alone. `targets`: its own, see append_star_targets().
+  /// Takes the `rank` of a vertex whose star is not Alone, and its `targets`, see append_star_targets().
   DMOSCOPE_ANYWHERE TargetVisit(const Task& task, Index rank, const double* targets, const Team& team = {})
       : task_(task), team_(team), targets_(targets), shape_(task.shapes[rank]), origin_(&task.ranked[rank].x) {}
 

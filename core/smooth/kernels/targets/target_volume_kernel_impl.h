@@ -1,11 +1,11 @@
 #pragma once
-// The one definition of the volumes' kernel for tetrahedra that have targets. Only the kernel_set_*.cpp include it; see
-// lane_kernel_impl.h for what that asks of the code.
+// Sole definition of the volumes' kernel for tetrahedra that have targets. Only the kernel_set_*.cpp include it; see lane_kernel_impl.h for
+// what that asks of the code.
 
 #include <limits>
 
 #include "core/numeric/pack.h"
-// After the packs:
+// Headers that must come after the packs:
 #include "core/search/star.h"
 #include "core/smooth/kernels/mean_ratio_search.h"
 #include "core/smooth/kernels/solid_target.h"
@@ -15,7 +15,7 @@
 namespace dmoscope::volumes {
 
 /// Calls take(TargetTetrahedron<R>) with packs of a star's elements, an element per slot; the slots that are left repeat the last one.
-/// `points`: of the star's other vertices. Real: R's number.
+/// `points`: those of the star's other vertices. Real: R's number.
 template <bool Crossed, class R, class Real, class Take>
 [[gnu::always_inline]] inline void for_target_packs(const IndexedStar& star, const VolumeTargets& targets, const Vec3Of<Real>* points,
                                                     const Take& take) {
@@ -31,7 +31,7 @@ template <bool Crossed, class R, class Real, class Take>
           {-(g[0] + g[1] + g[3]), -(g[2] + g[4]), -g[5]}, {g[0], 0.0, 0.0}, {g[1], g[2], 0.0}, {g[3], g[4], g[5]}};
       for (std::size_t k = 0; k < 3; ++k) {
         const Vec3Of<Real>& point = points[star.corners[3 * i + k]];
-        const double* row = of_corner[here.corner ^ static_cast<Index>(k + 1)];  // as turned::tetrahedron
+        const double* row = of_corner[here.corner ^ static_cast<Index>(k + 1)];  // order of turned::tetrahedron
         at[k][0][slot] = point.x;
         at[k][1][slot] = point.y;
         at[k][2][slot] = point.z;
@@ -86,7 +86,7 @@ template <bool Crossed, class D>
   return {least_slot_of(least_before), least_slot_of(least_after)};
 }
 
-/// The kernel with this translation unit's widest packs of floats, F, and of doubles, D.
+/// Kernel with this translation unit's widest packs of floats, F, and of doubles, D.
 template <class F, class D>
 VolumeKernel target_kernel_for(bool crossed) {
   if (crossed) return {&search_levels<TargetSearch<true, F>>, &least_target_ranks<true, D>, nullptr};

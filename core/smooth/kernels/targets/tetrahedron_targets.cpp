@@ -10,9 +10,9 @@ namespace dmoscope {
 
 namespace {
 
-/// By how much K may mix one axis into another: floats lose the square of that.
+/// Limit for K's mixing of one axis into another: floats lose the square of that.
 constexpr double kMostOblique = 1e3;
-/// How far a target may stretch: along no axis, floats lose the square of that.
+/// Limit for the stretch of a target, along any axis: floats lose the square of that.
 constexpr double kMostStretched = 3e3;
 
 SmallMatrix matrix_at(const double* m) { return {3, {{{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, {m[6], m[7], m[8]}}}}; }

@@ -1,5 +1,5 @@
 #pragma once
-// The targets of tetrahedra as KernelSet::target_volume reads them.
+// Targets of tetrahedra as KernelSet::target_volume reads them.
 
 #include <cstdint>
 #include <span>
@@ -14,18 +14,18 @@ namespace dmoscope {
 class TetrahedronTargets {
  public:
   TetrahedronTargets(const TargetTable& targets, const Mesh& mesh);
-  /// Of the elements of a star alone, numbered as it has them.
+  /// Makes the targets of the elements of one star, numbered as it has them.
   TetrahedronTargets(const TargetTable& targets, const Mesh& mesh, std::span<const Incidence> star);
 
-  /// Has any element a target that is crossed (see solid_target.h)?
+  /// Returns whether any element has a target that is crossed (see solid_target.h).
   [[nodiscard]] bool crossed() const noexcept { return crossed_; }
   [[nodiscard]] const double* numbers() const noexcept { return numbers_.data(); }
   [[nodiscard]] std::span<const double> all_numbers() const noexcept { return numbers_; }
-  /// By element: can the kernel search a star that has it?
+  /// By element, non-zero where the kernel can search a star that has it.
   [[nodiscard]] std::span<const std::uint8_t> fits() const noexcept { return fits_; }
-  /// Is there any element for which the kernel is made?
+  /// Returns whether there is any element for which the kernel is made.
   [[nodiscard]] bool any() const noexcept { return any_; }
-  /// Is a star one of tetrahedra whose metric falls as fast as elsewhere, and whose targets floats can hold?
+  /// Returns whether a star has tetrahedra alone, whose metric falls as fast as elsewhere and whose targets floats can hold.
   [[nodiscard]] bool fit(std::span<const Incidence> star) const {
     for (const Incidence& at : star)
       if (fits_[at.element] == 0) return false;

@@ -1,4 +1,4 @@
-// The atoms of an element: their least is its quality as the program judges it, and their derivatives are those of their values.
+// Atoms of an element: their least is its quality as the program judges it, and their derivatives are those of their values.
 
 #include "core/joint/atoms.h"
 
@@ -19,7 +19,7 @@ namespace {
 constexpr std::array kKinds{ElementKind::Triangle,   ElementKind::Quadrilateral, ElementKind::Tetrahedron,
                             ElementKind::Hexahedron, ElementKind::Wedge,         ElementKind::Pyramid};
 
-/// Calls f(kind, metric) with all that joint moves support.
+/// Calls f(kind, metric) for all pairs that joint moves support.
 template <class F>
 int for_all_supported(F f) {
   int count = 0;
@@ -79,7 +79,7 @@ TEST(Atoms, WhatCannotBeSplitSaysWhy) {
   EXPECT_EQ(joint_obstacle(Metric::MeanRatio, 0x3f), "");
 }
 
-/// The least eigenvalue is not below 0: x' H x for many x.
+/// Expects that no eigenvalue is below 0: x' H x for many x.
 template <int D>
 void expect_semidefinite(const AtomFunction<D>& function, const Atom<D>& atom, const AtomEdges<D>& edges, testing::Random& random) {
   constexpr std::size_t kCount = AtomDerivatives<D>::kCount;
@@ -122,7 +122,7 @@ TEST(Atoms, DerivativesAreThoseOfTheValues) {
 }
 
 TEST(Semidefinite, TakesAwayWhatIsNegativeAndNothingElse) {
-  // Eigenvalues 3 along (1, 1) and -1 along (1, -1).
+  // Takes a matrix with eigenvalues 3 along (1, 1) and -1 along (1, -1).
   std::array<double, 4> a{1.0, 2.0, 2.0, 1.0};
   make_semidefinite<2>(a);
   for (const double x : a) EXPECT_NEAR(x, 1.5, 1e-15);

@@ -1,4 +1,4 @@
-// The block Cholesky against a dense one.
+// Block Cholesky factorisation against a dense one.
 
 #include "core/joint/block_cholesky.h"
 
@@ -33,7 +33,7 @@ Adjacency graph_of(Index n, const Edges& edges) {
   return graph;
 }
 
-/// Some of it in parts that do not hang together.
+/// Random graph, with parts that are not connected.
 Adjacency random_graph(Index n, int count, testing::Random& random) {
   Edges edges;
   for (int e = 0; e < count; ++e) {
@@ -73,7 +73,7 @@ Adjacency lattices(Index side, Index count) {
   return graph_of(side * side * count, edges);
 }
 
-/// A symmetric matrix, by rows.
+/// Symmetric matrix, by rows.
 class Dense {
  public:
   explicit Dense(std::size_t n) : n_(n), a_(n * n, 0.0) {}
@@ -103,7 +103,7 @@ class Dense {
   std::vector<double> a_;
 };
 
-/// Places that tell little of the graph.
+/// Random places, which tell little of the graph.
 template <int D>
 std::vector<std::array<double, D>> random_places(const Adjacency& graph, testing::Random& random) {
   std::vector<std::array<double, D>> places(graph.offsets.size() - 1);
@@ -112,7 +112,7 @@ std::vector<std::array<double, D>> random_places(const Adjacency& graph, testing
   return places;
 }
 
-/// Random blocks, and so much on the diagonal that the matrix is positive definite. add(i, j, block) takes each once.
+/// Fills a matrix with random blocks, and so much on the diagonal that it is positive definite. add(i, j, block) takes each once.
 template <int D, class Add>
 void fill(const Adjacency& graph, testing::Random& random, Add add) {
   for (Index i = 0; i + 1 < graph.offsets.size(); ++i) {
@@ -178,9 +178,9 @@ TEST(BlockCholesky, SolvesAsADenseOneDoes) {
   }
 }
 
-constexpr Index kSquare = 50;  // of a lattice whose factor is worth threads
+constexpr Index kSquare = 50;  // side of a lattice whose factor is worth threads
 
-/// The solution for two right-hand sides, one after the other. `by_lattice`: places are those of lattices(kSquare, ...).
+/// Solution for two right-hand sides, one after the other. `by_lattice`: places are those of lattices(kSquare, ...).
 template <int D>
 std::vector<double> solved(const Adjacency& graph, SimdLevel level, bool at_once, ThreadPool* pool = nullptr, bool by_lattice = false) {
   testing::Random random(7);
@@ -219,7 +219,7 @@ TEST(BlockCholesky, HasTheSameBitsForAnySimdLevelAndForTwoSidesAtOnce) {
   expect_same_bits<3>();
 }
 
-/// Where the elimination has branches: the matrix times the solution is the right-hand side.
+/// Expects, of an elimination with branches, that the matrix times the solution is the right-hand side.
 template <int D>
 void expect_small_residual(const Adjacency& graph, ThreadPool* pool) {
   testing::Random random(11);
@@ -273,7 +273,7 @@ TEST(BlockCholesky, HasTheSameBitsForAnyThreads) {
   }
 }
 
-/// In whichever branch of the elimination it is, on several threads.
+/// The bad pivot is in each branch of the elimination in turn, on several threads.
 TEST(BlockCholesky, RefusesABadPivotOnAnyThread) {
   const Adjacency graph = lattices(kSquare, 2);
   ThreadPool pool(3);
@@ -308,7 +308,7 @@ TEST(BlockCholesky, RefusesWhatIsNotPositiveDefinite) {
   EXPECT_FALSE(cholesky.factorise());
 }
 
-/// Wherever in the matrix it is, and a factor that failed leaves no trace.
+/// The bad pivot is at any place of the matrix, and a factor that failed leaves no trace.
 TEST(BlockCholesky, RefusesOneBadPivotAnywhere) {
   const Adjacency graph = lattices(12, 1);
   testing::Random random(5);
@@ -328,7 +328,8 @@ TEST(BlockCholesky, RefusesOneBadPivotAnywhere) {
   for (std::size_t i = 0; i < b.size(); ++i) EXPECT_EQ(b[i], i + 1 < b.size() ? 1.0 : 0.25);
 }
 
-/// On a lattice of n x n vertices the factor has some n^2 log n blocks; in the lattice's own order it would have n^3.
+/// Compares with n^2 log n: on a lattice of n x n vertices the factor has some n^2 log n blocks; in the lattice's own order it would have
+/// n^3.
 TEST(BlockCholesky, DissectionKeepsTheFactorSparse) {
   constexpr Index kSide = 64;
   const Adjacency graph = lattices(kSide, 1);

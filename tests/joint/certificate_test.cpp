@@ -1,4 +1,4 @@
-// The certificate of joint moves: the forces balance, and no direction that was tried raises all that hold one another.
+// Certificate of joint moves: the forces balance, and no direction that was tried raises all holders.
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +23,7 @@ struct Certified {
   JointCluster cluster;
 };
 
-/// The certificate of the whole mesh's minimum: of the last cluster, which nothing raised.
+/// Certificate of the whole mesh's minimum: that of the last cluster, which nothing raised.
 std::optional<Certified> certify(Mesh mesh, Metric metric) {
   const auto made = testing::input(std::move(mesh));
   const dmoscope::Run run = testing::make_run(made, {.metric = metric});
@@ -43,7 +43,7 @@ std::optional<Certified> certify(Mesh mesh, Metric metric) {
   return found;
 }
 
-/// The least quality of the elements that hold one another, all vertices displaced.
+/// Least quality of the holders, with all vertices displaced.
 double least_of_holders(const Certified& c, Metric metric, const std::vector<Vec3>& displaced) {
   double least = std::numeric_limits<double>::infinity();
   for (const JointCluster::Active& one : c.cluster.active)
@@ -64,11 +64,11 @@ void expect_balance(const Certified& c, const std::string& what) {
   for (const Index v : c.cluster.vertices) EXPECT_LT(length(total[v]), 0.05 * greatest) << what << ": vertex " << v;
 }
 
-/// Random directions, and those in which single holders pull: the worst of the holders gains no more than the gap in any.
+/// Tries random directions, and those in which single holders pull: the worst of the holders gains no more than the gap in any.
 void expect_no_direction_raises(const Certified& c, Metric metric, const std::string& what) {
   testing::Random random(7);
   const double before = least_of_holders(c, metric, c.positions);
-  double edge = 0.0;  // of the cluster, about
+  double edge = 0.0;  // rough edge length in the cluster
   for (const JointCluster::Force& one : c.cluster.forces)
     for (const JointCluster::Force& other : c.cluster.forces)
       if (one.element == other.element) edge = std::max(edge, length(c.positions[one.vertex] - c.positions[other.vertex]));
@@ -102,7 +102,7 @@ TEST(JointCertificate, ForcesBalanceAndNoDirectionRaisesAllOfPlanarMeshes) {
         if (!testing::defined_for_all(metric, mesh)) continue;
         const std::string what = fmt::format("cells {}, seed {}, {}", static_cast<int>(cells), seed, dmoscope::info(metric).name);
         const auto found = certify(std::move(mesh), metric);
-        // Where every element is ideal there is nothing that pulls.
+        // Skips meshes of ideal elements alone: nothing pulls there.
         if (!found || least_of_holders(*found, metric, found->positions) > 0.999) continue;
         ++certified;
         expect_balance(*found, what);

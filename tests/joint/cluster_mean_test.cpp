@@ -18,7 +18,7 @@ namespace {
 
 using namespace testing;
 
-/// A regular hexagon of radius 1 about a vertex that is displaced.
+/// Regular hexagon of radius 1 about a vertex that is displaced.
 Mesh displaced_fan(double x, double y) {
   Mesh mesh;
   mesh.positions.push_back({x, y, 0.0});
@@ -27,7 +27,7 @@ Mesh displaced_fan(double x, double y) {
   return mesh;
 }
 
-/// Where the sum of 1 / quality puts the fan's vertex, all above a floor.
+/// Place where the sum of 1 / quality is least for the fan's vertex, with all qualities above a floor.
 Vec3 placed_by_the_sum(double x, double y, double floor) {
   const auto mesh = input(displaced_fan(x, y));
   std::vector<std::uint8_t> fixed(7, 1);
@@ -92,7 +92,7 @@ Ended raised(const InputMesh& mesh, std::span<const std::uint8_t> fixed, const J
   return {before.minimum, harmonic_mean(mesh, positions, metric), before.inverted};
 }
 
-/// The boundary, too, out of order, so that no lattice is the best.
+/// Mesh with all vertices displaced, those of the boundary, too, so that no lattice is the best.
 Mesh roughened(Mesh mesh, double spacing) {
   std::mt19937 random(5);
   const auto offset = [&] { return 0.15 * spacing * (static_cast<double>(random()) / 4294967296.0 * 2.0 - 1.0); };
@@ -116,7 +116,7 @@ TEST(ClusterMean, RaisesTheMeanAndGivesUpNoMoreOfTheMinimumThanTheGap) {
     SCOPED_TRACE(name);
     const auto held = input(mesh);
     const dmoscope::Run run = make_run(held, {});
-    const Ended plain = raised(*held, run.fixed(), {.gap = 0.5 * kGap});  // as near as the minimum comes before the mean rises
+    const Ended plain = raised(*held, run.fixed(), {.gap = 0.5 * kGap});  // the minimum's limit before the mean rises
     const Ended tight = raised(*held, run.fixed(), {.gap = 1e-4});
     const Ended both = raised(*held, run.fixed(), {.gap = kGap, .mean = MeanKind::Harmonic});
     EXPECT_GE(both.minimum, (1.0 - 1.01 * kGap) * tight.minimum);

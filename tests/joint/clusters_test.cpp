@@ -16,7 +16,7 @@ namespace {
 
 using namespace testing;
 
-/// A run that stands where DMO ends, or near it.
+/// Run that stands where DMO ends, or near it.
 dmoscope::Run after_dmo(const std::shared_ptr<const InputMesh>& mesh, std::uint64_t iterations) {
   dmoscope::Run run = make_run(mesh, {.layers = LayerRule::Free});
   Progress progress;
@@ -97,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(Wanted, JointClustersOfRealMeshes,
 
 class JointClustersThatSlide : public ::testing::TestWithParam<Wanted> {};
 
-/// More than single vertices that slide reach (0.2552, 0.2602, 0.8609), and than joint moves with the boundary fixed (0.2643, 0.2272,
+/// Raises more than sliding single vertices (0.2552, 0.2602, 0.8609), and than joint moves with the boundary fixed (0.2643, 0.2272,
 /// 0.8165).
 TEST_P(JointClustersThatSlide, RaiseWhatNeitherAloneCan) {
   const auto file = std::filesystem::path(DMOSCOPE_SHARED_DIR) / "meshes" / GetParam().file;

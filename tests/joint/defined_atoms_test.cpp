@@ -21,9 +21,9 @@ using ::testing::HasSubstr;
 
 struct Split {
   const char* formula;
-  double ceiling = std::numeric_limits<double>::infinity();  // a part that no vertex changes: no atom says it
+  double ceiling = std::numeric_limits<double>::infinity();  // quality of a part that no vertex changes: no atom has it
 };
-/// Formulas of all that splits: corners, edges, the least of numbers under functions that rise and fall, and what has no part.
+/// Formulas of all that splits: corners, edges, the least of numbers under functions that rise and fall, and formulas without parts.
 constexpr std::array kFormulas{Split{"2*det/norm^2"},
                                Split{"exp(-1/det)"},
                                Split{"min(l12, l23)/max(l12, l23)"},
@@ -108,7 +108,7 @@ double reached(const std::shared_ptr<const InputMesh>& mesh, Metric metric, cons
   return run.statistics().movable_minimum;
 }
 
-/// By the metric and by its formula, both judged as they are.
+/// Expects that joint moves by a metric and by its formula get as far, both judged as they are.
 void expect_as_far(const std::shared_ptr<const InputMesh>& mesh, Metric metric) {
   const Metric formula = parse_metric(std::string("formula:") + std::string(formula_of(metric)));
   const double built_in = reached(mesh, metric), typed = reached(mesh, formula);
@@ -121,7 +121,7 @@ TEST(JointFormulas, GetAsFarAsTheMetric) {
     expect_as_far(plane, metric);
 }
 
-/// Below 0 nearly everywhere, it has its optimum where the mean ratio has.
+/// Uses a formula below 0 nearly everywhere, with its optimum where the mean ratio has it.
 TEST(JointFormulas, MayBeNegative) {
   const auto mesh = testing::input(testing::lattice(12, 0.35, 3));
   const double plain = reached(mesh, Metric::MeanRatio), lowered = reached(mesh, parse_metric("formula:2*det/norm^2 - 5"));
@@ -129,7 +129,7 @@ TEST(JointFormulas, MayBeNegative) {
   EXPECT_LT(lowered, 0.0);
 }
 
-/// The longest edge against the shortest does not see inversion: elements stay sound all the same.
+/// Uses the longest edge against the shortest, which does not see inversion: elements stay sound all the same.
 TEST(JointFormulas, ThatAreBlindToInversionInvertNothing) {
   const auto mesh = testing::input(testing::lattice(12, 0.35, 3));
   const Metric blind = parse_metric("formula:min(l12, l23, l13)/max(l12, l23, l13)");

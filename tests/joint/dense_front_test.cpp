@@ -1,4 +1,4 @@
-// Eliminating columns of dense fronts, against the textbook.
+// Elimination of columns of dense fronts, against the textbook.
 
 #include "core/joint/dense_front.h"
 
@@ -12,7 +12,7 @@
 namespace dmoscope {
 namespace {
 
-/// A random front.
+/// Random front.
 struct Front {
   Front(std::size_t rows, std::size_t columns, std::uint64_t seed)
       : height(rows), width(columns), pivots(rows * columns), rest((rows - columns) * (rows - columns)) {

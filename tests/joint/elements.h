@@ -13,7 +13,7 @@
 
 namespace dmoscope::testing {
 
-/// Where the corners of the ideal element of a kind stand, but for their scale.
+/// Corners of the ideal element of a kind, but for their scale.
 inline std::vector<Vec3> ideal_corners(ElementKind kind) {
   const double h = std::sqrt(3.0) / 2.0;
   switch (kind) {
@@ -33,7 +33,7 @@ inline std::vector<Vec3> ideal_corners(ElementKind kind) {
   return {};
 }
 
-/// One element with its corners displaced at random by up to `jitter` edges.
+/// Element with its corners displaced at random by up to `jitter` edges.
 inline Mesh random_element(ElementKind kind, double jitter, Random& random) {
   Mesh mesh;
   mesh.positions = ideal_corners(kind);
@@ -65,7 +65,7 @@ AtomEdges<D> edges_of(const Atom<D>& atom, std::span<const Vec3> positions) {
   return edges;
 }
 
-/// Gradient and Hessian against central differences of the value and of the gradient.
+/// Compares gradient and Hessian with central differences of the value and of the gradient.
 template <int D>
 void expect_derivatives(const AtomFunction<D>& function, const Atom<D>& atom, const AtomEdges<D>& edges, double reference) {
   constexpr std::size_t kCount = AtomDerivatives<D>::kCount;

@@ -1,4 +1,4 @@
-// The places at which elements are watched while they untangle, and the system that moves their vertices.
+// Places at which elements are watched while they untangle, and the system that moves their vertices.
 
 #include "core/joint/foldover_free.h"
 
@@ -63,7 +63,7 @@ TEST(DeterminantSamples, AreOneInIdealElements) {
   EXPECT_TRUE(inner_samples<2>(ElementKind::Quadrilateral).empty());
 }
 
-/// Derivatives of place_in() by differences.
+/// Compares with derivatives of place_in() by differences.
 TEST(DeterminantSamples, InnerOnesAreThoseOfTheTrilinearMap) {
   Random random(2);
   const Mesh mesh = testing::random_element(ElementKind::Hexahedron, 0.3, random);
@@ -85,7 +85,7 @@ TEST(DeterminantSamples, InnerOnesAreThoseOfTheTrilinearMap) {
   EXPECT_EQ(next, samples.size());
 }
 
-/// A matrix of random blocks that are outweighed by the diagonal.
+/// Uses a matrix of random blocks that are outweighed by the diagonal.
 TEST(BlockConjugate, SolvesAsTheBlockCholeskyDoes) {
   constexpr Index kVertices = 700;
   Random random(3);

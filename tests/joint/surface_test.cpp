@@ -1,5 +1,5 @@
 // Joint moves on curved surfaces: their atoms are the elements as the program judges them, a flat part of a surface gets as far as the
-// plane does, and what moves stays on the surface and near the input.
+// plane does, and vertices stay on the surface and near the input.
 
 #include <algorithm>
 #include <cmath>
@@ -19,14 +19,14 @@ namespace {
 
 using namespace testing;
 
-/// A turn of space that leaves no axis where it was.
+/// Rotates a point of space so that no axis stays where it was.
 Vec3 turned(Vec3 p) {
   const double a = 0.7, b = 1.1;
   const Vec3 q{std::cos(a) * p.x - std::sin(a) * p.y, std::sin(a) * p.x + std::cos(a) * p.y, p.z};
   return {q.x, std::cos(b) * q.y - std::sin(b) * q.z, std::sin(b) * q.y + std::cos(b) * q.z};
 }
 
-/// An element whose corners are displaced at random in all of space, and another at its first edge that stands up.
+/// Element whose corners are displaced at random in all of space, and another at its first edge that stands up.
 Mesh bent_element(ElementKind kind, testing::Random& random) {
   Mesh mesh = random_element(kind, 0.2, random);
   for (Vec3& p : mesh.positions) p.z += random(-0.3, 0.3);
@@ -36,7 +36,7 @@ Mesh bent_element(ElementKind kind, testing::Random& random) {
   return mapped(std::move(mesh), turned);
 }
 
-/// The least of the first element's atoms is its quality, and their derivatives are those of their values.
+/// Expects that the least of the first element's atoms is its quality, and that their derivatives are those of their values.
 void expect_atoms_judge(const AtomFunction<3>& function, const std::vector<Atom<3>>& atoms, const QualityContext& context, Metric metric,
                         int& sound) {
   const std::span<const Vec3> positions = context.mesh.positions;
@@ -67,7 +67,7 @@ TEST(SurfaceAtoms, JudgeElementsAsTheProgramDoes) {
         ASSERT_TRUE(mesh->is_surface());
         std::vector<Atom<3>> atoms;
         append_atoms<3>(mesh->mesh.elements, row.metric, 0, atoms);
-        // As it is; where most elements lie in a plane; and against normals that are given.
+        // Tries the mesh as it is; with most elements in a plane; and with given normals.
         Geometry geometry = mesh->geometry;
         geometry.mostly_flat = i % 3 == 1;
         std::vector<Vec3> normals;
@@ -100,7 +100,7 @@ TEST(SurfaceAtoms, JudgeByFormulasAndTargetsLikewise) {
   EXPECT_GT(sound, 30);
 }
 
-/// How far joint moves get.
+/// Minimum that joint moves reach.
 double reached(const std::shared_ptr<const InputMesh>& mesh, RunParameters parameters, unsigned threads = 1) {
   parameters.method = "joint";
   dmoscope::Run run = testing::make_run(mesh, parameters, threads);
@@ -110,8 +110,8 @@ double reached(const std::shared_ptr<const InputMesh>& mesh, RunParameters param
   return run.statistics().movable_minimum;
 }
 
-/// A part of a surface that is flat, and turned somewhere, is worth what the same mesh is in the plane: there joint moves have edges of two
-/// coordinates, and other atoms.
+/// Compares a flat part of a surface, turned somewhere, with the same mesh in the plane: there joint moves have edges of two coordinates,
+/// and other atoms.
 TEST(SurfaceJoint, GetsAsFarAsInThePlane) {
   for (const Cells cells : {Cells::Triangles, Cells::Quadrilaterals}) {
     const Mesh flat = lattice(7, 0.35, 21, cells);
@@ -136,7 +136,7 @@ TEST(SurfaceJoint, StaysOnTheSurfaceAndNearTheInput) {
   EXPECT_GT(expect_kept_by("joint", surfaces(), kSanitized ? 11 : 6, kSanitized ? 1 : 2), kSanitized ? 20U : 200U);
 }
 
-/// A can whose rims and ends are its feature edges: all that is promised, densely looked at, and the same bits by any number of threads.
+/// Uses a can whose rims and ends are its feature edges: checks all that is promised, densely, and the same bits by any number of threads.
 TEST(SurfaceJoint, RaisesACansMinimumWithinTheBound) {
   const Mesh can = wound(24, 6, false, false, 5, Cells::Triangles, on_cylinder);
   const auto mesh = testing::input(can);

@@ -1,5 +1,5 @@
 #pragma once
-// Sound meshes of all kinds of elements whose free vertices are tangled: where they stood is a solution.
+// Sound meshes of all kinds of elements whose free vertices are tangled: their places before are a solution.
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace dmoscope::testing {
 
-/// What becomes of the free vertices, or of those in a part of the mesh.
+/// Movement that tangles the free vertices, or those in a part of the mesh.
 enum class Tangling { Swapped, Folded, Scrambled, Turned, Jolted, Collapsed, Mirrored, Strewn };
 inline constexpr std::array kTanglings{Tangling::Swapped, Tangling::Folded,    Tangling::Scrambled, Tangling::Turned,
                                        Tangling::Jolted,  Tangling::Collapsed, Tangling::Mirrored,  Tangling::Strewn};
@@ -24,7 +24,7 @@ inline const char* name_of(Tangling tangling) {
   return kNames[static_cast<std::size_t>(tangling)];
 }
 
-/// Over the unit square or cube, straight or bent round a corner.
+/// Kinds of sound meshes, over the unit square or cube, straight or bent round a corner.
 enum class Sound { Triangles, Quadrilaterals, MixedPlane, Tetrahedra, Hexahedra, Wedges, MixedVolume };
 inline constexpr std::array kSounds{Sound::Triangles, Sound::Quadrilaterals, Sound::MixedPlane, Sound::Tetrahedra,
                                     Sound::Hexahedra, Sound::Wedges,         Sound::MixedVolume};
@@ -34,7 +34,7 @@ inline const char* name_of(Sound sound) {
 }
 inline bool is_volume(Sound sound) { return sound >= Sound::Tetrahedra; }
 
-/// A sound mesh with so many cells along each side, its vertices a little off the lattice.
+/// Sound mesh with so many cells along each side, its vertices a little off the lattice.
 inline Mesh sound_mesh(Sound sound, Index cells, bool bent, unsigned seed) {
   constexpr std::array kPlane{Cells::Triangles, Cells::Quadrilaterals, Cells::Mixed};
   constexpr std::array kSpace{test::Fill::Tetrahedra, test::Fill::Hexahedra, test::Fill::Wedges, test::Fill::Mixed};
@@ -49,7 +49,7 @@ inline Mesh sound_mesh(Sound sound, Index cells, bool bent, unsigned seed) {
   return mesh;
 }
 
-/// The mesh with vertices that are not fixed elsewhere. `cell`: about an edge's length.
+/// Mesh with vertices elsewhere that are not fixed. `cell`: rough length of an edge.
 inline Mesh tangled(Mesh mesh, std::span<const std::uint8_t> fixed, Tangling tangling, double cell, bool volume, std::uint64_t seed) {
   Random random(seed);
   std::vector<Vec3>& at = mesh.positions;

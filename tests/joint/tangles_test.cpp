@@ -19,7 +19,7 @@ using namespace testing;
 
 struct Tried {
   int tangled = 0, sound = 0;
-  std::string left{};  // inverted, by mesh
+  std::string left{};  // names of the meshes with elements left inverted
 };
 
 /// Tangles a sound mesh; where that inverts elements, untangles it by one call.

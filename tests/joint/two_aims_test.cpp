@@ -26,7 +26,7 @@ RunParameters two_aims(std::string_view combination, const char* method = "joint
   return parameters;
 }
 
-/// The least of both metrics where something can move.
+/// Least of both metrics among elements that can move.
 struct Leasts {
   double first, second;
 };
@@ -59,7 +59,7 @@ std::vector<Case> cases() {
           {"hexahedra", test::volume_grid(4, test::Fill::Hexahedra, 0.3, 3), "scaled-jacobian:0.8:mean-ratio"}};
 }
 
-/// In the order of the two aims no worse than what single vertices reach; and on the way the first never falls back, nor the second.
+/// Compares, in the order of the two aims, with what single vertices reach; on the way neither the first falls back, nor the second.
 TEST(JointByTwoAims, GetsAtLeastAsFarAsSingleVertices) {
   for (const Case& one : cases()) {
     SCOPED_TRACE(one.name);
@@ -96,8 +96,8 @@ TEST(JointByTwoAims, GetsAtLeastAsFarAsSingleVertices) {
   }
 }
 
-/// One vertex in a star: where the second metric alone would bring the first below its threshold, the best place beyond it, as a fine net
-/// of places finds it.
+/// Moves one vertex in a star: where the second metric alone would bring the first below its threshold, it finds the best place beyond it,
+/// as a fine net of places does.
 TEST(JointByTwoAims, ReachesTheBestPlaceBeyondTheThreshold) {
   int bound = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
@@ -108,7 +108,7 @@ TEST(JointByTwoAims, ReachesTheBestPlaceBeyondTheThreshold) {
       positions[0] = place;
       return compute_statistics(context, positions, metric, std::span<const Index>(), nullptr).minimum;
     };
-    // The best place of a net around one, finer and finer.
+    // Finds the best place of a net around one, finer and finer.
     const auto best = [&](const auto& worth) {
       Vec3 middle{};
       double width = 1.6, most = -std::numeric_limits<double>::infinity();
@@ -141,7 +141,7 @@ TEST(JointByTwoAims, ReachesTheBestPlaceBeyondTheThreshold) {
   EXPECT_GE(bound, 3);  // the threshold counted
 }
 
-/// Six-sided cells that were drawn about: only the equilateral lattice has the best of both.
+/// Uses displaced six-sided cells: only the equilateral lattice has the best of both.
 TEST(JointByTwoAims, ReachesTheLatticeThatHasTheBestOfBoth) {
   Mesh mesh;
   testing::Random random(3);
@@ -172,7 +172,7 @@ TEST(JointByTwoAims, TheSameBitsByAnyNumberOfThreads) {
   }
 }
 
-/// A threshold that nothing is at or below is none, and one that is never reached leaves the first metric alone.
+/// Checks that a threshold that nothing is at or below is none, and that one that is never reached leaves the first metric alone.
 TEST(JointByTwoAims, WhereOneAimAloneCountsItIsThatAim) {
   const auto mesh = testing::input(lattice(9, 0.35, 4));
   const auto alone = [&](Metric metric) {

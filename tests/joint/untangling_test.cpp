@@ -1,4 +1,4 @@
-// Where elements are inverted, joint moves first turn them: never more of them, never a lower minimum, and most tangles come undone.
+// Untangling by joint moves, which they do first: never more inverted elements, never a lower minimum, and most tangles come undone.
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,7 @@ namespace {
 
 using namespace testing;
 
-/// A mesh with what a run would hold of it.
+/// Mesh with the data that a run would hold of it.
 struct Tangle {
   explicit Tangle(std::shared_ptr<const InputMesh> of, Metric by = Metric::MeanRatio)
       : mesh(std::move(of)),
@@ -32,7 +32,7 @@ struct Tangle {
     return compute_statistics(mesh->quality_context(), positions, metric, run.immovable(), nullptr);
   }
   std::optional<JointCluster> call() { return clusters.raise_worst(positions, state, options, progress); }
-  /// Calls while they untangle.
+  /// Calls joint moves while they untangle.
   void untangle() {
     while (judge().inverted > 0) {
       const auto cluster = call();
@@ -108,7 +108,7 @@ TEST(Untangling, JudgesByTheRunsMetric) {
   EXPECT_GT(tried, 5U);
 }
 
-/// Inner vertices at random places of the mesh's box, or moved by up to so many units.
+/// Puts inner vertices at random places of the mesh's box, or moves them by up to so many units.
 void scatter(Tangle& tangle, double amount, bool volume, std::uint64_t seed) {
   Random random(seed);
   Vec3 low = tangle.positions[0], high = low;
@@ -135,7 +135,7 @@ Mesh bent_round(Mesh mesh) {
   return mesh;
 }
 
-/// How many of these come undone: moved across, and thrown about.
+/// Expects that most tangles come undone, of vertices moved across and of vertices thrown about.
 void expect_undone(const std::function<Mesh(unsigned)>& make, bool volume, double cell, const std::string& what) {
   int moved = 0, thrown = 0, tangled = 0;
   constexpr unsigned kSeeds = 5;
@@ -181,7 +181,7 @@ TEST(Untangling, MovesFewVerticesWhereFewElementsAreInverted) {
   EXPECT_EQ(tangle.state.untanglings, 1U);
 }
 
-/// Rings around what is inverted meet and make a patch that is too large to be solved at once: there are fewer rings then.
+/// Takes inverted elements whose rings meet and make a patch that is too large to be solved at once: there are fewer rings then.
 TEST(Untangling, TakesFewerRingsWherePatchesWouldBeTooLarge) {
   Mesh mesh = test::volume_grid(12, test::Fill::Hexahedra, 0.05, 2);
   constexpr Index kRow = 13;
@@ -191,13 +191,13 @@ TEST(Untangling, TakesFewerRingsWherePatchesWouldBeTooLarge) {
       for (const Index k : {3U, 6U, 9U}) mesh.positions[at(i, j, k)] = mesh.positions[at(i, j, k)] + Vec3{1.4 / 12, 0.0, 0.0};
   Tangle tangle(input(std::move(mesh)));
   ASSERT_GE(tangle.judge().inverted, 27U);
-  tangle.options.whole_at_most = 200;  // of 1,331 vertices
+  tangle.options.whole_at_most = 200;  // the mesh has 1,331 vertices
   tangle.untangle();
   EXPECT_EQ(tangle.judge().inverted, 0U);
 }
 
 TEST(Untangling, LeavesAloneWhatCannotBeTurned) {
-  // A vertex of the boundary has crossed the mesh: what it inverts is held by fixed vertices.
+  // Moves a vertex of the boundary across the mesh: the elements that it inverts are held by fixed vertices.
   Mesh mesh = lattice(5, 0.0, 1);
   mesh.positions[2] = {0.4, 1.2, 0.0};
   Tangle tangle(input(std::move(mesh)));

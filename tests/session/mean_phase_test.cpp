@@ -272,7 +272,7 @@ TEST(MeanPhase, ACancelledRunGoesOnWithTheSameBits) {
   EXPECT_TRUE(same_bits(cancelled.positions(), straight.positions()));
 }
 
-/// Of all elements, which are sound.
+/// Harmonic mean of all elements, which are sound.
 double harmonic_mean(const dmoscope::Run& run) {
   std::vector<double> qualities(run.input().mesh.elements.size());
   element_qualities(run.input().quality_context(), run.positions(), run.parameters().metric, nullptr, qualities);

@@ -1,4 +1,4 @@
-// Universal files (.unv of I-deas, as Salome, Gmsh and others write them): the datasets of nodes, elements and groups.
+// Reader and writer of universal files (.unv of I-deas, as Salome, Gmsh and others write them): the datasets of nodes, elements and groups.
 // https://www.ceas3.uc.edu/sdrluff/all_files.php (datasets 2411, 2412, 2477 and their predecessors)
 
 #include <algorithm>
@@ -25,10 +25,10 @@ namespace dmoscope {
 namespace {
 
 constexpr std::size_t kWholeColumns = 10;
-constexpr std::string_view kMark = "-1";  // alone on a line: a dataset begins, or ends
+constexpr std::string_view kMark = "-1";  // alone on a line, begins or ends a dataset
 constexpr std::string_view kBlanks = " \t";
 
-/// The words of a line, at most `most`; where they touch, by columns.
+/// Words of a line, at most `most`; where they touch, by columns.
 std::vector<std::string_view> words_of(std::string_view line, std::size_t most, std::size_t columns) {
   std::vector<std::string_view> words;
   for (std::string_view left = trimmed(line); !left.empty() && words.size() < most; left = trimmed(left)) {
@@ -45,7 +45,7 @@ std::vector<std::string_view> words_of(std::string_view line, std::size_t most, 
   return words;
 }
 
-/// A dataset of nodes: how many columns a coordinate has, and whether all stand behind the node's number.
+/// Dataset of nodes: how many columns a coordinate has, and whether all coordinates stand behind the node's number.
 struct NodeSet {
   std::string_view number;
   std::size_t columns;
@@ -83,7 +83,7 @@ class UnvReader {
 
   [[nodiscard]] bool is_blank() const { return trimmed(lines_.line()).empty(); }
   [[nodiscard]] bool is_mark() const { return trimmed(lines_.line()) == kMark; }
-  /// The next line of the dataset; false at its end.
+  /// Goes to the next line of the dataset; false at its end.
   [[nodiscard]] bool next_record() {
     if (!lines_.next()) lines_.fail("the file ends within a dataset, which ends with -1");
     return !is_mark();
@@ -133,7 +133,8 @@ class UnvReader {
     }
   }
 
-  /// By the number of nodes, for there are many kinds of plates and solids; nothing: no piece of a mesh (springs, masses).
+  /// Shape of an element by its number of nodes, for there are many kinds of plates and solids; none: no element of a mesh (springs,
+  /// masses).
   [[nodiscard]] std::optional<CellShape> shape_of_kind(std::int32_t kind, std::int32_t nodes) const {
     constexpr std::int32_t kFirstFlat = 41, kFirstSolid = 101, kFirstOther = 121;
     if (kind >= kFirstOther) return std::nullopt;
@@ -162,7 +163,7 @@ class UnvReader {
       const auto shape = shape_of_kind(kind, count);
       need_record("the nodes of an element");
       constexpr std::int32_t kFirstFlat = 41;
-      if (kind < kFirstFlat && wholes().size() == 3) need_record("the nodes of a beam");  // behind its orientation and sections
+      if (kind < kFirstFlat && wholes().size() == 3) need_record("the nodes of a beam");  // the nodes follow its orientation and sections
       Cell cell{number, 0, shape.value_or(CellShape::Point), {}, place};
       const std::int64_t property = lines_.integer(nth(head, 2, "the property of an element"), "the property of an element");
       if (property > 0 && property < 0x7fffffff) cell.property = static_cast<std::int32_t>(property);
@@ -184,7 +185,8 @@ class UnvReader {
     }
   }
 
-  /// Each has a number, how many entities it has as the last of eight, a name, and then kind, number and two more of each.
+  /// Reads groups. Each has its number, the number of its entities as the last of eight words, its name, and then kind, number and two more
+  /// words of each entity.
   void groups() {
     constexpr std::int64_t kNode = 7, kElement = 8;
     while (next_record()) {
@@ -228,7 +230,7 @@ class UnvReader {
 
   /// Gives each cell its origin: the groups that have it, and its property, where cells have several.
   void name_cells() {
-    std::map<std::int32_t, std::vector<std::uint32_t>> groups_of;  // by cell's number
+    std::map<std::int32_t, std::vector<std::uint32_t>> groups_of;  // by number of the cell
     for (std::uint32_t g = 0; g < groups_.size(); ++g)
       for (const std::int32_t cell : groups_[g].cells) groups_of[cell].push_back(g);
     const auto other = [this](const Cell& cell) { return cell.property != cells_.front().property; };
@@ -252,13 +254,13 @@ class UnvReader {
   DataLines lines_;
   NumberedMesh numbered_;
   Mesh mesh_;
-  std::size_t columns_ = 0;  // of a coordinate; 0: there was no node yet
+  std::size_t columns_ = 0;  // columns of a coordinate; 0: there was no node yet
   std::vector<Cell> cells_;
   std::vector<NamedSet> groups_;
   std::vector<OriginLabels> labels_;
 };
 
-/// A number in the columns of one that it replaces, with that one's letter for the power of ten. `token`: the one it replaces.
+/// Number in the columns of one that it replaces, with that one's letter for the power of ten. `token`: the one it replaces.
 std::string number_like(std::string_view token, double value, std::size_t width, std::atomic<std::size_t>& rounded) {
   constexpr std::size_t kAllDigits = 24;  // -1.2345678901234567E-100
   std::string text = fmt::format("{:.16E}", value);
@@ -272,7 +274,7 @@ std::string number_like(std::string_view token, double value, std::size_t width,
   return text;
 }
 
-/// Numbers end in the columns where those ended that they replace, as far as there is room.
+/// Writes the file with new numbers, which end in the columns where those ended that they replace, as far as there is room.
 Notes patch_unv(AtomicFile& file, const Mesh& mesh, const MovedMesh& moved, const IoContext& context) {
   constexpr std::size_t kGrain = 16384;
   const SourceFile& source = *mesh.source;
@@ -292,7 +294,7 @@ Notes patch_unv(AtomicFile& file, const Mesh& mesh, const MovedMesh& moved, cons
           part << bytes.substr(at, end - at);
         } else {
           const std::string text = number_like(token, to, source.layout().width, rounded);
-          const std::size_t least = at == 0 || bytes[at - 1] == '\n' || bytes[at - 1] == '\r' ? 0 : 1;  // blanks before it
+          const std::size_t least = at == 0 || bytes[at - 1] == '\n' || bytes[at - 1] == '\r' ? 0 : 1;  // number of blanks before it
           part << std::string(std::max(least, end - at > text.size() ? end - at - text.size() : 0), ' ') << text;
         }
         at = end;

@@ -1,5 +1,6 @@
 #pragma once
 // Atoms: the smooth pieces of quality that joint moves work with.
+//
 // An element's quality is the least of its atoms', and each atom's is a smooth function of the D edges that leave its first vertex: a
 // triangle or tetrahedron as a whole, each corner of any other element, and for a metric with kinks each corner or edge of a simplex that
 // may be its least. Formulas and targets name their pieces themselves (DefinedAtoms).

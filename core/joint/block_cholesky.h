@@ -98,7 +98,7 @@ class BlockCholesky {
   std::vector<Block> values_;                 // blocks on the diagonal, then those below it
   std::vector<Place> places_;                 // places of the supernodes
   std::vector<std::vector<Index>> children_;  // children of the supernodes
-  std::vector<Branch> branches_;              // ascending; one thread each
+  std::vector<Branch> branches_;              // ascending; each for one thread
   std::vector<std::size_t> trunk_;            // all other nodes, ascending
   std::vector<double> factor_, rests_;
   std::vector<std::vector<double>> rooms_;  // work space of each branch and of the trunk

@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kFirstRings = 3, kMostRings = 64;
-constexpr int kMostHalvings = 4;  // for a way that would invert elements
-constexpr int kThirdGrowth = 2;   // from this growth on a cluster may become the whole mesh
+constexpr int kMostHalvings = 4;  // number of times that a way is halved that would invert elements
+constexpr int kThirdGrowth = 2;   // growth from which on a cluster may become the whole mesh
 constexpr double kEarlyGap = 0.05, kEarlyRim = 0.02;
 constexpr double kActiveSlack = 2e-3, kActiveMultiplier = 0.01;
 constexpr double kSameLevel = 1e-3, kSameMinimum = 1e-4;  // relative
@@ -96,7 +96,7 @@ void ClusterSearch<D>::begin() {
   state_.pass_began_at = -kInfinity;
 }
 
-/// Fixes vertices of elements that are not beyond the threshold, if there are two aims, and closes atoms without other vertices.
+/// Freezes vertices of elements that are not beyond the threshold of the first of two aims, and leaves out atoms without other vertices.
 template <int D>
 void ClusterSearch<D>::keep_first() {
   const InputMesh& input = mesh_.input();

@@ -16,7 +16,7 @@ namespace dmoscope {
 template <int D>
 class ClusterSearch {
  public:
-  /// `threshold`: that of the first of two aims, to which `mesh` or `first` belongs; else +infinity.
+  /// Begins a call. `threshold`: that of the first of two aims, to which `mesh` or `first` belongs; else +infinity.
   ClusterSearch(const JointMesh<D>& mesh, double threshold, const JointMesh<D>* first, const JointSliding& sliding,
                 std::span<Vec3> positions, JointState& state, const JointOptions& options, Progress& progress);
   ~ClusterSearch();  // takes back unfinished moves
@@ -82,7 +82,7 @@ class ClusterSearch {
   std::vector<double> qualities_;                   // qualities of all atoms at the start
   std::vector<std::uint8_t> allowed_, inside_;      // for all vertices: may move, are in the cluster
   std::vector<std::uint8_t> frozen_;                // for all vertices: belong to an inverted element
-  std::vector<std::pair<Index, Vec3>> moved_from_;  // in the order of the moves
+  std::vector<std::pair<Index, Vec3>> moved_from_;  // old places, in the order of the moves
   Solved solved_;
   int newton_steps_ = 0, solutions_ = 0;
   bool holds_ = false;  // whether sliding vertices keep their places

@@ -42,7 +42,7 @@ class DefinedAtoms {
   /// Pieces of the metric in elements of one kind, in one space.
   struct OfKind {
     std::span<const FormulaPiece> pieces;
-    std::vector<std::uint8_t> frames;   // by piece: the corner that its atom is at
+    std::vector<std::uint8_t> frames;   // by piece, the corner that its atom is at
     std::vector<std::uint8_t> guarded;  // corners that have an atom of their own
   };
   [[nodiscard]] const OfKind& of(ElementKind kind, FormulaSpace space) const {

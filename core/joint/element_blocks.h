@@ -27,7 +27,7 @@ class ElementBlocks {
   ElementBlocks(const FoldoverFreeProblem<D>& problem, ThreadPool* pool);
 
   void clear();
-  /// `factor`: of the gradient alone.
+  /// Adds the derivatives of an element's function to matrix and gradient.
   void add(std::size_t element, const Derivatives& derivatives);
   /// Solves for the step from -gradient, with `damping` times the diagonal added, in directions that vertices can go. False: the matrix is
   /// not positive definite.
@@ -45,7 +45,7 @@ class ElementBlocks {
   /// Matrix; a volume's factor would be dense, so it is not factorised.
   std::conditional_t<D == 2, BlockCholesky<D>, BlockConjugate<D>> matrix_;
   std::vector<typename BlockCholesky<D>::Slot> slots_;  // slots of each element's pairs of free corners, one element after another
-  std::vector<std::size_t> first_slot_;                 // by element
+  std::vector<std::size_t> first_slot_;                 // offset in slots_, by element
   std::vector<double> gradient_;
 };
 

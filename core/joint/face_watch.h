@@ -13,7 +13,7 @@ namespace dmoscope {
 /// Checks faces of sliding vertices at the positions that it was given. Domain and bound must outlive it.
 class FaceWatch {
  public:
-  /// `positions`: those at the begin.
+  /// Begins with `positions`.
   FaceWatch(const Domain& domain, const DeviationBound& limit, std::span<const Vec3> positions);
   /// Adds a vertex that may move. `beneath`: its place on a surface; none on a curve.
   void add(Index vertex, const std::optional<FacetPlace>& beneath);

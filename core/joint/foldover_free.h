@@ -1,10 +1,11 @@
 #pragma once
 // Turns inverted elements the right way round by moving all free vertices together: a foldover-free map (Garanzha, Kaporin, Kudryavtseva,
 // Protais, Ray and Sokolov 2021, "Foldover-free maps in 50 lines of code", ACM Transactions on Graphics 40(4)), by Newton's method.
-// With T the map from an ideal element at a place of an element and J its determinant, it minimises the sum over places of (|T|^2 / D) /
-// chi(J)^(2 / D) + theta (J^2 + 1) / chi(J),   chi(J) = (J + sqrt(epsilon^2 + J^2)) / 2, finite for any J while epsilon > 0, which falls
-// towards 0: a wall at J = 0 that inverted elements can still pass. The places are the corners; once these are sound, also inner places of
-// elements that are not proved to be valid inside.
+//
+// With T the map from an ideal element at a place of an element and J its determinant, it minimises the sum over places of
+//   (|T|^2 / D) / chi(J)^(2 / D) + theta (J^2 + 1) / chi(J),   chi(J) = (J + sqrt(epsilon^2 + J^2)) / 2,
+// finite for any J while epsilon > 0, which falls towards 0: a wall at J = 0 that inverted elements can still pass. The places are the
+// corners; once these are sound, also inner places of elements that are not proved to be valid inside.
 
 #include <array>
 #include <functional>

@@ -72,7 +72,7 @@ class InteriorPoint {
   JointIterate<D> at_;
   // Quantities of the step under way.
   std::vector<AtomDerivatives<D>> derivatives_;        // derivatives of a batch of atoms
-  std::vector<std::array<double, kEdges>> gradients_;  // by edges
+  std::vector<std::array<double, kEdges>> gradients_;  // gradients by edges
   std::vector<double> ratios_, changes_, new_values_;  // multiplier / slack, multipliers' steps
   std::vector<double> direction_, tau_direction_;      // dx, and its part that goes with dtau
   std::vector<double> force_;                          // sum of mu / slack * gradient

@@ -1,5 +1,6 @@
 #pragma once
 // Joint moves: raise a mesh's minimum where no single vertex can, one cluster of vertices at a time, and say why they stop.
+//
 // A cluster grows around the worst element until what holds it lies inside; then the optimality conditions of the cluster are those of the
 // whole mesh: to first order no joint move at all raises all its active elements.
 

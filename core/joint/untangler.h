@@ -1,5 +1,6 @@
 #pragma once
 // Untangling by joint moves: one call of JointClusters::raise_worst that turns as many inverted elements the right way round as it can.
+//
 // Patches are the free vertices within some rings of elements around the inverted ones, each connected one a problem of its own, with its
 // rim held. Elements that a patch leaves inverted are tried again with more rings, up to the whole mesh. A patch moves where it has fewer
 // inverted elements than before and the least quality of the elements that it changed is no lower, by the program's own judgement.
@@ -65,7 +66,7 @@ class Untangler {
   const JointOptions& options_;
   Progress& progress_;
   std::size_t most_together_;
-  std::vector<std::pair<Index, Vec3>> moved_from_;  // in the order of the moves
+  std::vector<std::pair<Index, Vec3>> moved_from_;  // old places, in the order of the moves
   std::vector<Index> vertices_;                     // vertices of the patches that rose
   double before_, after_;                           // least quality of the elements that changed
   int newton_steps_ = 0, solutions_ = 0;

@@ -17,9 +17,9 @@ inline constexpr double kLeastRise = 1e-6;
 ///   moves raised what they can change. The minimum does not rise noticeably any more there, but goes on to cost the mean. Where another
 ///   phase follows, any rise counts: it begins with the best state, and must not lower the minimum.
 /// - For any other method: fewest inverted elements, then greatest minimum, then greatest movable minimum, then greatest mean.
-/// - For a run with two aims, which gives up some of the first for the second: the last. For a run by one metric, never one that is worse
-///   than the input by fewest inverted elements, then greatest minimum (a rise of less than kLeastRise, or a thousandth where that is less,
-///   is none), then greatest mean. Among equals the last.
+/// - For a run with two aims, which gives up some of the first for the second: the last.
+/// For a run by one metric, never one that is worse than the input by fewest inverted elements, then greatest minimum (a rise of less than
+/// kLeastRise, or a thousandth where that is less, is none), then greatest mean. Among equals the last.
 class BestState {
  public:
   /// Use of the best state: as the result that is written, or as the begin of the next phase, which must not lower the minimum by anything.

@@ -16,9 +16,9 @@ namespace dmoscope {
 
 struct CrossingFaces {
   std::uint64_t before = 0, after = 0;  // pairs, in the input and in the run's present state
-  double max_deviation = 0.0;           // of the run
-  /// "12 pairs of faces cross each other, and 3 in the input. The bound of deviation lets parts of a surface meet that are nearer to each
-  /// other: a smaller max-deviation than 0.001 keeps them apart."
+  double max_deviation = 0.0;           // greatest deviation of the run
+  /// Sentence for a person: "12 pairs of faces cross each other, and 3 in the input. The bound of deviation lets parts of a surface meet
+  /// that are nearer to each other: a smaller max-deviation than 0.001 keeps them apart."
   [[nodiscard]] std::string sentence() const;
 };
 

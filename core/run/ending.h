@@ -21,8 +21,8 @@ struct LeftInverted {
   Index around = 0;              // number of inverted elements around that vertex
   Vec3 place{};                  // position of that vertex
   std::string why_fixed{};       // see Run::why_fixed
-  /// "3 elements stay inverted. Look at element 17 and at vertex 4 at (1.5, 2), which is in 3 of them; it lies on the boundary, which
-  /// stays."
+  /// Sentence for a person: "3 elements stay inverted. Look at element 17 and at vertex 4 at (1.5, 2), which is in 3 of them; it lies on
+  /// the boundary, which stays."
   [[nodiscard]] std::string sentence() const;
 };
 
@@ -35,19 +35,19 @@ struct LeftInverted {
 /// Warning that goes with methods that do not optimise, wherever they are chosen or described.
 inline constexpr std::string_view kMayMakeWorse = "may make elements worse";
 
-/// "the start" for 0, else "iteration 12".
+/// Name of an iteration: "the start" for 0, else "iteration 12".
 [[nodiscard]] std::string iteration_name(std::uint64_t iteration);
 
-/// "laplace may make elements worse: the best it passed through is iteration 2, not iteration 202"; empty for a method that optimises, and
-/// where the best is the last.
+/// Warning: "laplace may make elements worse: the best it passed through is iteration 2, not iteration 202"; empty for a method that
+/// optimises, and where the best is the last.
 [[nodiscard]] std::string worse_than_best(const RunParameters& parameters, std::uint64_t best, std::uint64_t last);
 
 /// Minimum and mean at the end of an iteration, against the input: "minimum 0.301 -> 0.428, mean 0.781 -> 0.654".
 [[nodiscard]] std::string course_text(std::span<const IterationRecord> records, std::uint64_t iteration);
 
-/// "the mean fell from 0.957 (iteration 2) to 0.844 for the sake of the worst element; a second phase raises it and keeps the minimum".
-/// Empty where the mean has not fallen by more than 0.005 since no element has been inverted, and for a run that raises the mean, has two
-/// aims, or does not optimise. `iteration`: the one at whose end the run stands.
+/// Sentence on the mean: "the mean fell from 0.957 (iteration 2) to 0.844 for the sake of the worst element; a second phase raises it and
+/// keeps the minimum". Empty where the mean has not fallen by more than 0.005 since no element has been inverted, and for a run that raises
+/// the mean, has two aims, or does not optimise. `iteration`: the one at whose end the run stands.
 [[nodiscard]] std::string mean_given_up(const RunParameters& parameters, std::span<const IterationRecord> records, std::uint64_t iteration);
 
 /// Says what a method that does not optimise made worse: "laplace made elements worse: the minimum fell from 0.653 to 0.573". Empty where

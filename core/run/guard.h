@@ -15,7 +15,7 @@ struct GuardRule {
   friend bool operator==(const GuardRule&, const GuardRule&) = default;
 };
 
-/// "mean-ratio:input", "scaled-jacobian:0.2"; "off" for none.
+/// Words of a guard: "mean-ratio:input", "scaled-jacobian:0.2"; "off" for none.
 [[nodiscard]] std::string to_text(const std::optional<GuardRule>& rule);
 /// Reads the words of to_text(). Throws UsageError.
 [[nodiscard]] std::optional<GuardRule> parse_guard(std::string_view text);

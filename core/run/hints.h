@@ -49,7 +49,7 @@ struct UntanglingHint {
   std::string method;            // the method that gets further
   Index left = 0;                // elements that it leaves inverted
   std::uint64_t iterations = 0;  // number of iterations that it took
-  /// "angle-based leaves 0 of them after 12 iterations"
+  /// Sentence for a person: "angle-based leaves 0 of them after 12 iterations".
   [[nodiscard]] std::string sentence() const;
 };
 

@@ -28,7 +28,7 @@ struct VisitOrder {
   friend bool operator==(const VisitOrder&, const VisitOrder&) = default;
 };
 
-/// "natural" or "shuffle:SEED".
+/// Words of an order: "natural" or "shuffle:SEED".
 [[nodiscard]] std::string to_text(const VisitOrder& order);
 /// Reads the words of to_text(). Throws UsageError.
 [[nodiscard]] VisitOrder parse_order(std::string_view word);
@@ -51,7 +51,7 @@ struct RunParameters {
   double corner_angle = StandingRule{}.corner_angle;    // degrees; where the boundary slides
   double feature_angle = StandingRule{}.feature_angle;  // degrees; where the boundary of a volume slides
   Kinds kinds{};                                        // kinds of vertices and edges that the user sets against the angles
-  double joint_gap = JointOptions{}.gap;                // of joint moves, see JointOptions::gap
+  double joint_gap = JointOptions{}.gap;                // gap of joint moves, see JointOptions::gap
   double max_deviation = 1e-3;                          // limit for the boundary, as a share of the diagonal of the mesh's box
   FieldRules fields{};                                  // treatment of nodal fields when the mesh is written
   Backend backend = Backend::Auto;
@@ -84,7 +84,7 @@ struct ParameterInfo {
 
   /// Returns whether the run reads it. `surface`: whether the mesh is a curved surface, where all vertices slide whatever the rule says.
   [[nodiscard]] bool read_by(const RunParameters& parameters, bool surface) const;
-  /// `doc`, with the range of a number and, where not all methods read it, those that do.
+  /// Help of a parameter: `doc`, with the range of a number and, where not all methods read it, those that do.
   [[nodiscard]] std::string help() const;
 };
 /// Table of all parameters that are said in one word; method, metric, objectives and fixed vertices have words of their own.

@@ -10,7 +10,7 @@
 namespace dmoscope {
 
 enum class Verdict { Better, Same, Worse };
-/// "better", "same" or "worse".
+/// Name of a verdict: "better", "same" or "worse".
 [[nodiscard]] std::string_view name(Verdict verdict);
 
 /// One figure of a mesh, before and after.
@@ -20,7 +20,7 @@ struct CardFigure {
   double before = 0.0, after = 0.0;
   Verdict verdict = Verdict::Same;
   std::string kept_by{};  // the option that would have kept it; empty: none does
-  /// "mean of mean ratio 0.957 -> 0.844".
+  /// Phrase for a person: "mean of mean ratio 0.957 -> 0.844".
   [[nodiscard]] std::string phrase() const;
   /// Phrase without the metric.
   [[nodiscard]] std::string short_phrase() const;

@@ -23,7 +23,7 @@ struct TrialBegin {
 /// Limits for a trial.
 struct TrialBudget {
   std::uint64_t iterations = 20;      // iterations of the phase that is tried
-  std::uint64_t visits = 2'000'000;   // in all; those of volumes count tenfold
+  std::uint64_t visits = 2'000'000;   // visits in all; those of volumes count tenfold
   std::function<bool()> go_on{};      // asks whether to go on; no: the trial is given up; empty: yes
   std::function<bool()> time_left{};  // asks whether time is left; no: the trial ends with the iterations that it has done; empty: yes
 };

@@ -52,7 +52,7 @@ struct PlainComposite {
 template <class Frame>
 struct DensityTarget {
   using Offset = OffsetIn<Frame, double>;
-  Offset offset{};    // from the vertex's position
+  Offset offset{};    // offset from the vertex's position
   double edge = 0.0;  // mean edge of the star
   /// Density of a place, 1 / (1 + d^2 / h^2); `at`: relative to the vertex's position.
   [[nodiscard]] DMOSCOPE_ANYWHERE double density(Offset at) const {

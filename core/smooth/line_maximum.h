@@ -14,6 +14,7 @@ struct LineFraction {
 
 /// Returns the t from [low, high], which contains 0, at which the least of the fractions is largest; among equals one near 0. All fractions
 /// must rise to one maximum in [low, high] and fall from there on, none need be different from the others. Not empty.
+///
 /// It lies where a fraction has its own maximum or a rising and a falling one cross, a root of a cubic (Rangarajan and Lew compare all of
 /// these). The least fraction at any t says on which side of t it is, and which fraction bounds it from there; the two bounds' crossing is
 /// the next t. That ends after a few rounds.

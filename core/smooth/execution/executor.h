@@ -13,7 +13,7 @@ struct Executor {
   std::unique_ptr<Smoother> smoother;
   Backend backend = Backend::Cpu;  // never Auto
   std::string reason;              // for an accelerator its description; for cpu why no accelerator, empty where none was wanted
-  std::string warning;             // for a person: an accelerator should have been used and failed; usually empty
+  std::string warning;             // a sentence for a person where an accelerator should have been used and failed; usually empty
 };
 
 /// Throws UsageError with the reason when `wanted` names a backend that is not there.

@@ -41,9 +41,9 @@ class Kernel {
   static constexpr bool kBounded = !std::is_same_v<Frame, Curved> && M == Metric::MeanRatio;
   static constexpr bool kCut = std::is_same_v<Frame, Plane> && M == Metric::MeanRatio;
   /// Returns whether bounds pay. In the plane an exact look costs little more than a bound: only where the mean is raised, too, bounds pay.
-  /// Where the second metric is judged first, mostly a few elements tell as much.
+  /// With the second metric judged first, mostly a few elements tell as much.
   [[nodiscard]] bool is_bounded() const { return task_.second == Second::Mean || (kSpace && !is_by_second()); }
-  /// Returns whether a place can win by the second metric alone.
+  /// Returns whether a place can win only by its second metric.
   [[nodiscard]] bool is_by_second() const { return second_metric_ != nullptr && best_ > task_.threshold; }
 
   static bool has_room(const Task& task) {
@@ -216,7 +216,7 @@ class Kernel {
   /// that is not either.
   D worth(const Point& p, D best) {
     if (least_second_ > 0.0 && !xsimd::any(second_rank_.least(task_.star, p, second_, least_second_) > D(least_second_))) return best;
-    // Judges the second metric first where places can win by it alone: mostly a few elements tell.
+    // Judges the second metric first where places can win only by it: mostly a few elements tell.
     const bool by_second = is_by_second();
     const D second = by_second ? second_metric_(task_.star, p, second_, D(task_.threshold), best) : best;
     if (by_second && !xsimd::any(second > best)) return best;
@@ -373,7 +373,7 @@ class Kernel {
   }
 
   const Task& task_;
-  Sieve<D> first_, second_;  // for the two metrics
+  Sieve<D> first_, second_;  // states of the two metrics
   SecondMetric<Frame, D> second_metric_ = nullptr;
   SecondRank<Frame, D> second_rank_;
   double least_second_ = 0.0;       // the rank that the second metric must exceed; 0: unknown

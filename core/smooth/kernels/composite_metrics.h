@@ -65,7 +65,7 @@ struct Sieve {
     for (; i > 0; --i) order[i] = order[i - 1];
     order[0] = k;
   }
-  std::uint16_t order[kMaxSimplices];  // of the simplices
+  std::uint16_t order[kMaxSimplices];  // order in which simplices are looked at
   bool keeps_others;
   // Qualities of the elements with the vertex at the places evaluated last:
   std::array<D, kMaxSimplices> quality;

@@ -71,7 +71,7 @@ class FastVisit {
   }
 
  private:
-  static constexpr std::size_t kPoints = 8;  // as in RatioSearch
+  static constexpr std::size_t kPoints = 8;  // same as in RatioSearch
   static constexpr bool kQuadrilaterals = formulas::kDefinedForQuadrilaterals<M, Vec2<float>>;
   static constexpr bool kBlind = visit_rules::kBlind<M, Vec2<float>>;
 

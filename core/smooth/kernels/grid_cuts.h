@@ -2,6 +2,7 @@
 // Grid of candidates from which half-spaces are cut off: the rest is convex, so an interval of each row of candidates. A search that knows
 // of each candidate it looks at a half-space without better ones needs to look at few (Levin 1965, Newman 1965: the method of centres of
 // gravity; here the middle of the longest row).
+//
 // Only the kernels' sources include it; see lane_kernel_impl.h for what that asks of the code.
 
 #include <cmath>

@@ -1,8 +1,10 @@
 #pragma once
 // Grid search by the least of many mean ratios in space, with a look at few candidates only.
+//
 // A form (MeanRatioForm) ranks above t where v - sqrt(t) s^(3/2) is positive. The determinant v is affine in the candidate's place, and
 // s^(1/2), the length of an affine function, is convex; so that set is convex, and the tangent at a candidate that is no better tells a
 // half-space in which none is. The candidate that is found is the one that a look at all would find.
+//
 // Only the kernels' sources include it; see lane_kernel_impl.h for what that asks of the code.
 
 #include <bit>

@@ -4,6 +4,7 @@
 // the vertex's distance from a wanted place is below one. A candidate that is no better than the best so far lies outside of one of these
 // sets, and the tangent there cuts off a half-plane of them. In float, with room for all rounding: the few candidates that are left are for
 // an exact look.
+//
 // Only composite_kernel_impl.h includes it; see lane_kernel_impl.h for what that asks of the code.
 
 #include <array>

@@ -1,6 +1,7 @@
 #pragma once
 // Mean ratio of tetrahedra that have targets: forms (see volume_form.h) of J = K A W^-1, whose columns are sums of the corners' places
 // times numbers of the target.
+//
 // Turning J or W^-1 changes nothing, so W^-1 may be lower triangular and K upper triangular; and neither does their size, so that their
 // determinants are 1.
 

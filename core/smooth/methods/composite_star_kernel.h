@@ -77,7 +77,7 @@ class CompositeStarKernel final : public StarKernel<Frame> {
   CompositeSearch<Frame> aims_;
   CompositeKernel<Frame> kernel_;
   IndexedStars stars_;
-  std::optional<CompositeComparison> comparison_;  // in space
+  std::optional<CompositeComparison> comparison_;  // none in the plane
 };
 
 }  // namespace dmoscope

@@ -85,7 +85,7 @@ struct DefinedSearch<Frame>::Visit {
     std::ranges::stable_sort(room.elements, {}, [](const auto& element) { return element.here; });
   }
 
-  /// Origin of the offsets along an axis; 0 but for programs in mesh units.
+  /// Origin of the offsets along an axis; only programs in mesh units need it.
   [[nodiscard]] double origin(Vec3 here, std::size_t axis) const {
     if constexpr (std::is_same_v<Frame, Plane>) return coordinate(search.judge_.mesh.frame.project(here), axis);
     return coordinate(here, axis);

@@ -20,7 +20,7 @@ class DefinedSearch {
   DefinedSearch(const DefinedStarJudge<Frame>& judge, const SearchParameters& parameters);
 
   struct Found {
-    Offset offset{};     // in units of `scale`
+    Offset offset{};     // offset in units of `scale`
     double scale = 1.0;  // mesh units
     Offset box{};        // box of the star's other vertices, in units of scale
   };

@@ -58,7 +58,7 @@ class Grid {
 
  private:
   SearchParameters parameters_;
-  CompositeKernel<Plane> flat_kernel_ = nullptr;  // for curved surfaces
+  CompositeKernel<Plane> flat_kernel_ = nullptr;  // kernel for curved surfaces
   CompositeSearch<Plane> flat_aims_;
 };
 

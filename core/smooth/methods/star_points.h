@@ -17,7 +17,7 @@ template <class Frame>
 struct StarPoints {
   using Offset = OffsetIn<Frame, double>;
   std::vector<Vec3> at;         // positions
-  std::vector<Offset> offsets;  // from the vertex, in units of scale: see MeshStar
+  std::vector<Offset> offsets;  // offsets from the vertex, in units of scale: see MeshStar
   Offset box{};                 // box of the offsets
   double scale = 1.0;
 };

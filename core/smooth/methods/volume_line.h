@@ -1,5 +1,6 @@
 #pragma once
 // Values of the corners of a volume's star with its vertex on a line, and the place on it where the least of them is largest.
+//
 // With the vertex at t along the line the determinant J of a corner's three edges is a t + b, also where all of them move, since two that
 // move alike cancel. The edges against the ideal corner, A, are affine in t, so that |A|^2 is c t^2 + e t + f and |A|^3 convex: J / |A|^3,
 // which rises with the mean ratio, is worth some constant or more on one stretch of the line alone. The least of such functions is like

@@ -101,7 +101,7 @@ class CurvePlaces {
   }
 
  private:
-  static constexpr int kHalvings = 3;      // for a way that it may not go all of
+  static constexpr int kHalvings = 3;      // number of times that a way is halved
   static constexpr double kAround = 1e-6;  // share of the stretch: distance of two places next to each other
 
   CurvePlaces(const SlidingDomain& domain, const MeshView<Frame>& mesh, PositionView positions, Index vertex, double scale,

@@ -40,7 +40,7 @@ class SlidingDomain {
     FacetPlace place{};  // facet: begin of the look for another position; kNoIndex: not found yet
     bool valid = false;  // whether `place` belongs to the position
   };
-  mutable std::vector<Found> found_;  // by vertex
+  mutable std::vector<Found> found_;  // last places, by vertex
 };
 
 }  // namespace dmoscope

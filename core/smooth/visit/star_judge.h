@@ -185,7 +185,7 @@ class StarScore {
 
   const CompositeObjective& composite_;
   const JudgedStar<Frame>* star_;
-  DensityTarget<Frame> target_;  // in units of the star's scale
+  DensityTarget<Frame> target_;  // target in units of the star's scale
   std::optional<Untangling> untangling_;
   DefinedStars<Frame> defined_;
   CompositeListKernel<Frame> list_kernel_;

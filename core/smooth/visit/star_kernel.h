@@ -16,8 +16,8 @@ class StarKernel {
   using Offset = OffsetIn<Frame, double>;
   struct Found {
     bool ready = false;                 // false: the plain search must take the star
-    Offset way{};                       // to the winner, in mesh units; 0: the vertex is at its best place
-    std::optional<StarState> before{};  // its star, where known
+    Offset way{};                       // way to the winner, in mesh units; 0: the vertex is at its best place
+    std::optional<StarState> before{};  // star at the vertex's present place, where known
   };
   StarKernel() = default;
   StarKernel(const StarKernel&) = delete;

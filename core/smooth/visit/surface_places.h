@@ -94,7 +94,7 @@ class SurfacePlaces {
   }
 
  private:
-  static constexpr int kHalvings = 3;  // for a way that it may not go all of
+  static constexpr int kHalvings = 3;  // number of times that a way is halved
 
   SurfacePlaces(const SlidingDomain& domain, const MeshView<Frame>& mesh, PositionView positions, Index vertex, double scale,
                 SearchRoom<Frame>& room, const FacetPlace& place, const Plane& plane)

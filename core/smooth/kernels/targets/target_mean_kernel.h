@@ -13,7 +13,7 @@ template <class Frame>
 struct TargetMeanSearch {
   using Offset = OffsetIn<Frame, double>;
 
-  CompositeLists<Frame> star;  // in space only of tetrahedra
+  CompositeLists<Frame> star;  // in space, tetrahedra alone
   /// Targets: in the plane as StarTargets has them; in space for each tetrahedron the three rows of W^-1 of its other corners
   /// (TargetTetrahedron), and K where any is crossed.
   const double* targets = nullptr;

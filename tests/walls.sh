@@ -40,6 +40,10 @@ breach "only gpu includes CUDA" "${include}${cuda}" app $(find tests -mindepth 1
 
 breach "ui's state, analysis and commands know no ImGui" "${include}${imgui}" ui/state ui/analysis ui/commands
 
+# A comment stands alone: a verb or noun phrase, not the end of a sentence whose beginning is elsewhere. tests/fuzz has what a script makes.
+breach "a comment begins in the middle of a sentence" '^[[:space:]]*//+ ?(Of|What|Where|Likewise|Who|As|The same) ' core gpu mpi render ui app library python \
+  $(find tests -mindepth 1 -maxdepth 1 -type d ! -name fuzz)
+
 # layers MODULE FOLDER...: within a module, sources include headers of their own folder and of those named before it. "." is the module
 # itself.
 layers() {

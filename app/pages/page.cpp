@@ -45,7 +45,7 @@ for (const table of document.querySelectorAll('table')) {
   const made = Array.from(table.tBodies[0].rows).filter(row => row.className !== 'kept');
   heads.forEach((head, column) => {
     head.querySelector('button').addEventListener('click', () => {
-      // As in the window: numbers begin with the largest; then the other way; then as they were made.
+      // Orders rows as the window does: numbers begin with the largest; then the other way; then as they were made.
       const ways = head.classList.contains('number') ? ['descending', 'ascending'] : ['ascending', 'descending'];
       const way = ways[ways.indexOf(head.getAttribute('aria-sort')) + 1];
       heads.forEach(other => other.removeAttribute('aria-sort'));

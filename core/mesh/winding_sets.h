@@ -49,7 +49,7 @@ class WindingSets {
   std::vector<std::uint8_t> against_;
 };
 
-/// What the box of a mesh measures at most: its diagonal to the power of the dimension.
+/// Bound of the measure of a mesh's box: its diagonal to the power of the dimension.
 inline double box_measure(const Mesh& mesh, int dimension) {
   if (mesh.positions.empty()) return 1.0;
   Vec3 low = mesh.positions[0], high = low;
@@ -60,7 +60,7 @@ inline double box_measure(const Mesh& mesh, int dimension) {
   return std::pow(length(high - low), dimension);
 }
 
-/// What a component's elements vote for when its first element keeps its winding.
+/// Votes of a component's elements when its first element keeps its winding.
 struct WindingVote {
   Index members = 0;
   std::int64_t balance = 0;        // positive minus negative elements

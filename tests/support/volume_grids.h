@@ -11,7 +11,7 @@
 
 namespace dmoscope::test {
 
-/// What becomes of the cells of a block.
+/// Elements that the cells of a block are split into.
 enum class Fill { Hexahedra, Tetrahedra, Mixed, Wedges };
 
 /// n x n x n cells over the unit cube: hexahedra, six tetrahedra each along the same diagonal, two wedges each, or by columns hexahedra,

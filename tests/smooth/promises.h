@@ -71,7 +71,7 @@ inline void expect_promise_one(const Specimen& specimen, dmoscope::Run& run, std
     const Statistics all_before = run.statistics();
     if (visits == 0) at_start = all_before;
     const Untangling rule = run.sweep().untangling;
-    // Where many are moved together to untangle, one star may fall.
+    // One star may fall in an iteration that moves many vertices together to untangle.
     const bool together =
         visits == 0 && !mesh.is_surface() && untangles_jointly(run.history().records(), run.moment().iteration, mesh.has_strays);
     run.step(StepUnit::Class, progress);

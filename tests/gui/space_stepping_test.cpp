@@ -95,7 +95,7 @@ class VolumeStepping : public app::HeadlessTest {
   void SetUp() override {
     HeadlessTest::SetUp();
     if (IsSkipped()) return;
-    Mesh mesh = test::volume_grid(4, test::Fill::Hexahedra, 0.1);
+    Mesh mesh = test::volume_grid(4, test::Fill::Hexahedra, 0.3);
     mesh.positions[124] = {0.87, 0.87, 0.87};  // the corner in front, so that the worst element is seen
     Progress progress;
     write_mesh(folder_.path() / "block.vtk", mesh, mesh.positions, progress);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/joint/block_cholesky.h"
@@ -19,14 +20,7 @@ template <int D>
     for (const Index v : atom.vertices)
       for (const Index w : atom.vertices)
         if (v != w && v < problem.free_vertices && w < problem.free_vertices) neighbours[v].push_back(w);
-  Adjacency graph;
-  for (std::vector<Index>& each : neighbours) {
-    std::sort(each.begin(), each.end());
-    each.erase(std::unique(each.begin(), each.end()), each.end());
-    graph.neighbours.insert(graph.neighbours.end(), each.begin(), each.end());
-    graph.offsets.push_back(static_cast<Index>(graph.neighbours.size()));
-  }
-  return graph;
+  return adjacency_of(std::move(neighbours));
 }
 
 /// Spreads derivatives by an atom's edges over its vertices: vertex k >= 1 has those of edge k - 1, the first vertex the negative sum. The

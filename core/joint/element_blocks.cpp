@@ -19,14 +19,7 @@ Adjacency element_adjacency(const FoldoverFreeProblem<D>& problem) {
         if (v != w && v < problem.free_vertices && w < problem.free_vertices) neighbours[v].push_back(w);
       }
   }
-  Adjacency graph;
-  for (std::vector<Index>& each : neighbours) {
-    std::sort(each.begin(), each.end());
-    each.erase(std::unique(each.begin(), each.end()), each.end());
-    graph.neighbours.insert(graph.neighbours.end(), each.begin(), each.end());
-    graph.offsets.push_back(static_cast<Index>(graph.neighbours.size()));
-  }
-  return graph;
+  return adjacency_of(std::move(neighbours));
 }
 
 template <std::size_t D>

@@ -5,6 +5,17 @@
 
 namespace dmoscope {
 
+Adjacency adjacency_of(std::vector<std::vector<Index>> neighbours) {
+  Adjacency graph;
+  for (std::vector<Index>& each : neighbours) {
+    std::sort(each.begin(), each.end());
+    each.erase(std::unique(each.begin(), each.end()), each.end());
+    graph.neighbours.insert(graph.neighbours.end(), each.begin(), each.end());
+    graph.offsets.push_back(static_cast<Index>(graph.neighbours.size()));
+  }
+  return graph;
+}
+
 namespace {
 
 constexpr std::size_t kLeaf = 8;  // parts of so many vertices are not halved any more

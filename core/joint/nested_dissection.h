@@ -19,6 +19,9 @@ struct Adjacency {
   }
 };
 
+/// The graph of lists of neighbours in any order, each neighbour any number of times.
+[[nodiscard]] Adjacency adjacency_of(std::vector<std::vector<Index>> neighbours);
+
 /// Nested dissection (George 1973). Each part is halved by its longest coordinate and by a breadth-first search, and the smaller of the two
 /// separators is taken. `places`: rough position of each vertex. Returns the vertices in that order; ties are broken by index.
 template <int D>

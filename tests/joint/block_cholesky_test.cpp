@@ -23,14 +23,7 @@ Adjacency graph_of(Index n, const Edges& edges) {
     neighbours[i].push_back(j);
     neighbours[j].push_back(i);
   }
-  Adjacency graph;
-  for (std::vector<Index>& each : neighbours) {
-    std::sort(each.begin(), each.end());
-    each.erase(std::unique(each.begin(), each.end()), each.end());
-    graph.neighbours.insert(graph.neighbours.end(), each.begin(), each.end());
-    graph.offsets.push_back(static_cast<Index>(graph.neighbours.size()));
-  }
-  return graph;
+  return adjacency_of(std::move(neighbours));
 }
 
 /// Random graph, with parts that are not connected.

@@ -1,7 +1,9 @@
 #include "core/run/run.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -60,6 +62,20 @@ std::shared_ptr<const SizeField> make_size_field(const std::shared_ptr<const Inp
   return function != nullptr ? std::make_shared<const SizeField>(input, *function) : nullptr;
 }
 
+/// Least quality of the elements that can move and are not inverted at their corners; +infinity where there is none.
+double least_of_sound(const InputMesh& input, Metric metric, std::span<const Index> immovable) {
+  const QualityContext context = input.quality_context();
+  const std::span<const Vec3> positions = input.mesh.positions;
+  double least = std::numeric_limits<double>::infinity();
+  for (Index e = 0; e < input.mesh.elements.size(); ++e) {
+    if (std::ranges::binary_search(immovable, e)) continue;
+    const double quality = element_quality(context, positions, metric, e);
+    if (quality > 0.0) least = std::min(least, quality);
+  }
+  return input.share ? -input.share->greatest(-least) : least;
+}
+
+/// Guard of a run. Of a tangled mesh the sound elements have what is to be kept: an element that is untangled below that falls no further.
 std::optional<Guard> find_guard(const InputMesh& input, const RunParameters& p, std::span<const Index> immovable, ThreadPool* pool) {
   const auto* second = p.combination ? std::get_if<Metric>(&p.combination->second) : nullptr;
   const bool aimed = !target_of(p.metric).is_ideal() || (second != nullptr && !target_of(*second).is_ideal());
@@ -68,9 +84,9 @@ std::optional<Guard> find_guard(const InputMesh& input, const RunParameters& p, 
   const QualityContext context = input.quality_context();
   const Statistics of_input = input.share ? input.share->statistics(context, input.mesh.positions, p.guard->metric, immovable, pool)
                                           : compute_statistics(context, input.mesh.positions, p.guard->metric, immovable, pool);
-  // Returns none where elements are inverted, or none can move: there is nothing to keep.
-  if (!(of_input.movable_minimum > 0.0) || std::isinf(of_input.movable_minimum)) return std::nullopt;
-  return Guard{p.guard->metric, of_input.movable_minimum};
+  const double floor = of_input.movable_minimum > 0.0 ? of_input.movable_minimum : least_of_sound(input, p.guard->metric, immovable);
+  if (std::isinf(floor)) return std::nullopt;  // no element can move, or none is sound: there is nothing to keep
+  return Guard{p.guard->metric, floor};
 }
 
 void require_fixed_in_place(const InputMesh& input, std::span<const std::uint8_t> fixed, const BeginPositions& begin) {

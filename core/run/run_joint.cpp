@@ -94,6 +94,7 @@ bool Run::can_be_certified() const { return !parameters_.then_joint && !paramete
 RaiseOfWorst Run::look_at_worst(Progress& progress) {
   constexpr std::size_t kAtMost = 500;  // limit for the vertices: it is asked while others still move
   constexpr double kNoGain = 2e-3;      // rise of the minimum that is too little: finer than what single vertices find
+  constexpr double kRounding = 1e-9;
   const int rings = input_->is_volume() ? 6 : 16;
   RaiseOfWorst look;
   look.iteration = at_.moment.iteration;
@@ -113,7 +114,11 @@ RaiseOfWorst Run::look_at_worst(Progress& progress) {
   const auto found = joint_hold(part, part.mesh.positions, region->fixed, {}, parameters_.metric, kAtMost, pool_.get(), progress, {});
   look.seconds = watch.seconds();
   if (!found) return look;
-  if (found->after - found->before > kNoGain * found->before) {
+  // The worst elements do not change with any vertex that may move: their worst corners are those of fixed vertices alone.
+  const bool held_for_good = found->before > (1.0 + kRounding) * movable_minimum;
+  if (held_for_good) {
+    look.certified = true;
+  } else if (found->after - found->before > kNoGain * found->before) {
     for (const JointCluster::Moved& moved : found->moved)
       if (const Index v = find_vertex(*input_, region->vertices[moved.vertex]); v != kNoIndex) look.moved.push_back({v, moved.to});
     look.count = found->moved.size();

@@ -91,7 +91,7 @@ TEST(Guard, KeepsItInVolumesAndWhereVerticesSlide) {
   EXPECT_GT(fell, 0);
 }
 
-/// Of a tangled mesh the least of the sound elements is guarded: what was sound keeps it, and what is untangled below it falls no further.
+/// A tangled mesh guards the least of its sound elements: what was sound keeps it, and what is untangled below it falls no further.
 TEST(Guard, KeepsTheLeastOfTheSoundOnesInATangledMesh) {
   Progress progress;
   int fell = 0;

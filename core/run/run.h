@@ -231,6 +231,7 @@ class Run {
   [[nodiscard]] const std::optional<Pursuit>& pursuit() const noexcept { return pursuit_; }
 
  private:
+  class Advance;  // see run_advance.cpp
   [[nodiscard]] SmoothingTask task() const;
   [[nodiscard]] BlockPlan block_plan() const;
   void ensure_smoother();
@@ -271,8 +272,6 @@ class Run {
   [[nodiscard]] RaiseOfWorst look_at_worst(Progress& progress);
   void raise_worst_jointly(Progress& progress);
   [[nodiscard]] bool knows_joint_moves() const;
-  Outcome advance(const ConvergenceLimits& limits, bool stop_when_still, std::uint64_t from, Progress& progress,
-                  const AfterIteration& after);
   template <class Body>
   auto asking_device(const Body& body) const;
   template <class Body>

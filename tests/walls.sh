@@ -61,7 +61,7 @@ layers() {
   failed=1
   printf 'The order of the folders in %s:\n%s\n' "$module" "$found"
 }
-layers core base drawing numeric mesh io/reading io/writing io/arrays io io/polygons io/abaqus io/cgns io/exodus io/gmsh io/medit io/nastran io/vtk \
+layers core base drawing numeric mesh io/reading io/writing io/arrays io io/polygons io/abaqus io/cgns io/exodus io/gmsh io/med io/medit io/nastran io/vtk \
   io/solvers io/vtu io/pvtu io/xdmf clipping formula target quality/metrics quality search input reference transfer smooth joint smooth/kernels smooth/kernels/targets smooth/kernels/compiled smooth/visit smooth/methods smooth/execution inspect run session view \
   commands engine
 layers ui state analysis commands toolkit plots overlays viewports panels dialogs .

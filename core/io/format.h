@@ -79,6 +79,7 @@ struct FormatHandler {
 [[nodiscard]] const FormatHandler& xdmf_format();  // needs pugixml: not in every build
 [[nodiscard]] const FormatHandler& exodus_format();
 [[nodiscard]] const FormatHandler& cgns_format();  // needs HDF5: not in every build
+[[nodiscard]] const FormatHandler& med_format();   // needs HDF5: not in every build
 
 /// Files on disk of a mesh that a new one replaces.
 class FormerMesh {

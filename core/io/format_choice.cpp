@@ -22,7 +22,7 @@ const std::vector<const FormatHandler*>& handlers() {
       &fort14_format(),  &su2_format(),     &gmsh_format(), &medit_format(), &meshb_format(),   &tetgen_format(), &abaqus_format(),
       &sms_2dm_format(), &nastran_format(), &unv_format(),  &mike_format(),  &selafin_format(), &exodus_format(),
 #ifdef DMOSCOPE_HDF5
-      &cgns_format(),
+      &cgns_format(),    &med_format(),
 #endif
   };
   return table;
@@ -76,7 +76,7 @@ std::string known_formats() {
   result += "; VTU and XDMF are left out of this build of the program, which was made without zlib or pugixml";
 #endif
 #ifndef DMOSCOPE_HDF5
-  result += "; CGNS, and Exodus and XDMF in HDF5, are left out of this build of the program, which was made without HDF5";
+  result += "; CGNS and MED, and Exodus and XDMF in HDF5, are left out of this build of the program, which was made without HDF5";
 #endif
   return result;
 }

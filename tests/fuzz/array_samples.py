@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Makes array_samples.h: small Exodus, CGNS and HDF5 files, written by Debian's netCDF4 and h5py; and cgnscheck's word on those of CGNS.
+"""Makes array_samples.h: small Exodus, CGNS, MED and HDF5 files, written by Debian's netCDF4, h5py and meshio; and cgnscheck's word on those
+of CGNS.
 
     /usr/bin/python3 array_samples.py > array_samples.h
 """
@@ -11,6 +12,7 @@ import sys
 import tempfile
 
 import h5py
+import meshio
 import netCDF4
 import numpy
 
@@ -219,6 +221,32 @@ def numbers_of_xdmf():
         f["depth"] = numpy.array([1.0, 2.0, 3.0, 4.5])
 
 
+def med_solids():
+    """By meshio, with families of nodes and of cells, and fields."""
+    kinds = [("wedge", WEDGE), ("hexahedron", CUBE), ("tetra", TETRAHEDRON), ("pyramid", PYRAMID), ("triangle", [1, 3, 2]), ("line", [22, 23])]
+    mesh = meshio.Mesh(numpy.array(SOLIDS, dtype=float), [(kind, numpy.array([nodes]) - 1) for kind, nodes in kinds])
+    mesh.point_tags = {1: ["peak"], 2: ["peak", "corners"]}
+    mesh.cell_tags = {-1: ["left", "all"], -2: ["all"], -3: ["ground"]}
+    mesh.point_data["point_tags"] = numpy.array([2] + 21 * [0] + [1])
+    mesh.cell_data["cell_tags"] = [numpy.array([tag]) for tag in (-1, -2, -2, 0, -3, 0)]
+    mesh.point_data["heat"] = numpy.arange(23.0)
+    mesh.point_data["way"] = numpy.array([[i, 100.0 + i] for i in range(23)])
+    mesh.cell_data["stress"] = [numpy.array([1.5 + k]) for k in range(6)]
+    meshio.write(path("solids.med"), mesh)
+
+
+def med_plane():
+    """A mesh of the plane as MED 2 has it, without time steps, and another one behind it."""
+    with h5py.File(path("plane.med"), "w") as f:
+        for name, dimension in (("plate", 2), ("spare", 2)):
+            mesh = f.create_group("ENS_MAA/" + name)
+            mesh.attrs["DIM"] = mesh.attrs["ESP"] = dimension
+            mesh.attrs["TYP"] = 0
+            mesh["NOE/COO"] = numpy.array([0, 1, 1, 0, 2, 2, 0, 0, 1, 1.5, 0, 1], dtype="f8")
+            mesh["MAI/TR3/NOD"] = numpy.array([1, 1, 2, 3, 3, 4], dtype="i4")
+            mesh["MAI/QU4/NOD"] = numpy.array([2, 5, 6, 3], dtype="i4")
+
+
 exodus("solids.e", "NETCDF3_CLASSIC", SOLIDS,
        [(7, "wood", "WEDGE", [WEDGE]), (9, "", "HEX", [CUBE]), (11, "rest", "TETRA", [TETRAHEDRON]), (12, "tip", "PYRAMID", [PYRAMID]),
         (13, "rods", "BEAM", [[2, 7], [8, 15]])],
@@ -234,13 +262,15 @@ periodic_blocks()
 periodic_lists()
 linked()
 numbers_of_xdmf()
+med_solids()
+med_plane()
 for name in ("solids.cgns", "zones.cgns", "periodic.cgns", "periodic_lists.cgns"):
     words = subprocess.run(["cgnscheck", path(name)], capture_output=True, text=True).stdout
     problems = [line for line in words.splitlines() if re.match(r"(ERROR|error|FATAL)", line.strip())]
     print(name, "cgnscheck:", problems or "no errors", file=sys.stderr)
 
 print('''#pragma once
-// Small files of named arrays. Made by array_samples.py with Python's netCDF4 and h5py; not by hand.
+// Small files of named arrays. Made by array_samples.py with Python's netCDF4, h5py and meshio; not by hand.
 // clang-format off
 
 #include <array>
@@ -277,6 +307,8 @@ for name, file, what in [
         ("cgns_periodic", "periodic.cgns", "two structured zones of the plane that share an edge, and the ends of which are one"),
         ("cgns_periodic_lists", "periodic_lists.cgns", "an unstructured zone of the plane whose ends are one, by a list of points"),
         ("cgns_linked", "linked.cgns", "a zone that is a link into another file"),
+        ("med_solids", "solids.med", "the same solids as exodus_solids, by meshio"),
+        ("med_plane", "plane.med", "MED 2: two meshes of the plane"),
         ("xdmf_numbers", "numbers.h5", "HDF5: what XDMF files refer to")]:
     text = base64.b64encode(open(path(file), "rb").read()).decode()
     text = re.sub(r"A{6,}", lambda run: f"[{len(run.group())}]", text)

@@ -509,6 +509,8 @@ inline std::vector<Sample> samples() {
     all.push_back({"zones", "cgns", cgns_zones()});
     all.push_back({"periodic", "cgns", cgns_periodic()});
     all.push_back({"periodic_lists", "cgns", cgns_periodic_lists()});
+    all.push_back({"solids", "med", med_solids()});
+    all.push_back({"plane", "med", med_plane()});
   }
   if (format_by_extension(".vtu") != nullptr) {  // not in every build
     all.push_back({"structured", "vtu", vts_ascii()});

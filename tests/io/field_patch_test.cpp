@@ -241,6 +241,25 @@ TEST(FieldPatch, ExodusAndCgns) {
   EXPECT_EQ(other.fields.at(0).values, at_both.values);
 }
 
+/// Each component of a vector stands behind the one before; it alone changes.
+TEST(FieldPatch, Med) {
+  if (format_by_extension(".med") == nullptr) GTEST_SKIP() << "this build has no HDF5";
+  const Mesh mesh = read_bytes("a.med", testing::med_solids());
+  std::size_t tried = 0;
+  for (std::size_t f = 0; f < mesh.fields.size(); ++f) {
+    if (mesh.fields[f].on != Field::On::Vertices) continue;
+    FieldValues changed{f, mesh.fields[f].values};
+    changed.values[5] = -3.25;
+    const Mesh again = read_bytes("a.med", written_with("a.med", mesh, mesh.positions, {&changed, 1}));
+    for (std::size_t other = 0; other < mesh.fields.size(); ++other) {
+      if (mesh.fields[other].on != Field::On::Vertices) continue;
+      EXPECT_EQ(again.fields[other].values, other == f ? changed.values : mesh.fields[other].values) << mesh.fields[other].name;
+    }
+    ++tried;
+  }
+  EXPECT_EQ(tried, 3U) << "heat and two components of way";
+}
+
 /// Another format than that of the input keeps the numbers, too.
 TEST(FieldPatch, MadeAnew) {
   const Mesh mesh = square();

@@ -33,7 +33,7 @@ void put(const std::filesystem::path& path, std::string_view bytes);
 
 /// Whether the format can write a mesh that was read from another one.
 [[nodiscard]] inline bool is_made_anew(const FormatInfo& format) {
-  constexpr std::string_view kOnlyAsRead[] = {"meshb", "unv", "mike", "selafin", "exodus", "cgns"};
+  constexpr std::string_view kOnlyAsRead[] = {"meshb", "unv", "mike", "selafin", "exodus", "cgns", "med"};
   return std::ranges::find(kOnlyAsRead, format.name) == std::end(kOnlyAsRead);
 }
 

@@ -36,7 +36,6 @@ TEST(ForeignFormat, IsNamedWithWhatToDo) {
       {"a.msh", "(0 \"GAMBIT to Fluent File\")\n\n(2 3)\n", "a Fluent mesh", "ParaView"},
       {"a.cas", "(0 \"fluent15.0.0 build-id: 10038\")\n", "a Fluent mesh", "ParaView"},
       {"a.cdb", "/COM,ANSYS RELEASE 17.0\n/PREP7\n", "an ANSYS archive", "Fluent"},
-      {"a.med", "\x89HDF\r\n\x1a\n" + zero, "a MED file", "meshio"},
       {"a.h5", "\x89HDF\r\n\x1a\n" + zero, "an HDF5 file", "ParaView"},
       {"a.nc", "CDF\x01" + zero, "a NetCDF file", "ParaView"},
       {"a.dat", "2 0\n1 0. 0. 0.\n2 1. 0. 0.\n", "a Nemoh mesh", "meshmagick"},
@@ -105,6 +104,7 @@ TEST(ForeignFormat, LeavesToReadersWhatIsTheirs) {
                                {".2dm", "MESH2D\nE3T 1 1 2 3 1\n", "an SMS 2dm", ""},
                                {".xdmf", "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n", "an XDMF", ""},
                                {".cgns", "\x89HDF\r\n\x1a\n", "a CGNS", ""},
+                               {".med", "\x89HDF\r\n\x1a\n", "a MED", ""},
                                {".e", "CDF\x02 num_el_blk", "an Exodus", ""}};
   for (const Known& known : all) {
     const std::string sentence = foreign_format(known.bytes, known.file);
@@ -118,7 +118,8 @@ TEST(ForeignFormat, LeavesToReadersWhatIsTheirs) {
 
 TEST(ForeignFormat, IsNoneOfTheSamples) {
   for (const auto& sample : dmoscope::testing::samples()) {
-    if (sample.format == "exodus" || sample.format == "cgns") continue;  // recognised by their content before this check
+    if (sample.format == "exodus" || sample.format == "cgns" || sample.format == "med")
+      continue;  // recognised by their content before this check
     for (const char* extension : {".vtk", ".off", ".node", ".14", ".su2", ".vtu", ".dat", ""}) {
       EXPECT_EQ(foreign_format(sample.bytes, extension), "") << sample.format << " " << sample.name;
     }

@@ -456,7 +456,7 @@ TEST(FormatTableRows, EveryRowThatIsReadIsTried) {
   for (const DocumentedRow& row : rows) {
     // Formats that need other libraries have tests of their own.
     if (!begins(row.read, "yes") || row.variant.find("HDF5") != std::string::npos || row.format.find("Exodus") != std::string::npos ||
-        row.format.find("CGNS") != std::string::npos)
+        row.format.find("CGNS") != std::string::npos || row.format == "MED")
       continue;
     EXPECT_TRUE(std::ranges::any_of(kBackings, [&](const Backing& b) { return b.format == row.format && b.variant == row.variant; }))
         << row.format << ", " << row.variant;

@@ -295,6 +295,21 @@ def test_what_mesh_generators_put_beside_the_cells(tmp_path, extension):
     assert (again.points == taken.mesh.points).all() and len(again.cells) == len(given.cells) + 2
 
 
+def test_med_is_written_as_meshio_reads_it(tmp_path):
+    meshio = pytest.importorskip("meshio")
+    pytest.importorskip("h5py")
+    run("generate", "solids", "-o", tmp_path / "solids.vtk")
+    given = meshio.read(tmp_path / "solids.vtk")
+    kinds = {block.type for block in given.cells}
+    by_kind = [(kind, np.concatenate([b.data for b in given.cells if b.type == kind])) for kind in sorted(kinds)]
+    meshio.write(tmp_path / "solids.med", meshio.Mesh(given.points, by_kind))
+    run("smooth", tmp_path / "solids.med", "-o", tmp_path / "smoothed.med", "--iterations", 4)
+    smoothed = meshio.read(tmp_path / "smoothed.med")
+    assert (smoothed.points != given.points).any()
+    assert {b.type: b.data.tolist() for b in smoothed.cells} == {kind: data.tolist() for kind, data in by_kind}
+    assert dmoscope.read(tmp_path / "smoothed.med").quality().min() > dmoscope.read(tmp_path / "solids.med").quality().min()
+
+
 def test_faces_beside_solids_are_passed_over(tmp_path):
     meshio = pytest.importorskip("meshio")
     run("generate", "tetrahedra", "-o", tmp_path / "t.vtk", "--size", 125)

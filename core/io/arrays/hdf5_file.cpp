@@ -226,9 +226,20 @@ class Hdf5File::Array {
       if (each > 1) info.sizes.push_back(each);
       return;
     }
+    if (of == H5T_ARRAY) return read_letters(type);
     number_ = file_type(type);
     if (number_) info.type = number_->scalar;
     text_bytes_ = number_ && size_of(number_->scalar) == 1 ? 1 : 0;
+  }
+
+  /// Takes rows of single bytes, which MED has for texts, as text.
+  void read_letters(hid_t type) {
+    const H5Id letter(H5Tget_super(type), H5Tclose);
+    const std::size_t each = H5Tget_size(type);
+    if (!letter.valid() || H5Tget_class(letter) != H5T_INTEGER || H5Tget_size(letter) != 1 || each > kMostText) return;
+    info.text = true;
+    text_bytes_ = each;
+    info.sizes.push_back(each);
   }
 
   const Hdf5File& file_;
@@ -321,6 +332,19 @@ std::string Hdf5File::attribute(const std::string& array, const std::string& nam
   if (H5Aread(attribute, type, found.data()) < 0) return {};
   found.resize(std::min(found.find('\0'), found.size()));
   return found;
+}
+
+std::optional<std::int64_t> Hdf5File::whole_attribute(const std::string& object, const std::string& name) {
+  const H5Id holder(H5Oopen(library_->file(), object.c_str(), H5P_DEFAULT), H5Oclose);
+  if (!holder.valid() || H5Aexists(holder, name.c_str()) <= 0) return std::nullopt;
+  const H5Id attribute(H5Aopen(holder, name.c_str(), H5P_DEFAULT), H5Aclose);
+  const H5Id type(H5Aget_type(attribute), H5Tclose);
+  const H5Id space(H5Aget_space(attribute), H5Sclose);
+  const std::optional<FileType> number = type.valid() ? file_type(type) : std::nullopt;
+  if (!number || !is_whole(number->scalar) || !space.valid() || H5Sget_simple_extent_npoints(space) != 1) return std::nullopt;
+  std::int64_t value = 0;
+  if (H5Aread(attribute, H5T_NATIVE_INT64, &value) < 0) return std::nullopt;
+  return value;
 }
 
 std::optional<std::uint64_t> Hdf5File::dimension(const std::string& name) {

@@ -32,6 +32,8 @@ class Hdf5File final : public ArrayFile {
   std::string replaced(std::span<const ArrayValues> arrays) override;
   void take_room(std::uint64_t count, std::size_t bytes_each) override;
 
+  /// A whole number that is an attribute of a group or an array; none if it has none of that name.
+  [[nodiscard]] std::optional<std::int64_t> whole_attribute(const std::string& object, const std::string& name);
   /// Names of a group's members, in the order of their creation if the file records it, else sorted. Empty if there is no such group.
   [[nodiscard]] std::vector<std::string> children(const std::string& group);
   /// Whether the name leads to a group or an array. False for links into other files.
@@ -44,7 +46,7 @@ class Hdf5File final : public ArrayFile {
 
   std::unique_ptr<Library> library_;
   const IoContext& context_;
-  std::uint64_t left_;  // bytes that may still be unpacked
+  std::uint64_t left_;                             // bytes that may still be unpacked
 };
 
 }  // namespace dmoscope

@@ -19,9 +19,7 @@ std::vector<std::string> tell_findings(const InputMesh& input) {
 
 void tell_interfaces(const InputMesh& input, const RunParameters& parameters, std::vector<std::string>& warnings) {
   std::vector<std::string> sentences;
-  if (!input.layers.empty() && parameters.standing().layers == LayerRule::Keep)
-    sentences.push_back(
-        fmt::format("{} of boundary layers stay (--layers free lets them go)", counted(input.layers.size(), "vertex", "vertices")));
+  if (parameters.standing().layers == LayerRule::Keep && !input.layers.empty()) sentences.push_back(input.layers_sentence("--layers free"));
   if (parameters.interfaces == InterfaceRule::Fixed) {
     if (std::string held = input.interfaces.sentence("--interfaces free"); !held.empty()) sentences.push_back(std::move(held));
     for (std::string& offer : input.interfaces.offers("--materials")) sentences.push_back(std::move(offer));

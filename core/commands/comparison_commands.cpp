@@ -122,13 +122,20 @@ void bring_to(CommandContext& context, std::uint64_t iteration) {
   }
 }
 
+/// Parameters of a run like another one by a method. Another method goes alone: phases after it would hide what it does.
+RunParameters by_method(RunParameters parameters, const MethodInfo& method) {
+  if (parameters.method == method.name) return parameters;
+  parameters.method = method.name;
+  if (parameters.combination && !can_combine(method, *parameters.combination)) parameters.combination.reset();
+  parameters.then_joint.reset();
+  parameters.then_mean.reset();
+  if (!method.joint) parameters.joint_gap = RunParameters{}.joint_gap;
+  return parameters;
+}
+
 std::vector<RunParameters> every_method(const RunParameters& like) {
   std::vector<RunParameters> wanted;
-  for (const MethodInfo& method : method_table()) {
-    wanted.push_back(like);
-    wanted.back().method = method.name;
-    if (like.combination && !can_combine(method, *like.combination)) wanted.back().combination.reset();
-  }
+  for (const MethodInfo& method : method_table()) wanted.push_back(by_method(like, method));
   return wanted;
 }
 
@@ -156,10 +163,10 @@ std::vector<RunParameters> orders(const RunParameters& like, std::uint64_t count
 /// Parameters of a run like another one, with the method and metric of words such as "dmo:min-angle".
 RunParameters run_like(RunParameters parameters, const std::string& words) {
   const std::size_t colon = words.find(':');
-  parameters.method = method_info(words.substr(0, colon)).name;
-  const bool cannot = parameters.combination && !can_combine(method_info(parameters.method), *parameters.combination);
-  if (cannot || colon != std::string::npos) parameters.combination.reset();
-  if (colon != std::string::npos) parameters.metric = parse_metric(words.substr(colon + 1));
+  parameters = by_method(std::move(parameters), method_info(words.substr(0, colon)));
+  if (colon == std::string::npos) return parameters;
+  parameters.combination.reset();
+  parameters.metric = parse_metric(words.substr(colon + 1));
   return parameters;
 }
 
@@ -231,7 +238,7 @@ std::span<const CommandRow> comparison_commands() {
       {{"compare",
         "compare methods|metrics [ITERATIONS] | compare orders N [ITERATIONS] | compare with METHOD[:METRIC]... [ITERATIONS|converged]",
         "Adds runs like the active one by every method, for every metric, in N shuffled orders or as they are named, and takes all to the "
-        "same iteration, or until they converge."},
+        "same iteration, or until they converge. Other methods go alone, without the active run's phases."},
        {1, kAnyWords, compare, true, CommandReach::Paths}},
       {{"save-report", "save-report FILE.html",
         "Writes how the runs on the active run's mesh compare, by the shown metric: a page with plots."},

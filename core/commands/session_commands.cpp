@@ -72,6 +72,8 @@ void tell(CommandContext& context, std::string text, Message::Kind kind) { conte
 
 void tell_interfaces(CommandContext& context) {
   const Run& run = context.session.active();
+  if (run.parameters().standing().layers == LayerRule::Keep && !run.input().layers.empty())
+    tell(context, run.input().layers_sentence("'layers free'"), Message::Kind::Warning);
   if (run.parameters().interfaces != InterfaceRule::Fixed) return;
   std::string sentence = run.input().interfaces.sentence("'interfaces free'");
   if (!sentence.empty()) tell(context, std::move(sentence), Message::Kind::Warning);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/number_text.h"
 #include "core/input/declared_floats.h"
 #include "core/input/element_findings.h"
 #include "core/input/layer_vertices.h"
@@ -61,6 +62,11 @@ void require_defined(Metric metric, const InputMesh& input) {
   if (input.share)
     throw UsageError(fmt::format("{} needs the whole mesh: formulas and targets are of one process alone", info(metric).name));
   (void)input.quality_context().judge(metric);
+}
+
+std::string InputMesh::layers_sentence(std::string_view way_out) const {
+  if (layers.empty()) return {};
+  return fmt::format("{} of boundary layers stay ({} lets them go)", counted(layers.size(), "vertex", "vertices"), way_out);
 }
 
 std::uint64_t InputMesh::whole_element_count() const { return share ? share->element_count() : mesh.elements.size(); }

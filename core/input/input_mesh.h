@@ -43,6 +43,8 @@ struct InputMesh {
   [[nodiscard]] std::uint64_t whole_element_count() const;
   std::shared_ptr<const DefinedJudges> judges = make_defined_judges();  // judges of defined metrics
   [[nodiscard]] QualityContext quality_context() const { return {mesh, geometry, surface_normals, judges.get()}; }
+  /// Sentence on the vertices of boundary layers, which stay unless `way_out` lets them go; empty where there are none.
+  [[nodiscard]] std::string layers_sentence(std::string_view way_out) const;
   [[nodiscard]] bool is_volume() const noexcept { return geometry.shape == Shape::Volume; }
   /// Whether the mesh is drawn in space: a volume or surface mesh.
   [[nodiscard]] bool in_space() const noexcept { return geometry.shape != Shape::Planar; }

@@ -238,6 +238,7 @@ class Look {
     if (!by_hand.empty()) all.push_back({"unfix", by_hand, Holding::Hand});
     if (const std::string made = made_corners(found); !made.empty()) all.push_back({"auto-corner", made, Holding::Corner});
     if (any(Holding::Boundary)) all.push_back({"boundary", "slide", Holding::Boundary});
+    if (any(Holding::Layer)) all.push_back({"layers", "free", Holding::Layer});
     if (any(Holding::Interface) && q_.rule.interfaces == InterfaceRule::Fixed) all.push_back({"interfaces", "slide", Holding::Interface});
     if (q_.task.domain) add_angles(found, all);
     if (any(Holding::Slides) && q_.max_deviation < 1.0) all.push_back(more_deviation());
@@ -324,6 +325,7 @@ class Look {
   void apply(const HoldSwitch& change, Conditions& then) const {
     const auto is_corner = [&](Index v) { return std::ranges::find(corners(), v) != corners().end(); };
     if (change.name == "boundary") then.rule.boundary = BoundaryRule::Slide;
+    if (change.name == "layers") then.rule.layers = LayerRule::Free;
     if (change.name == "interfaces") then.rule.interfaces = InterfaceRule::Slide;
     if (change.name == "corner-angle") then.rule.corner_angle = change.number;
     if (change.name == "feature-angle") then.rule.feature_angle = change.number;

@@ -49,6 +49,7 @@ std::string HoldSwitch::option() const {
 std::string HoldSwitch::gives_up() const {
   if (name == "boundary") return "the fixed boundary";
   if (name == "interfaces") return "fixed interfaces";
+  if (name == "layers") return "boundary layers";
   if (name == "corner-angle") return fmt::format("corners under {}°", value);
   if (name == "feature-angle") return fmt::format("features under {}°", value);
   if (name == "auto-corner") return fmt::format("corners by hand: {}", value);
@@ -178,7 +179,8 @@ std::string HeldMinimum::sentence(bool as_option) const {
 std::string HeldMinimum::hold_sentence(bool as_option) const {
   std::string text;
   if (ceiling)
-    text = fmt::format("No switch frees element {} at {}, whose vertices all stay. ", ceiling->first, four_digits(ceiling->second));
+    text = fmt::format("Element {} at {} stays: no option that was tried frees one of its vertices. ", ceiling->first,
+                       four_digits(ceiling->second));
   text += fmt::format("{} {} at {} is {}", ceiling ? "Of those that move element" : "Element", element, four_digits(quality),
                       ceiling ? "the worst" : "the worst of all");
   const bool all_tried = untried.empty();

@@ -53,6 +53,8 @@ UntanglingLook untangling_hint(const Run& run, std::shared_ptr<ThreadPool> pool,
 
 std::optional<HeldMinimum> what_holds(const Run& run, ThreadPool* pool, Progress& progress, const HoldLook& look) {
   const RunParameters& p = run.parameters();
+  constexpr double kIdeal = 1.0 - 1e-9;
+  if (is_built_in(p.metric) && run.statistics().minimum >= kIdeal) return std::nullopt;  // every element is ideal
   SmoothingTask task = task_of(run.shared_input(), p);
   task.guard = run.guard();
   HeldQuestion question{std::move(task), run.positions(), run.fixed(), p.fixed, p.standing(), p.max_deviation};

@@ -207,7 +207,7 @@ std::vector<std::string> ReportCard::lines() const {
 
 std::string ReportCard::sentence(bool as_options) const {
   if (verdict == Verdict::Same) return "The same as the input, within small tolerances";
-  if (verdict == Verdict::Better) return "Better than the input, and worse in nothing";
+  if (verdict == Verdict::Better) return "Better than the input, and worse in nothing beyond small tolerances";
   // Groups the figures by what keeps them, those that nothing keeps first, and names the first few of each group.
   constexpr std::size_t kNamed = 3;
   const auto all = worse();

@@ -42,7 +42,7 @@ struct ReportCard {
   [[nodiscard]] std::vector<const CardFigure*> worse() const;
   /// Lines, one for each metric and one for the mesh: "mean ratio: least 0.301 -> 0.428, 1 % 0.402 -> 0.520, ...".
   [[nodiscard]] std::vector<std::string> lines() const;
-  /// Verdict in words: "Better than the input, and worse in nothing", "Worse than the input: mean of mean ratio 0.957 -> 0.844 (--then mean
+  /// Verdict in words: "Better than the input, and worse in nothing beyond small tolerances", "Worse than the input: mean of mean ratio 0.957 -> 0.844 (--then mean
   /// keeps it)". `as_options`: name options of the command line, else commands.
   [[nodiscard]] std::string sentence(bool as_options) const;
 };

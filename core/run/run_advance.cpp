@@ -18,7 +18,7 @@ std::string Outcome::sentence() const {
       last_rise == 0 ? "the minimum rose in none of these iterations" : fmt::format("the minimum last rose in iteration {}", last_rise);
   if (inverted > 0) rose += fmt::format("; {} element{} still inverted", inverted, inverted == 1 ? " is" : "s are");
   for (const JointUntangling& each : untanglings)
-    rose += fmt::format("; in iteration {} {} vertices moved together, which untangled {} of {} inverted element{}", each.iteration,
+    rose += fmt::format("; in iteration {}, {} vertices moved together, which untangled {} of {} inverted element{}", each.iteration,
                         each.moved, each.before - each.after, each.before, each.before == 1 ? "" : "s");
   const auto begin = [](const std::optional<std::uint64_t>& from) {
     return from ? fmt::format(", which begins with the state of {}, the best one before", iteration_name(*from)) : std::string();

@@ -75,12 +75,13 @@ std::shared_ptr<Run> Session::first_run(const std::shared_ptr<const InputMesh>& 
     parameters.kinds = {};
     parameters.boundary = BoundaryRule::Fixed;
     parameters.interfaces = InterfaceRule::Fixed;  // freed for the mesh before, not for this one
+    parameters.layers = LayerRule::Keep;
+    parameters.then_joint.reset();  // phases of a recipe are chosen for a mesh
+    parameters.then_mean.reset();
+    parameters.joint_gap = RunParameters{}.joint_gap;
   }
   if (!defined_for_all(parameters.metric, *input)) parameters.metric = Metric::MeanRatio;
-  if (!why_not_joint(*input, parameters.metric).empty()) {
-    if (method_info(parameters.method).joint) parameters.method = RunParameters{}.method;
-    parameters.then_joint.reset();
-  }
+  if (method_info(parameters.method).joint && !why_not_joint(*input, parameters.metric).empty()) parameters.method = RunParameters{}.method;
   parameters.combination.reset();  // belongs to the mesh before, with its point, field and threshold
   return make_run(input, std::move(parameters));
 }

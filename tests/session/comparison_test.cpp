@@ -126,6 +126,22 @@ TEST_F(Comparison, EveryMethodThatCanBe) {
   EXPECT_EQ(messages_.size(), method_table().size() - possible);  // a reason for each
 }
 
+/// Phases after another method would hide what it does; the active run keeps its own.
+TEST_F(Comparison, OtherMethodsGoWithoutTheActiveRunsPhases) {
+  say("generate random 200");
+  say("make-good");
+  say("compare with laplace dmo:min-angle 3");
+  ASSERT_EQ(session_.run_count(), 3U);
+  EXPECT_TRUE(session_.run(0).parameters().then_mean);
+  EXPECT_EQ(session_.run(1).parameters().method, "laplace");
+  EXPECT_FALSE(session_.run(1).parameters().then_mean || session_.run(1).parameters().then_joint);
+  EXPECT_TRUE(session_.run(2).parameters().then_mean) << "the same method, by another metric";
+  say("compare methods 1");
+  for (std::size_t k = 3; k < session_.run_count(); ++k) EXPECT_FALSE(session_.run(k).parameters().then_mean) << k;
+  say("generate random 100");
+  EXPECT_FALSE(session_.active().parameters().then_mean) << "a recipe is chosen for a mesh";
+}
+
 TEST_F(Comparison, OrdersDifferInNothingElse) {
   say("generate random 300");
   say("compare orders 3 4");

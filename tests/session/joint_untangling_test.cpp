@@ -75,7 +75,7 @@ TEST(JointUntangling, TakesAnyMetricAndSaysWhatItDid) {
   EXPECT_EQ(outcome.untanglings[0].iteration, 1U);
   EXPECT_EQ(outcome.untanglings[0].before, 4U);
   EXPECT_EQ(outcome.untanglings[0].after, 0U);
-  EXPECT_NE(outcome.sentence().find("in iteration 1 4 vertices moved together, which untangled 4 of 4 inverted elements"),
+  EXPECT_NE(outcome.sentence().find("in iteration 1, 4 vertices moved together, which untangled 4 of 4 inverted elements"),
             std::string::npos)
       << outcome.sentence();
 }

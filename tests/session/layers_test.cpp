@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/same_bits.h"
+#include "core/run/hints.h"
 #include "core/run/run.h"
 #include "tests/support/meshes.h"
 
@@ -61,6 +62,21 @@ TEST(Layers, StayUnlessTheyAreLetGo) {
   EXPECT_FALSE(same_bits(kept.positions(), mesh->mesh.positions)) << "the rest moves";
   const Index inside = 9 + 4;  // the first row above the wall
   EXPECT_EQ(kept.why_fixed(inside), "it lies in a boundary layer, which is kept");
+}
+
+TEST(Layers, AreNamedWhereTheyHoldTheMinimum) {
+  Progress progress;
+  dmoscope::Run run(input(with_layers(5, 1.5, 0.01)), {}, std::make_shared<ThreadPool>(1), 0);
+  run.iterate(20, progress);
+  const auto held = what_holds(run, nullptr, progress);
+  ASSERT_TRUE(held && held->change);
+  EXPECT_EQ(held->change->command(), "layers free");
+  EXPECT_EQ(held->gives_up(), "boundary layers");
+  RunParameters free = run.parameters();
+  free.layers = LayerRule::Free;
+  dmoscope::Run let_go(run.shared_input(), free, std::make_shared<ThreadPool>(1), 0);
+  let_go.iterate(20, progress);
+  EXPECT_GT(let_go.statistics().minimum, run.statistics().minimum) << "what is offered raises it";
 }
 
 /// How quadrilaterals are cut into triangles: all alike, in turn, or at random.

@@ -1,15 +1,19 @@
 // The program: parses the command line, runs one subcommand, and turns every error into a message and an exit code.
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <span>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "app/common/console.h"
 #include "app/common/text.h"
@@ -18,6 +22,7 @@
 #include "app/man_page.h"
 #include "app/subcommands/subcommands.h"
 #include "core/base/error.h"
+#include "core/base/unknown_value.h"
 
 namespace dmoscope::app {
 namespace {
@@ -54,6 +59,19 @@ int print_requested(const CLI::App& app, const CLI::ParseError& error) {
   app.exit(error, text, text);
   print_lines(text.str());
   return 0;
+}
+
+/// Words that no option takes, as they were given, with the option that the first of them may have been meant to be.
+std::string not_expected(const CLI::App& app, std::span<char* const> arguments) {
+  const std::vector<std::string> left = app.remaining(true);  // not in their order
+  std::vector<std::string> words, names;
+  for (const std::string_view argument : arguments)
+    if (std::ranges::find(left, argument) != left.end()) words.emplace_back(argument);
+  for (const CLI::App* chosen : app.get_subcommands())
+    for (const CLI::Option* option : chosen->get_options())
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  const auto guess = words.empty() ? std::nullopt : closest_word(words.front(), std::vector<std::string_view>(names.begin(), names.end()));
+  return fmt::format("not expected: {}{}", fmt::join(words, " "), guess ? fmt::format("; did you mean {}?", *guess) : std::string());
 }
 
 int run(int argc, char** argv) {
@@ -95,7 +113,9 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return guarded([&app, &error] { return print_requested(app, error); });
-    complain(error.what(), "Run with --help for more information.");
+    const bool unknown = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
+    complain(unknown ? not_expected(app, std::span(argv + 1, static_cast<std::size_t>(argc - 1))) : error.what(),
+             "Run with --help for more information.");
     return kWrongUsage;
   }
   if (man) {

@@ -67,7 +67,7 @@ void add_convert(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App* subcommand = app.add_subcommand("convert", "Write a mesh in another format; says what that format cannot carry");
   subcommand->add_option("IN", options->input, "Mesh to read")->required();
-  subcommand->add_option("OUT", options->output, "Where to write it; the format is the extension's")->required();
+  subcommand->add_option("OUT,-o,--output", options->output, "Where to write it; the format is the extension's")->required();
   subcommand->add_option("--pieces", options->pieces, "Of a .pvtu: how many VTU files it has; by default one for each million elements")
       ->transform(whole_number(1, 1'000'000))
       ->type_name("N");

@@ -6,6 +6,7 @@
 #include "app/comparison/of_session.h"
 #include "app/subcommands/subcommands.h"
 #include "core/base/error.h"
+#include "core/base/unknown_value.h"
 
 #ifdef DMOSCOPE_HAVE_GUI
 #include <cstdlib>
@@ -34,9 +35,12 @@ bool has_display() {
 void require_files(const std::vector<std::filesystem::path>& files, const std::vector<std::string>& subcommands) {
   for (const auto& file : files) {
     std::error_code error;
-    if (!std::filesystem::exists(file, error)) {
-      throw InputError(file.string(), 0, fmt::format("there is no such file and no such subcommand; {}", hint(subcommands)));
-    }
+    if (std::filesystem::exists(file, error)) continue;
+    const std::string name = file.string();
+    const auto guess = closest_word(name, std::vector<std::string_view>(subcommands.begin(), subcommands.end()));
+    throw InputError(name, 0,
+                     fmt::format("there is no such file and no such subcommand; {}{}",
+                                 guess ? fmt::format("did you mean {}? ", *guess) : std::string(), hint(subcommands)));
   }
 }
 

@@ -390,6 +390,22 @@ TEST(Script, UnknownCommandsAreToldBeforeAnythingIsNeeded) {
   EXPECT_THAT(output.err, HasSubstr("standard input:2: unknown command 'bogus'"));
 }
 
+TEST(Usage, WordsThatNothingTakesAreSaidInTheirOrderWithAGuess) {
+  const Output methods = run({"compare", "a.vtk", "--method", "laplace", "--method", "dmo"});
+  EXPECT_EQ(methods.code, 2);
+  EXPECT_THAT(methods.err, HasSubstr("not expected: --method laplace --method dmo"));
+  EXPECT_THAT(run({"info", "a.vtk", "--jsno"}).err, HasSubstr("not expected: --jsno; did you mean --json?"));
+  EXPECT_THAT(run({"qualty", "a.vtk"}).err, HasSubstr("did you mean quality?"));
+}
+
+TEST(Convert, TheOutputIsAWordOrAnOption) {
+  const Folder folder;
+  ASSERT_EQ(run({"generate", "coast", "--size", "100", "-o", folder / "a.vtk"}).code, 0);
+  EXPECT_EQ(run({"convert", folder / "a.vtk", folder / "b.off"}).code, 0);
+  EXPECT_EQ(run({"convert", folder / "a.vtk", "-o", folder / "c.off"}).code, 0);
+  EXPECT_EQ(read_file(folder / "b.off"), read_file(folder / "c.off"));
+}
+
 TEST(Window, AFileThatIsNotThereIsToldBeforeTheDisplay) {
   const Output output = run({"bogus"});
   EXPECT_EQ(output.code, 3);

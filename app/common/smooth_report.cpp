@@ -80,7 +80,8 @@ Json card_json(const ReportCard& card) {
                        {"before", json_number(figure.before)},
                        {"after", json_number(figure.after)},
                        {"verdict", name(figure.verdict)},
-                       {"kept_by", figure.kept_by.empty() ? Json(nullptr) : Json(figure.kept_by)}});
+                       {"kept_by", figure.kept_by.empty() ? Json(nullptr) : Json(figure.kept_by)},
+                       {"helped_by", figure.helped_by.empty() ? Json(nullptr) : Json(figure.helped_by)}});
   return {{"verdict", name(card.verdict)}, {"sentence", card.sentence(true)}, {"figures", std::move(figures)}};
 }
 

@@ -91,30 +91,34 @@ struct InvertedBeforeAndAfter {
 
 class Card {
  public:
-  Card(const InputMesh& input, std::span<const Vec3> before, std::span<const Vec3> after, Metric raised, bool raises_mean, ThreadPool* pool)
-      : input_(input), before_(before), after_(after), raised_(raised), raises_mean_(raises_mean), pool_(pool) {}
+  Card(const InputMesh& input, std::span<const Vec3> before, std::span<const Vec3> after, Metric raised, bool raises_mean,
+       InvertedBeforeAndAfter inverted, ThreadPool* pool)
+      : input_(input), before_(before), after_(after), raised_(raised), raises_mean_(raises_mean), inverted_(inverted), pool_(pool) {}
 
   void add_metric(Metric metric, bool tells) {
     const Qualities was(input_, before_, metric, pool_), is(input_, after_, metric, pool_);
     if (was.count == 0 || is.count == 0) return;
     const std::string of = metric_phrase(metric);
-    const auto add = [&](std::string name, double from, double to, Verdict verdict, std::string_view kept_by) {
-      card_.figures.push_back({of, std::move(name), from, to, tells ? verdict : Verdict::Same, std::string(kept_by)});
+    const auto add = [&](std::string name, double from, double to, Verdict verdict, std::string_view kept_by, std::string_view helped_by) {
+      card_.figures.push_back(
+          {of, std::move(name), from, to, tells ? verdict : Verdict::Same, std::string(kept_by), std::string(helped_by)});
     };
     const double of_least = std::max(kLeastFall, kOfLeast * std::abs(was.least));
     const std::string guard = tells && metric != raised_ ? fmt::format("guard {}:input", info(metric).name) : std::string();
-    add("least", was.least, is.least, compare(was.least, is.least, of_least), guard);
-    const std::string_view kMean = raises_mean_ ? "" : "then mean";
-    add("1 %", was.percentiles.p1, is.percentiles.p1, compare(was.percentiles.p1, is.percentiles.p1, kOfOthers), kMean);
-    add("5 %", was.percentiles.p5, is.percentiles.p5, compare(was.percentiles.p5, is.percentiles.p5, kOfOthers), kMean);
-    add("mean", was.mean, is.mean, compare(was.mean, is.mean, kOfOthers), kMean);
+    add("least", was.least, is.least, compare(was.least, is.least, of_least), guard, "");
+    const auto add_other = [&](std::string name, double from, double to, Verdict verdict) {
+      add(std::move(name), from, to, verdict, "", raises_mean_ || inverted_.after > 0 ? "" : "then mean");
+    };
+    add_other("1 %", was.percentiles.p1, is.percentiles.p1, compare(was.percentiles.p1, is.percentiles.p1, kOfOthers));
+    add_other("5 %", was.percentiles.p5, is.percentiles.p5, compare(was.percentiles.p5, is.percentiles.p5, kOfOthers));
+    add_other("mean", was.mean, is.mean, compare(was.mean, is.mean, kOfOthers));
     const double few = kOfCounts * static_cast<double>(was.count);
     for (std::size_t i = 0; i < kBounds.size(); ++i)
-      add(fmt::format("below {}", kBounds[i]), was.below[i], is.below[i], opposite(compare(was.below[i], is.below[i], few)), kMean);
+      add_other(fmt::format("below {}", kBounds[i]), was.below[i], is.below[i], opposite(compare(was.below[i], is.below[i], few)));
   }
 
-  void add_mesh(InvertedBeforeAndAfter inverted) {
-    add("inverted", static_cast<double>(inverted.before), static_cast<double>(inverted.after), 0.0, "");
+  void add_mesh(bool aimed) {
+    add("inverted", static_cast<double>(inverted_.before), static_cast<double>(inverted_.after), 0.0, "", "");
     const std::vector<double> was = measures(input_, before_), is = measures(input_, after_);
     const auto growth = [&](const std::vector<double>& sizes) {
       double most = 1.0;
@@ -125,7 +129,7 @@ class Card {
       return most;
     };
     const double from = growth(was), to = growth(is);
-    add("growth", from, to, std::max((kOfGrowth - 1.0) * from, kMuchGrowth - from), "target input");
+    add("growth", from, to, std::max((kOfGrowth - 1.0) * from, kMuchGrowth - from), "", aimed ? "" : "target input");
     add_walls();
   }
 
@@ -139,8 +143,9 @@ class Card {
 
  private:
   /// Adds a figure of the mesh, the less the better.
-  void add(std::string name, double from, double to, double tolerance, std::string_view kept_by) {
-    card_.figures.push_back({"", std::move(name), from, to, opposite(compare(from, to, tolerance)), std::string(kept_by)});
+  void add(std::string name, double from, double to, double tolerance, std::string_view kept_by, std::string_view helped_by) {
+    card_.figures.push_back(
+        {"", std::move(name), from, to, opposite(compare(from, to, tolerance)), std::string(kept_by), std::string(helped_by)});
   }
   void add_walls() {
     const BoundaryLayers layers = find_boundary_layers(input_.mesh, input_.geometry);
@@ -154,13 +159,14 @@ class Card {
       const double was = height(before_), is = height(after_);
       if (was > 0.0 && is > 0.0) most = std::max({most, is / was, was / is});
     }
-    add("wall cells", 1.0, most, kOfWall - 1.0, "layers keep");
+    add("wall cells", 1.0, most, kOfWall - 1.0, "layers keep", "");
   }
 
   const InputMesh& input_;
   std::span<const Vec3> before_, after_;
   Metric raised_;
   bool raises_mean_;
+  InvertedBeforeAndAfter inverted_;
   ThreadPool* pool_;
   ReportCard card_;
 };
@@ -208,26 +214,31 @@ std::vector<std::string> ReportCard::lines() const {
 std::string ReportCard::sentence(bool as_options) const {
   if (verdict == Verdict::Same) return "The same as the input, within small tolerances";
   if (verdict == Verdict::Better) return "Better than the input, and worse in nothing beyond small tolerances";
-  // Groups the figures by what keeps them, those that nothing keeps first, and names the first few of each group.
+  // Groups the figures by what keeps or helps them, those that nothing does first, and names the first few of each group.
   constexpr std::size_t kNamed = 3;
+  const auto remedy = [as_options](const CardFigure& figure) -> std::string {
+    const bool kept = !figure.kept_by.empty();
+    if (!kept && figure.helped_by.empty()) return {};
+    const std::string& option = kept ? figure.kept_by : figure.helped_by;
+    return fmt::format(" ({} {})", as_options ? "--" + option : fmt::format("'{}'", option), kept ? "keeps it" : "helps");
+  };
   const auto all = worse();
-  std::vector<std::string> keepers, parts;
+  std::vector<std::string> remedies, parts;
   for (const CardFigure* figure : all)
-    if (std::ranges::find(keepers, figure->kept_by) == keepers.end()) keepers.push_back(figure->kept_by);
-  std::ranges::stable_sort(keepers, {}, [](const std::string& keeper) { return !keeper.empty(); });
-  for (const std::string& keeper : keepers) {
+    if (std::ranges::find(remedies, remedy(*figure)) == remedies.end()) remedies.push_back(remedy(*figure));
+  std::ranges::stable_sort(remedies, {}, [](const std::string& each) { return !each.empty(); });
+  for (const std::string& each : remedies) {
     std::vector<std::string> phrases;
     std::size_t others = 0;
     for (const CardFigure* figure : all) {
-      if (figure->kept_by != keeper) continue;
+      if (remedy(*figure) != each) continue;
       if (phrases.size() < kNamed)
         phrases.push_back(figure->phrase());
       else
         ++others;
     }
     if (others > 0) phrases.push_back(fmt::format("{} more", others));
-    const std::string option = as_options ? "--" + keeper : fmt::format("'{}'", keeper);
-    parts.push_back(fmt::format("{}{}", fmt::join(phrases, ", "), keeper.empty() ? "" : fmt::format(" ({} keeps it)", option)));
+    parts.push_back(fmt::format("{}{}", fmt::join(phrases, ", "), each));
   }
   return fmt::format("Worse than the input: {}", fmt::join(parts, "; "));
 }
@@ -236,12 +247,12 @@ namespace {
 
 ReportCard make_card(const InputMesh& input, std::span<const Vec3> before, std::span<const Vec3> after, std::span<const Metric> raised,
                      bool raises_mean, InvertedBeforeAndAfter inverted, ThreadPool* pool) {
-  Card card(input, before, after, raised.front(), raises_mean, pool);
+  Card card(input, before, after, raised.front(), raises_mean, inverted, pool);
   const bool aimed = std::ranges::any_of(raised, [](Metric metric) { return !target_of(metric).is_ideal(); });
   for (const Metric metric : raised) card.add_metric(metric, true);
   for (const Metric metric : {Metric::MeanRatio, Metric::ScaledJacobian})
     if (std::ranges::find(raised, metric) == raised.end()) card.add_metric(metric, !aimed);
-  card.add_mesh(inverted);
+  card.add_mesh(aimed);
   return card.finish();
 }
 

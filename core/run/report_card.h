@@ -19,7 +19,8 @@ struct CardFigure {
   std::string name;  // "least", "1 %", "5 %", "mean", "below 0.1"; "inverted", "growth", "wall cells"
   double before = 0.0, after = 0.0;
   Verdict verdict = Verdict::Same;
-  std::string kept_by{};  // the option that would have kept it; empty: none does
+  std::string kept_by{};    // the option that keeps it in any case; empty: none does
+  std::string helped_by{};  // else an option with which it is usually better, though not always as good as before; empty: none
   /// Phrase for a person: "mean of mean ratio 0.957 -> 0.844".
   [[nodiscard]] std::string phrase() const;
   /// Phrase without the metric.
@@ -42,8 +43,8 @@ struct ReportCard {
   [[nodiscard]] std::vector<const CardFigure*> worse() const;
   /// Lines, one for each metric and one for the mesh: "mean ratio: least 0.301 -> 0.428, 1 % 0.402 -> 0.520, ...".
   [[nodiscard]] std::vector<std::string> lines() const;
-  /// Verdict in words: "Better than the input, and worse in nothing beyond small tolerances", "Worse than the input: mean of mean ratio 0.957 -> 0.844 (--then mean
-  /// keeps it)". `as_options`: name options of the command line, else commands.
+  /// Verdict in words: "Better than the input, and worse in nothing beyond small tolerances", "Worse than the input: mean of mean ratio
+  /// 0.957 -> 0.844 (--then mean helps)". `as_options`: name options of the command line, else commands.
   [[nodiscard]] std::string sentence(bool as_options) const;
 };
 

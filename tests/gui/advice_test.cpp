@@ -199,7 +199,10 @@ TEST_F(Advice, OfTheNoticeIsKept) {
       }
       if (offer.id.starts_with("notice:keep-")) {
         ASSERT_TRUE(run().ending);
-        for (const CardFigure* figure : run().ending->card.worse()) EXPECT_NE(figure->kept_by, offer.command) << figure->name;
+        for (const CardFigure* figure : run().ending->card.worse()) {
+          EXPECT_NE(figure->kept_by, offer.command) << figure->name;
+          EXPECT_NE(figure->helped_by, offer.command) << figure->name;
+        }
         EXPECT_THAT(offer.tooltip, HasSubstr("may rise less"));
       } else {
         EXPECT_GE(reached.minimum, before.minimum - kLeastRise);

@@ -84,6 +84,31 @@ TEST(ReportCard, CountsInvertedElements) {
   EXPECT_EQ(figure(card, "", "inverted").verdict, Verdict::Worse);
 }
 
+/// A mean phase raises one mean of one metric, so other figures may still end below the input's: it helps, and keeps nothing for sure. It
+/// does not begin while elements are inverted.
+TEST(ReportCard, SaysWhatKeepsAndWhatOnlyHelps) {
+  const auto regular = input(lattice(8, 0.0, 4, Cells::Quadrilaterals));
+  const auto distorted = input(lattice(8, 0.3, 4, Cells::Quadrilaterals));
+  const ReportCard card = card_of(*regular, distorted->mesh.positions);
+  for (const auto& [of, name] : std::vector<std::pair<std::string, std::string>>{
+           {"mean ratio", "mean"}, {"mean ratio", "1 %"}, {"scaled Jacobian", "mean"}, {"scaled Jacobian", "5 %"}}) {
+    const CardFigure& each = figure(card, of, name);
+    EXPECT_EQ(each.verdict, Verdict::Worse) << of << name;
+    EXPECT_EQ(each.kept_by, "") << of << name;
+    EXPECT_EQ(each.helped_by, "then mean") << of << name;
+  }
+  EXPECT_EQ(figure(card, "scaled Jacobian", "least").kept_by, "guard scaled-jacobian:input");
+  EXPECT_THAT(card.sentence(true), HasSubstr("(--then mean helps)"));
+  EXPECT_THAT(card.sentence(true), HasSubstr("(--guard scaled-jacobian:input keeps it)"));
+  EXPECT_THAT(card.sentence(false), HasSubstr("('then mean' helps)"));
+
+  std::vector<Vec3> tangled(distorted->mesh.positions);
+  tangled[10] = tangled[40];
+  const ReportCard left = card_of(*regular, tangled);
+  ASSERT_GT(figure(left, "", "inverted").after, 0.0);
+  EXPECT_EQ(figure(left, "mean ratio", "mean").helped_by, "");
+}
+
 /// Layers of heights 0.01, 0.02, 0.04 ... on a wall of width 1, whose first line rises by half.
 TEST(ReportCard, TellsHowHighWallCellsHaveBecome) {
   Mesh layers;

@@ -33,19 +33,21 @@ std::vector<FigureRow> rows_of(const ReportCard& card) {
   return rows;
 }
 
-/// Tells what is worse than in the input, with a button for each option that would have kept it.
+/// Tells what is worse than in the input, with a button for each option that keeps it or helps.
 void tell_card(Notice& notice, const ReportCard& card) {
   if (card.verdict != Verdict::Worse) return;
   notice.sentences.push_back(card.sentence(false) + ".");
   notice.figures = rows_of(card);
   std::vector<std::string> offered;
   for (const CardFigure* figure : card.worse()) {
-    const std::string& command = figure->kept_by;
+    const bool kept = !figure->kept_by.empty();
+    const std::string& command = kept ? figure->kept_by : figure->helped_by;
     const bool has_button = command.empty() || command == "then mean" || std::ranges::find(offered, command) != offered.end();
     if (has_button) continue;  // the mean has a button of its own
     offered.push_back(command);
-    notice.offers.push_back({fmt::format("notice:keep-{}", offered.size()), "Keep: " + command, command,
-                             "a new run beside this one, which keeps it: for that the minimum may rise less; Run starts it"});
+    notice.offers.push_back({fmt::format("notice:keep-{}", offered.size()), (kept ? "Keep: " : "Try: ") + command, command,
+                             fmt::format("a new run beside this one, which {}: for that the minimum may rise less; Run starts it",
+                                         kept ? "keeps it" : "usually ends with less of that")});
   }
 }
 

@@ -51,6 +51,15 @@ TEST(Abaqus, SolidsWithTheirSets) {
   EXPECT_THAT(mesh.source->only_in_file(), ::testing::Contains("*MATERIAL"));
 }
 
+/// CalculiX' elements of fluids have the nodes of those of solids.
+TEST(Abaqus, FluidElementsAreSolids) {
+  const std::string nodes = "*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n6,1,0,1\n7,1,1,1\n8,0,1,1\n";
+  const Mesh mesh = read_bytes("a.inp", nodes + "*ELEMENT, TYPE=F3D8, ELSET=Eall\n1,1,2,3,4,5,6,7,8\n*ELEMENT, TYPE=F3D6\n2,1,2,4,5,6,8\n" +
+                                            "*ELEMENT, TYPE=F3D4\n3,1,2,4,5\n");
+  EXPECT_THAT(std::vector<ElementKind>(mesh.elements.kinds().begin(), mesh.elements.kinds().end()),
+              ElementsAre(ElementKind::Hexahedron, ElementKind::Wedge, ElementKind::Tetrahedron));
+}
+
 /// Nodes of the faces of an element, from Abaqus' manual.
 TEST(Abaqus, FacesAreNumberedAsInTheManual) {
   struct Solid {

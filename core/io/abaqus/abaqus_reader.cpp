@@ -23,12 +23,12 @@ struct Family {
   std::string_view prefix;  // name up to the number of nodes
   int dimension;
 };
-constexpr std::array kFamilies{Family{"C3D", 3},   Family{"DC3D", 3},  Family{"AC3D", 3},  Family{"COH3D", 3},  Family{"SC", 3},
-                               Family{"CSS", 3},   Family{"EC3D", 3},  Family{"Q3D", 3},   Family{"DCC3D", 3},  Family{"CPS", 2},
-                               Family{"CPE", 2},   Family{"CPEG", 2},  Family{"CAX", 2},   Family{"CGAX", 2},   Family{"DCAX", 2},
-                               Family{"ACAX", 2},  Family{"DC2D", 2},  Family{"AC2D", 2},  Family{"S", 2},      Family{"COH2D", 2},
-                               Family{"COHAX", 2}, Family{"DCC2D", 2}, Family{"DCCAX", 2}, Family{"STRI", 2},   Family{"M3D", 2},
-                               Family{"R3D", 2},   Family{"SFM3D", 2}, Family{"DS", 2},    Family{"WARPF2D", 2}};
+constexpr std::array kFamilies{Family{"C3D", 3},   Family{"DC3D", 3},  Family{"AC3D", 3},  Family{"COH3D", 3}, Family{"SC", 3},
+                               Family{"F3D", 3},   Family{"CSS", 3},   Family{"EC3D", 3},  Family{"Q3D", 3},   Family{"DCC3D", 3},
+                               Family{"CPS", 2},   Family{"CPE", 2},   Family{"CPEG", 2},  Family{"CAX", 2},   Family{"CGAX", 2},
+                               Family{"DCAX", 2},  Family{"ACAX", 2},  Family{"DC2D", 2},  Family{"AC2D", 2},  Family{"S", 2},
+                               Family{"COH2D", 2}, Family{"COHAX", 2}, Family{"DCC2D", 2}, Family{"DCCAX", 2}, Family{"STRI", 2},
+                               Family{"M3D", 2},   Family{"R3D", 2},   Family{"SFM3D", 2}, Family{"DS", 2},    Family{"WARPF2D", 2}};
 
 /// A keyword with its parameters, such as "*Element, type=C3D8, elset=Body".
 struct Keyword {

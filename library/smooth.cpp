@@ -36,7 +36,7 @@ void advance(dmoscope::Run& run, const RunRequest& request, const SmoothOptions&
                                                               : run.iterate(options.iterations.value_or(kUsual), progress, after);
     const bool optimises = dmoscope::method_info(run.parameters().method).optimises;
     if (request.until_converged || !optimises) run.end_at_best(progress);
-    for (std::string& sentence : missing_phases(run, outcome)) result.warnings.push_back(std::move(sentence));
+    for (std::string& sentence : missing_phases(run)) result.warnings.push_back(std::move(sentence));
     result.converged = request.until_converged && outcome.reason != dmoscope::StopReason::IterationLimit;
     result.sentence = run.last_outcome().value_or(outcome).sentence();
   } catch (const dmoscope::Cancelled&) {

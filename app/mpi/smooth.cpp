@@ -158,7 +158,7 @@ int smooth(const World& world, const SharedSmoothOptions& options) {
   Outcome outcome = options.goal.until_converged ? run.until_converged(options.goal.limits, progress, after)
                                                  : run.iterate(options.goal.iterations, progress, after);
   const double seconds = smoothing_seconds(run);
-  for (std::string& sentence : missing_phases(run, outcome)) warn(std::move(sentence));
+  for (std::string& sentence : missing_phases(run)) warn(std::move(sentence));
   if (std::string other = seek_output_iteration(run, options.write, options.goal.until_converged, progress); !other.empty())
     warn(std::move(other));
   if (run.last_outcome()) outcome = *run.last_outcome();

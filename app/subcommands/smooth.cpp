@@ -174,7 +174,7 @@ int smooth(const SmoothOptions& options) {
   checkpoints.set_running(false);
   require_at_goal(run, outcome);
   const double seconds = smoothing_seconds(run);
-  for (std::string& sentence : missing_phases(run, outcome)) warn(std::move(sentence));
+  for (std::string& sentence : missing_phases(run)) warn(std::move(sentence));
   if (std::string other = seek_output_iteration(run, options.write, options.goal.until_converged, progress); !other.empty())
     warn(std::move(other));
   if (run.last_outcome()) outcome = *run.last_outcome();

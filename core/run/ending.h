@@ -55,6 +55,6 @@ inline constexpr std::string_view kMayMakeWorse = "may make elements worse";
 [[nodiscard]] std::string made_worse(const RunParameters& parameters, std::span<const IterationRecord> records, std::uint64_t iteration);
 
 /// Sentences for the phases that were asked for and never began, with a remedy each, as the command line names it; usually none.
-[[nodiscard]] std::vector<std::string> missing_phases(const Run& run, const Outcome& outcome);
+[[nodiscard]] std::vector<std::string> missing_phases(const Run& run);
 
 }  // namespace dmoscope

@@ -7,7 +7,7 @@
 namespace dmoscope {
 
 std::optional<std::uint64_t> PhaseSwitchDetector::find(const PhaseBegin& next, std::span<const IterationRecord> records,
-                                                       std::optional<std::uint64_t> still, Inverted inverted) {
+                                                       std::optional<std::uint64_t> still, bool joint_next) {
   if (records.empty()) return std::nullopt;
   if (seen_ == 0) highest_ = records.front().statistics.movable_minimum;
   for (std::uint64_t i = seen_ + 1; !turn_ && i < records.size(); ++i) {
@@ -18,11 +18,8 @@ std::optional<std::uint64_t> PhaseSwitchDetector::find(const PhaseBegin& next, s
       highest_ = now.movable_minimum;
       last_rise_ = i;
     }
-    if (now.inverted > 0) {
-      if (inverted == Inverted::Wait) last_rise_ = i;
-      // Lets the method's own attempts come first: even those that fail leave less to do.
-      if (inverted == Inverted::Wait || iterations_since_untangled(records, i) < UntanglingPlan::kEnd) continue;
-    }
+    // Lets the method's own attempts come first: even those that fail leave less to do. The last one is the iteration after kEnd.
+    if (now.inverted > 0 && iterations_since_untangled(records, joint_next ? i : i - 1) < UntanglingPlan::kEnd) continue;
     const auto rests = [](const IterationRecord& record) { return record.moved == 0; };
     const bool at_rest = still && i >= *still && std::ranges::all_of(records.subspan(i + 1 - *still, *still), rests);
     if ((at_rest || i - last_rise_ >= next.patience) && !records[i].raise_follows) turn_ = i;

@@ -34,18 +34,13 @@ struct RunPhases {
   friend bool operator==(const RunPhases&, const RunPhases&) = default;
 };
 
-/// Treatment of elements that the first phase leaves inverted.
-enum class Inverted {
-  Wait,  // the next phase can do nothing for them: it does not begin
-  Leave  // the next phase untangles them
-};
-
 /// Finds the end of the first phase among the records of a path, each looked at once.
 class PhaseSwitchDetector {
  public:
-  /// Iteration at whose end the first phase is over; none: not within these records. `still`: see still_iterations().
+  /// Iteration at whose end the first phase is over; none: not within these records. `still`: see still_iterations(). Elements may stay
+  /// inverted: what the method attempts for them comes first, but for its last attempt, joint moves, where these come next in any case.
   [[nodiscard]] std::optional<std::uint64_t> find(const PhaseBegin& next, std::span<const IterationRecord> records,
-                                                  std::optional<std::uint64_t> still = 1, Inverted inverted = Inverted::Wait);
+                                                  std::optional<std::uint64_t> still = 1, bool joint_next = false);
   /// Forgets the records after an iteration, which belong to another path.
   void forget_after(std::uint64_t iteration);
 

@@ -42,7 +42,7 @@ bool Run::knows_joint_moves() const {
 bool Run::joint_untangling_follows(std::uint64_t iteration) const {
   const bool can =
       method_info(parameters_.method).optimises && !input_->is_surface() && (!input_->share || is_built_in(parameters_.metric));
-  return can && untangles_jointly(history_.records(), iteration, input_->has_strays) && !joint_follows(iteration);
+  return can && phases().of(iteration + 1) == Phase::Method && untangles_jointly(history_.records(), iteration, input_->has_strays);
 }
 
 /// Makes an iteration in which vertices around inverted elements move together, from the end of one or after edits there.

@@ -48,7 +48,7 @@ std::optional<std::uint64_t> Run::first_phase_end() const {
   const PhaseBegin* next = next_phase(parameters_);
   if (next == nullptr) return std::nullopt;
   return turn_.find(*next, history_.records(), still_iterations(method_info(parameters_.method), parameters_.options, input_->is_volume()),
-                    parameters_.then_joint ? Inverted::Leave : Inverted::Wait);
+                    parameters_.then_joint.has_value());
 }
 
 /// Iteration to whose state the run goes back there, the best of the first phase; none where it goes on from the last.
@@ -77,8 +77,7 @@ std::optional<std::uint64_t> Run::joint_over() const {
 std::optional<std::uint64_t> Run::mean_since() const {
   if (!parameters_.then_mean) return std::nullopt;
   if (!parameters_.then_joint && !method_info(parameters_.method).joint) return first_phase_end();
-  const auto over = joint_over();
-  return over && history_.records()[*over].statistics.inverted == 0 ? over : std::nullopt;
+  return joint_over();
 }
 
 /// Returns whether the next iteration is one of joint moves.

@@ -12,6 +12,7 @@
 #include "core/commands/session_commands.h"
 #include "core/run/phases.h"
 #include "core/run/run.h"
+#include "core/run/sweep_after.h"
 #include "core/session/state_file.h"
 #include "tests/support/meshes.h"
 #include "tests/support/temporary_folder.h"
@@ -25,7 +26,7 @@ using testing::input;
 using testing::lattice;
 
 /// Records with these minima, equal to the movable ones; some vertex moved in each.
-std::vector<IterationRecord> records(std::initializer_list<double> minima) {
+std::vector<IterationRecord> records(const std::vector<double>& minima) {
   std::vector<IterationRecord> all;
   for (const double minimum : minima) {
     IterationRecord& record = all.emplace_back();
@@ -92,11 +93,15 @@ TEST(PhaseSwitchDetector, FollowsAnotherPath) {
   EXPECT_EQ(turn.find({.patience = 2}, records({0.1, 0.2, 0.3, 0.3, 0.3})), 4U);
 }
 
-TEST(PhaseSwitchDetector, DoesNotComeWhileElementsAreInverted) {
+TEST(PhaseSwitchDetector, LetsAttemptsToUntangleComeFirst) {
   auto tangled = records({-0.3, -0.3, -0.3, -0.3, 0.1, 0.1, 0.1});
   for (std::size_t i = 0; i < 4; ++i) tangled[i].statistics.inverted = 2;
   tangled[2].moved = 0;  // nothing moves in this one
   EXPECT_EQ(PhaseSwitchDetector().find({.patience = 2}, tangled), 6U);
+  auto left = records(std::vector<double>(UntanglingPlan::kEnd + 3, -0.3));
+  for (IterationRecord& record : left) record.statistics.inverted = 2;
+  EXPECT_EQ(PhaseSwitchDetector().find({.patience = 2}, left), UntanglingPlan::kEnd + 1) << "none of them helped";
+  EXPECT_EQ(PhaseSwitchDetector().find({.patience = 2}, left, 1, true), UntanglingPlan::kEnd) << "the next phase is the last attempt";
 }
 
 /// Small rises that add up count: a first phase alone would go on, too.
@@ -279,6 +284,28 @@ double harmonic_mean(const dmoscope::Run& run) {
   double sum = 0.0;
   for (const double q : qualities) sum += 1.0 / q;
   return static_cast<double>(qualities.size()) / sum;
+}
+
+/// Nothing can untangle an element whose corners are all fixed: the mean of the others is raised.
+TEST(MeanPhase, RaisesTheMeanOfTheRestWhereAnElementStaysInverted) {
+  for (const bool joint : {false, true}) {
+    Mesh mesh = lattice(12, 0.3, 3);
+    mesh.positions.push_back({0.04, 0.02, 0});  // on the wrong side of the boundary edge that its element stands on
+    testing::add(mesh, {1, 0, static_cast<Index>(mesh.positions.size() - 1)});
+    RunParameters parameters = two_phases(20);
+    if (joint) parameters.then_joint = PhaseBegin{.patience = 20};
+    auto run = make_run(input(std::move(mesh)), parameters);
+    Progress progress;
+    const Outcome outcome = run.until_converged({.patience = 20, .max_iterations = 2000}, progress);
+    ASSERT_TRUE(run.mean_since());
+    const auto& all = run.history().records();
+    const Statistics &begin = all[*run.mean_since()].statistics, &end = all[outcome.ended].statistics;
+    EXPECT_EQ(begin.inverted, 1U);
+    EXPECT_EQ(end.inverted, 1U);
+    EXPECT_GE(end.minimum, begin.minimum);
+    EXPECT_GT(end.mean, begin.mean + (joint ? 0.0 : 0.01));  // joint moves raise it themselves
+    EXPECT_GT(outcome.iterations, *run.mean_since());
+  }
 }
 
 TEST(MeanPhase, GoesOnWithATangledMesh) {

@@ -89,6 +89,10 @@ class Run::Advance {
   }
   /// Number of further iterations without a rise that end the run.
   [[nodiscard]] std::uint64_t patience_left() const { return limits_.patience - std::min(since_rise_, limits_.patience); }
+  [[nodiscard]] static Phase last_phase_of(const RunParameters& parameters) {
+    if (parameters.then_mean) return Phase::Mean;
+    return parameters.then_joint || method_info(parameters.method).joint ? Phase::Joint : Phase::Method;
+  }
   [[nodiscard]] static RunParameters without_mean(RunParameters parameters) {
     parameters.then_mean.reset();
     return parameters;
@@ -100,7 +104,6 @@ class Run::Advance {
   Progress& progress_;
   const AfterIteration& after_;
   Outcome outcome_;
-  const bool joint_comes_;
   const Phase last_phase_;
   Phase phase_ = Phase::Method;  // phase of the iteration last reached
   std::uint64_t reached_;
@@ -120,10 +123,7 @@ Run::Advance::Advance(Run& run, const ConvergenceLimits& limits, bool stop_when_
       progress_(progress),
       after_(after),
       outcome_{.limits = limits, .two_aims = run.parameters_.combination.has_value()},
-      joint_comes_(run.parameters_.then_joint || method_info(run.parameters_.method).joint),
-      last_phase_(run.parameters_.then_mean ? Phase::Mean
-                  : joint_comes_            ? Phase::Joint
-                                            : Phase::Method),
+      last_phase_(last_phase_of(run.parameters_)),
       reached_(from),
       best_(run.parameters_),
       best_alone_(without_mean(run.parameters_)) {
@@ -173,7 +173,7 @@ Outcome Run::Advance::outcome() {
 /// Makes the next iteration, or goes through it by its record.
 void Run::Advance::next_iteration(bool anew) {
   const bool counts = last_phase_ == outcome_.phases.of(reached_ + 1) && last_phase_ != Phase::Joint;
-  if (stop_when_still_ && (counts || (outcome_.inverted > 0 && !joint_comes_))) run_.pursuit_->patience_left = patience_left();
+  if (stop_when_still_ && counts) run_.pursuit_->patience_left = patience_left();
   if (anew) {
     const Progress::Part part(progress_, outcome_.iterations, limits_.max_iterations);
     run_.step(StepUnit::Iteration, progress_);
@@ -219,7 +219,7 @@ void Run::Advance::note_joint(const IterationRecord& record) {
   const auto end = phase_ == Phase::Joint && record.joint ? record.joint->end : JointState::End::None;
   if (end != JointState::End::None) {
     outcome_.phases.joint_over = reached_;
-    if (stop_when_still_ && (last_phase_ == Phase::Joint || left > 0)) {
+    if (stop_when_still_ && last_phase_ == Phase::Joint) {
       stopped_ = true;
       outcome_.reason = end == JointState::End::Certified && left == 0 ? StopReason::Certified : StopReason::NoJointGain;
     }
@@ -242,7 +242,7 @@ void Run::Advance::judge_end(const IterationRecord& record, bool whole) {
   bool certified = false;
   if (raises_worst_now(idle, certified)) return;
   // A phase's end is not the run's; joint moves know themselves when they are over.
-  if (phase_ == Phase::Joint || (phase_ != last_phase_ && (now.inverted == 0 || joint_comes_))) return;
+  if (phase_ == Phase::Joint || phase_ != last_phase_) return;
   // Counts still iterations of DMO in the last phase, which searches as DMO does, whatever the method.
   const RunParameters& parameters = run_.parameters_;
   auto needed = phase_ == Phase::Mean ? 1 : still_iterations(method_info(parameters.method), parameters.options, run_.input_->is_volume());

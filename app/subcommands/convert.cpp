@@ -18,7 +18,7 @@
 #include "core/io/mesh_io.h"
 #include "core/io/reading/source_file.h"
 #include "core/mesh/faces.h"
-#include "core/mesh/volume.h"
+#include "core/mesh/orientation.h"
 
 namespace dmoscope::app {
 namespace {

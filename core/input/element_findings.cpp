@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "core/base/box.h"
-#include "core/mesh/volume.h"
+#include "core/mesh/orientation.h"
 #include "core/quality/quality.h"
 
 namespace dmoscope {

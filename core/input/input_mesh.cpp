@@ -19,7 +19,6 @@
 #include "core/mesh/orientation.h"
 #include "core/mesh/seam.h"
 #include "core/mesh/thin.h"
-#include "core/mesh/volume.h"
 
 namespace dmoscope {
 namespace {

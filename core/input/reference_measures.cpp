@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/base/memory.h"
-#include "core/mesh/volume.h"
+#include "core/mesh/orientation.h"
 
 namespace dmoscope {
 namespace {

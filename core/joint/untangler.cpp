@@ -6,7 +6,7 @@
 
 #include "core/base/same_bits.h"
 #include "core/joint/atoms.h"
-#include "core/mesh/volume.h"
+#include "core/mesh/orientation.h"
 #include "core/quality/quality.h"
 
 namespace dmoscope {

@@ -1,26 +1,47 @@
 #include "core/mesh/edges.h"
 
+#include <algorithm>
 #include <array>
+#include <numeric>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
-#include "core/mesh/disjoint_sets.h"
+#include "core/base/memory.h"
+#include "core/base/vec.h"
+#include "core/mesh/faces.h"
 
 namespace dmoscope {
+
+// Disjoint sets of indices that can be joined.
+
+/// Disjoint sets with path halving. The root of a set is its lowest index.
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t count) : parent_(large_vector<Index>(count)) { std::iota(parent_.begin(), parent_.end(), Index{0}); }
+  [[nodiscard]] Index find(Index i) noexcept {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  /// Joins the sets of a and b. True if they were disjoint.
+  bool join(Index a, Index b) noexcept {
+    a = find(a);
+    b = find(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+    return a != b;
+  }
+  /// Moves out the parents, one for each index and never above it: the lowest index of a set is its own parent.
+  [[nodiscard]] std::vector<Index> take_parents() noexcept { return std::move(parent_); }
+
+ private:
+  std::vector<Index> parent_;
+};
+
 namespace {
 
 constexpr Index kCheckEvery = 1U << 16U;  // vertices between two checks for a cancel
 
 bool planar(const Mesh& mesh, Index e) { return info(mesh.elements.kind(e)).dimension == 2; }
-
-/// Corners in ascending order; shorter elements are filled up with kNoIndex.
-using CornerSet = std::array<Index, 4>;
-CornerSet corner_set(const Mesh& mesh, Index e) {
-  CornerSet set{kNoIndex, kNoIndex, kNoIndex, kNoIndex};
-  std::ranges::copy(mesh.elements.corners(e), set.begin());
-  std::ranges::sort(set);
-  return set;
-}
 
 /// Finds elements with the corners of an earlier one. Two such elements share an edge, so only elements of one edge are compared.
 class Duplicates {
@@ -29,7 +50,7 @@ class Duplicates {
 
   void look_at(std::span<const EdgeSide> sides) {
     around_.clear();
-    for (const EdgeSide& side : sides) around_.emplace_back(corner_set(mesh_, side.element), side.element);
+    for (const EdgeSide& side : sides) around_.emplace_back(corner_set(mesh_.elements.corners(side.element)), side.element);
     std::ranges::sort(around_);
     for (std::size_t k = 1; k < around_.size(); ++k) {
       if (around_[k].first == around_[k - 1].first && around_[k].second != around_[k - 1].second) found_.push_back(around_[k].second);
@@ -44,7 +65,7 @@ class Duplicates {
  private:
   const Mesh& mesh_;
   std::vector<Index> found_;
-  std::vector<std::pair<CornerSet, Index>> around_;
+  std::vector<std::pair<std::array<Index, 4>, Index>> around_;
 };
 
 /// Numbers the components in the order of their first elements.

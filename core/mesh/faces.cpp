@@ -21,12 +21,6 @@ constexpr Index kFacesBetweenLooks = 1U << 16U;
 
 using Corners = std::array<Index, 4>;
 
-/// Sorts the vertices of a face, so that faces compare as sets; a triangle ends with kNoIndex.
-Corners sorted(Corners corners) {
-  std::ranges::sort(corners);
-  return corners;
-}
-
 /// A face with its sorted vertices and its place.
 struct KeyedFace {
   Corners key;
@@ -52,6 +46,13 @@ std::span<const LocalFace> faces_of(ElementKind kind) noexcept {
       return kQuadrilateral;
   }
   return {};
+}
+
+std::array<Index, 4> corner_set(std::span<const Index> corners) noexcept {
+  Corners set{kNoIndex, kNoIndex, kNoIndex, kNoIndex};
+  std::ranges::copy(corners, set.begin());
+  std::ranges::sort(set);
+  return set;
 }
 
 std::array<Index, 4> vertices_of(const ElementTable& elements, ElementFace face) noexcept {
@@ -90,7 +91,7 @@ FaceNeighbours::FaceNeighbours(const Mesh& mesh, Progress* progress) {
   for (std::size_t v = 0; v + 1 < first.size(); ++v) {
     bucket.clear();
     for (std::uint32_t i = first[v]; i < first[v + 1]; ++i)
-      bucket.push_back({sorted(vertices_of(elements, order[i])), offsets_[order[i].element] + order[i].face, order[i].element});
+      bucket.push_back({corner_set(vertices_of(elements, order[i])), offsets_[order[i].element] + order[i].face, order[i].element});
     std::ranges::stable_sort(bucket, {}, &KeyedFace::key);
     for (std::size_t i = 0, end = 0; i < bucket.size(); i = end) {
       while (end < bucket.size() && bucket[end].key == bucket[i].key) ++end;
@@ -115,10 +116,10 @@ FaceNeighbours::FaceNeighbours(const Mesh& mesh, Progress* progress) {
 Index FaceNeighbours::face_across(const ElementTable& elements, ElementFace at) const noexcept {
   const Index other = of(at.element)[at.face];
   if (other == kNoIndex) return kNoIndex;
-  const Corners wanted = sorted(vertices_of(elements, at));
+  const Corners wanted = corner_set(vertices_of(elements, at));
   const auto faces = static_cast<Index>(faces_of(elements.kind(other)).size());
   for (Index f = 0; f < faces; ++f)
-    if (sorted(vertices_of(elements, {other, f})) == wanted) return f;
+    if (corner_set(vertices_of(elements, {other, f})) == wanted) return f;
   return kNoIndex;
 }
 

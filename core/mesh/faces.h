@@ -32,6 +32,9 @@ struct ElementFace {
 /// The face's 3 or 4 vertices, in faces_of()'s order; the rest is kNoIndex.
 [[nodiscard]] std::array<Index, 4> vertices_of(const ElementTable& elements, ElementFace face) noexcept;
 
+/// Up to four vertices in ascending order, so that faces and edges compare as sets; the rest is kNoIndex.
+[[nodiscard]] std::array<Index, 4> corner_set(std::span<const Index> corners) noexcept;
+
 /// For every face of every volume element, the element on its other side. Linear in the number of elements for bounded valence.
 class FaceNeighbours {
  public:

@@ -55,7 +55,7 @@ constexpr void flip_corners(ElementKind kind, Index* c) noexcept {
   }
 }
 
-/// Elements of any mix of kinds; all corners in one array, in Gmsh's order for each kind (VTK's, but for wedges: see io/vtk_order.h).
+/// Elements of any mix of kinds; all corners in one array, in Gmsh's order for each kind (VTK's, but for wedges: see io/vtk/vtk_cells.h).
 class ElementTable {
  public:
   [[nodiscard]] Index size() const noexcept { return static_cast<Index>(kinds_.size()); }

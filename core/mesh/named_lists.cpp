@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "core/mesh/faces.h"
-
 namespace dmoscope {
 
 bool is_string(const Group& group) { return group.dimension == 0 && group.role.ends_with("boundary"); }
@@ -60,15 +58,7 @@ void NamedList::add(const Group& group) {
   }
 }
 
-NamedList::Key NamedList::key_of(std::span<const Index> corners) {
-  Key key;
-  key.fill(kNoIndex);
-  std::ranges::copy(corners, key.begin());
-  std::ranges::sort(key);
-  return key;
-}
-
-bool NamedList::named(std::span<const Index> corners) const { return std::ranges::binary_search(keys_, key_of(corners)); }
+bool NamedList::named(std::span<const Index> corners) const { return std::ranges::binary_search(keys_, corner_set(corners)); }
 
 bool NamedList::all_named_at(Index vertex) const {
   for (const Incidence& at : topology_.star(vertex)) {

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/mesh/faces.h"
 #include "core/mesh/topology.h"
 
 namespace dmoscope {
@@ -28,20 +29,18 @@ class NamedList {
   [[nodiscard]] bool surrounds(Index vertex);
 
  private:
-  using Key = std::array<Index, 4>;  // vertices in ascending order, the rest kNoIndex
   [[nodiscard]] bool full(Index vertex);
   [[nodiscard]] bool all_named_at(Index vertex) const;
   [[nodiscard]] bool named(std::span<const Index> corners) const;
-  [[nodiscard]] static Key key_of(std::span<const Index> corners);
-  void add(std::span<const Index> corners) { keys_.push_back(key_of(corners)); }
+  void add(std::span<const Index> corners) { keys_.push_back(corner_set(corners)); }
   void add(const Group& group);
 
   NamedKind kind_;
   const Mesh& mesh_;
   const Topology& topology_;
-  std::vector<Key> keys_;              // all named edges or faces, ascending
-  std::vector<std::uint8_t> named_;    // points: whether each vertex is named
-  std::vector<std::uint8_t> is_full_;  // by vertex, whether all around it is named: 0 not asked yet, 1 no, 2 yes
+  std::vector<std::array<Index, 4>> keys_;  // all named edges or faces, ascending
+  std::vector<std::uint8_t> named_;         // points: whether each vertex is named
+  std::vector<std::uint8_t> is_full_;       // by vertex, whether all around it is named: 0 not asked yet, 1 no, 2 yes
 };
 
 }  // namespace dmoscope

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/base/progress.h"
+#include "core/mesh/faces.h"
 #include "core/mesh/mesh.h"
 
 namespace dmoscope {
@@ -42,5 +43,21 @@ struct ThinMesh {
 [[nodiscard]] Index on_front(const Mesh& mesh, Index vertex);
 /// Gives a mesh of front faces its cells back; any other mesh is unchanged.
 [[nodiscard]] Mesh with_cells(Mesh mesh);
+
+// Search for the front face of each cell, in a mesh one cell thick.
+
+struct FrontFaces {
+  std::vector<std::array<Index, 4>> corners;  // front face of each cell; the normal points to the back
+  std::vector<std::uint8_t> counts;           // number of corners of each front face: 3 or 4
+  std::vector<Index> front, back;             // partners of each vertex, see ThinMesh
+  std::string why_not;                        // reason why there is no front; empty: it was found
+};
+
+/// Finds the front face of each cell, see take_front(). `faces`: those of `mesh`, whose elements are all volume elements of consistent
+/// winding.
+[[nodiscard]] FrontFaces find_front_faces(const Mesh& mesh, const FaceNeighbours& faces);
+
+/// Cheap first test for a mesh one cell thick, which often fails without a look at the faces. Empty, or why it is not one.
+[[nodiscard]] std::string why_not_prismatic(const Mesh& mesh);
 
 }  // namespace dmoscope

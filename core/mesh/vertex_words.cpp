@@ -1,6 +1,7 @@
 #include "core/mesh/vertex_words.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -36,24 +37,24 @@ std::string some_of(const std::vector<std::string>& names) {
 /// Finds the vertices that one word names in one mesh.
 class VertexWord {
  public:
-  VertexWord(const Mesh& mesh, std::string_view word) : mesh_(mesh), word_(word) {}
+  VertexWord(const Mesh& mesh, std::string_view word) : mesh_(mesh), word_(word) {
+    const std::size_t colon = word.find(':');
+    if (colon == std::string_view::npos) return;
+    head_ = word.substr(0, colon);
+    rest_ = word.substr(colon + 1);
+  }
 
   std::vector<Index> vertices() {
-    const std::size_t colon = word_.find(':');
-    const std::string_view head = word_.substr(0, colon == std::string_view::npos ? 0 : colon);
-    const std::string_view rest = word_.substr(colon == std::string_view::npos ? 0 : colon + 1);
-    if (head == "vertices") {
-      list(rest);
-    } else if (head == "box") {
-      box(rest);
-    } else if (head == "loop" || head == "part") {
-      found_ = vertices_of_outline(mesh_, head, rest);
-    } else if (head == "group") {
-      groups(rest, "");
-    } else if (head == "points" || head == "lines" || head == "faces" || head == "elements") {
-      groups(rest, head);
-    } else if (head == "data" || head == "point-data" || head == "cell-data") {
-      data(rest, head);
+    if (head_ == "vertices") {
+      list(rest_);
+    } else if (head_ == "box") {
+      box(rest_);
+    } else if (head_ == "loop" || head_ == "part") {
+      found_ = vertices_of_outline(mesh_, head_, rest_);
+    } else if (names_groups()) {
+      groups(rest_, members());
+    } else if (head_ == "data" || head_ == "point-data" || head_ == "cell-data") {
+      data(rest_, head_);
     } else {
       bare();
     }
@@ -63,14 +64,17 @@ class VertexWord {
   }
 
   [[nodiscard]] std::vector<const Group*> named_groups() const {
-    const std::size_t colon = word_.find(':');
-    const std::string_view head = word_.substr(0, colon == std::string_view::npos ? 0 : colon);
-    if (head == "group") return require_groups(word_.substr(colon + 1), "");
-    if (head == "points" || head == "lines" || head == "faces" || head == "elements") return require_groups(word_.substr(colon + 1), head);
-    return require_groups(word_, "");
+    return names_groups() ? require_groups(rest_, members()) : require_groups(word_, "");
   }
 
  private:
+  [[nodiscard]] bool names_groups() const {
+    constexpr std::array<std::string_view, 5> kHeads{"group", "points", "lines", "faces", "elements"};
+    return std::ranges::find(kHeads, head_) != kHeads.end();
+  }
+  /// Kind of the members of the groups that the word names; empty: any.
+  [[nodiscard]] std::string_view members() const { return head_ == "group" ? std::string_view() : head_; }
+
   [[noreturn]] void fail(const std::string& what) const { throw UsageError(fmt::format("{}: {}", word_, what)); }
   [[noreturn]] void fail_choice(const std::vector<std::string>& choices) const {
     fail(fmt::format("this can mean more than one thing; write '{}'", fmt::join(choices, "' or '")));
@@ -247,7 +251,7 @@ class VertexWord {
   }
 
   const Mesh& mesh_;
-  std::string_view word_;
+  std::string_view word_, head_, rest_;  // the whole word, and what is before and behind its colon
   std::vector<Index> found_;
 };
 

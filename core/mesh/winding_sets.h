@@ -8,6 +8,7 @@
 #include <numeric>
 #include <vector>
 
+#include "core/base/box.h"
 #include "core/mesh/mesh.h"
 
 namespace dmoscope {
@@ -52,12 +53,8 @@ class WindingSets {
 /// Bound of the measure of a mesh's box: its diagonal to the power of the dimension.
 inline double box_measure(const Mesh& mesh, int dimension) {
   if (mesh.positions.empty()) return 1.0;
-  Vec3 low = mesh.positions[0], high = low;
-  for (const Vec3& p : mesh.positions) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  return std::pow(length(high - low), dimension);
+  const PointBox box = box_of(mesh.positions);
+  return std::pow(length(box.high - box.low), dimension);
 }
 
 /// Votes of a component's elements when its first element keeps its winding.

@@ -11,7 +11,7 @@
 #include "core/base/number_text.h"
 #include "core/mesh/edges.h"
 #include "core/mesh/faces.h"
-#include "core/mesh/volume.h"
+#include "core/mesh/orientation.h"
 #include "core/quality/metric_phrase.h"
 #include "core/run/percentiles.h"
 #include "core/target/boundary_layers.h"

@@ -12,8 +12,8 @@
 #include "core/mesh/corner_tables.h"
 #include "core/mesh/edges.h"
 #include "core/mesh/faces.h"
+#include "core/mesh/orientation.h"
 #include "core/mesh/topology.h"
-#include "core/mesh/volume.h"
 #include "core/target/boundary_layers.h"
 
 namespace dmoscope {

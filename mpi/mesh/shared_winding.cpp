@@ -5,7 +5,7 @@
 #include <unordered_map>
 
 #include "core/mesh/edges.h"
-#include "core/mesh/volume.h"
+#include "core/mesh/orientation.h"
 #include "core/mesh/winding_sets.h"
 
 namespace dmoscope {

@@ -10,7 +10,7 @@
 
 #include "core/io/mesh_io.h"
 #include "core/mesh/faces.h"
-#include "core/mesh/volume.h"
+#include "core/mesh/orientation.h"
 #include "tests/io/files.h"
 #include "tests/io/meshio.h"
 

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/mesh/faces.h"
-#include "core/mesh/volume.h"
+#include "core/mesh/orientation.h"
 
 namespace dmoscope {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "core/base/error.h"
 #include "core/input/input_mesh.h"
-#include "core/mesh/volume.h"
+#include "core/mesh/orientation.h"
 #include "tests/support/meshes.h"
 
 namespace dmoscope {

@@ -9,7 +9,7 @@
 
 #include "core/input/input_mesh.h"
 #include "core/mesh/faces.h"
-#include "core/mesh/volume.h"
+#include "core/mesh/orientation.h"
 #include "core/smooth/size_field.h"
 #include "ui/analysis/group_list.h"
 #include "ui/analysis/holding_colours.h"

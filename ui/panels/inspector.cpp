@@ -11,8 +11,8 @@
 #include <fmt/ranges.h>
 
 #include "core/mesh/geographic.h"
+#include "core/mesh/orientation.h"
 #include "core/mesh/outline.h"
-#include "core/mesh/volume.h"
 #include "core/quality/quality.h"
 #include "core/reference/domain.h"
 #include "ui/panels/panels.h"

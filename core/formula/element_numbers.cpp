@@ -1,6 +1,7 @@
 #include "core/formula/element_numbers.h"
 
 #include <numbers>
+#include <optional>
 
 #include "core/mesh/corner_tables.h"
 #include "core/mesh/faces.h"
@@ -23,6 +24,9 @@ constexpr std::array kHexahedronEdges{Pair{0, 1}, Pair{1, 2}, Pair{2, 3}, Pair{3
 constexpr std::array kWedgeEdges{Pair{0, 1}, Pair{1, 2}, Pair{2, 0}, Pair{3, 4}, Pair{4, 5},
                                  Pair{5, 3}, Pair{0, 3}, Pair{1, 4}, Pair{2, 5}};
 constexpr std::array kPyramidEdges{Pair{0, 1}, Pair{1, 2}, Pair{2, 3}, Pair{3, 0}, Pair{0, 4}, Pair{1, 4}, Pair{2, 4}, Pair{3, 4}};
+
+/// Joins one more number by an operation to those before it, if there are any.
+void join(ProgramBuilder& builder, std::optional<Number>& all, Operation by, Number one) { all = all ? builder.apply(by, *all, one) : one; }
 
 }  // namespace
 
@@ -245,14 +249,12 @@ Number ElementNumbers::determinant(std::size_t at) {
 
 Number ElementNumbers::squared_norm(std::size_t at) {
   if (kind_ == ElementKind::Triangle || kind_ == ElementKind::Tetrahedron) {  // by the edges, which costs less
-    Number sum = builder_.constant(0.0);
-    bool first = true;
+    std::optional<Number> sum;
     for (const auto& [from, to] : edges()) {
       const Vector e = edge(from, to);
-      sum = first ? dot(e, e) : builder_.add(sum, dot(e, e));
-      first = false;
+      join(builder_, sum, Operation::Add, dot(e, e));
     }
-    return builder_.times(kind_ == ElementKind::Triangle ? 2.0 / 3.0 : 0.5, sum);
+    return builder_.times(kind_ == ElementKind::Triangle ? 2.0 / 3.0 : 0.5, *sum);
   }
   const auto a = jacobian_matrix(at);
   Number sum = builder_.add(dot(a[0], a[0]), dot(a[1], a[1]));
@@ -327,13 +329,10 @@ Number ElementNumbers::measure() {
 /// Volume of an element whose faces may be saddles: each face counts as the mean of its two halvings, seen from the first corner.
 Number ElementNumbers::volume() {
   if (kind_ == ElementKind::Tetrahedron) return builder_.times(1.0 / 6.0, corner(0).jacobian);
-  Number sum = builder_.constant(0.0);
-  bool first = true;
+  std::optional<Number> sum;
   const auto take = [&](Index a, Index b, Index c, double factor) {
     if (a == 0 || b == 0 || c == 0) return;
-    const Number part = builder_.times(factor, determinant_of(edge(0, a), edge(0, b), edge(0, c)));
-    sum = first ? part : builder_.add(sum, part);
-    first = false;
+    join(builder_, sum, Operation::Add, builder_.times(factor, determinant_of(edge(0, a), edge(0, b), edge(0, c))));
   };
   for (const LocalFace& face : faces_of(kind_)) {
     const auto& c = face.corners;
@@ -343,8 +342,8 @@ Number ElementNumbers::volume() {
     }
     for (std::size_t k = 0; k < 4; ++k) take(c[k], c[(k + 1) % 4], c[(k + 2) % 4], 1.0 / 12.0);
   }
-  builder_.mark_positive(sum);
-  return sum;
+  builder_.mark_positive(*sum);
+  return *sum;
 }
 
 Number ElementNumbers::surface() {
@@ -370,24 +369,23 @@ Number ElementNumbers::greatest_angle() { return extreme_angle(Operation::Maximu
 
 Number ElementNumbers::extreme_angle(Operation of) {
   if (dimension() == 3) {
-    Number extreme = dihedral_angle(0);
-    for (std::size_t i = 1; i < edges().size(); ++i) extreme = builder_.apply(of, extreme, dihedral_angle(i));
-    return extreme;
+    std::optional<Number> extreme;
+    for (std::size_t i = 0; i < edges().size(); ++i) join(builder_, extreme, of, dihedral_angle(i));
+    return *extreme;
   }
   require_whole();
   if (kind_ == ElementKind::Triangle) {  // the largest u . v has the least angle and the least the greatest: only one angle to compute
     const Operation opposite = of == Operation::Minimum ? Operation::Maximum : Operation::Minimum;
-    Number extreme = 0;
+    std::optional<Number> extreme;
     for (std::size_t i = 0; i < 3; ++i) {
       const Corner c = corner(i);
-      const Number product = dot(c.edges[0], c.edges[1]);
-      extreme = i == 0 ? product : builder_.apply(opposite, extreme, product);
+      join(builder_, extreme, opposite, dot(c.edges[0], c.edges[1]));
     }
-    return builder_.arc_tangent(builder_.absolute(corner(0).jacobian), extreme);
+    return builder_.arc_tangent(builder_.absolute(corner(0).jacobian), *extreme);
   }
-  Number extreme = corner_angle(0);
-  for (std::size_t i = 1; i < 4; ++i) extreme = builder_.apply(of, extreme, corner_angle(i));
-  return extreme;
+  std::optional<Number> extreme;
+  for (std::size_t i = 0; i < 4; ++i) join(builder_, extreme, of, corner_angle(i));
+  return *extreme;
 }
 
 Number ElementNumbers::inradius() {
@@ -420,9 +418,8 @@ Number ElementNumbers::scaled_jacobian_inside(Index moving) {
   };
   std::array<Coefficient, 27> coefficients{};
   const auto take = [&](std::size_t at, const Vector& a, const Vector& b, const Vector& c) {
-    const auto join = [&](std::optional<Number>& sum, Number one) { sum = sum ? builder_.add(*sum, one) : one; };
-    join(coefficients[at].determinants, determinant_of(a, b, c));
-    join(coefficients[at].lengths, builder_.multiply(builder_.multiply(length(a), length(b)), length(c)));
+    join(builder_, coefficients[at].determinants, Operation::Add, determinant_of(a, b, c));
+    join(builder_, coefficients[at].lengths, Operation::Add, builder_.multiply(builder_.multiply(length(a), length(b)), length(c)));
   };
   if (kind_ == ElementKind::Hexahedron) {  // (p, q, r) at 9 p + 3 q + r; edges by their two other coordinates, the lower first
     const std::array x{edge(0, 1), edge(3, 2), edge(4, 5), edge(7, 6)}, y{edge(0, 3), edge(1, 2), edge(4, 7), edge(5, 6)},
@@ -442,22 +439,19 @@ Number ElementNumbers::scaled_jacobian_inside(Index moving) {
   for (const Coefficient& one : coefficients) {
     if (!one.determinants) continue;
     const Number ratio = builder_.divide(*one.determinants, *one.lengths);
-    if (moving == kNoIndex || builder_.depends_on(ratio, moving)) least = least ? builder_.minimum(*least, ratio) : ratio;
+    if (moving == kNoIndex || builder_.depends_on(ratio, moving)) join(builder_, least, Operation::Minimum, ratio);
   }
   return kind_ == ElementKind::Wedge ? builder_.times(2.0 / sqrt3, *least) : *least;
 }
 
 Number ElementNumbers::smallest_jacobian(Index moving) {
   ElementNumbers plain(builder_, kind_, FormulaSpace::Plain);
-  Number least = 0;
-  bool first = true;
+  std::optional<Number> least;
   for (std::size_t i = 0; i < (is_simplex() ? 1 : frame_count()); ++i) {
     if (!is_simplex() && dimension() == 3 && moving != kNoIndex && !depends_on(i, moving)) continue;
-    const Number jacobian = plain.corner(i).jacobian;
-    least = first ? jacobian : builder_.minimum(least, jacobian);
-    first = false;
+    join(builder_, least, Operation::Minimum, plain.corner(i).jacobian);
   }
-  return least;
+  return *least;
 }
 
 }  // namespace dmoscope

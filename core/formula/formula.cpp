@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "core/formula/tokens.h"
+#include "core/formula/syntax.h"
 
 namespace dmoscope {
 

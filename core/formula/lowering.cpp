@@ -1,5 +1,3 @@
-#include "core/formula/lowering.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -7,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/base/unknown_value.h"
+#include "core/formula/formula.h"
 #include "core/formula/lowering_state.h"
 
 namespace dmoscope {
@@ -388,10 +387,10 @@ Number Lowering::number_named(const SyntaxNode& n, const FormulaName& entry, con
   if (name == "perimeter" && volume) throw NotForKind(n.place, fmt::format("'perimeter': a {} has none", info(kind_).name));
   if (name == "area" || name == "volume" || name == "measure") return element_.measure();
   if (name == "surface") return element_.surface();
-  if (name == "perimeter" || name == "lsum") return over_lengths([&](Number a, Number b) { return builder_.add(a, b); }, false);
-  if (name == "lmin") return builder_.root(over_lengths([&](Number a, Number b) { return builder_.minimum(a, b); }, true));
-  if (name == "lmax") return builder_.root(over_lengths([&](Number a, Number b) { return builder_.maximum(a, b); }, true));
-  if (name == "l2sum") return over_lengths([&](Number a, Number b) { return builder_.add(a, b); }, true);
+  if (name == "perimeter" || name == "lsum") return over_lengths(Operation::Add, false);
+  if (name == "lmin") return builder_.root(over_lengths(Operation::Minimum, true));
+  if (name == "lmax") return builder_.root(over_lengths(Operation::Maximum, true));
+  if (name == "l2sum") return over_lengths(Operation::Add, true);
   if (name == "amin") return element_.least_angle();
   if (name == "amax") return element_.greatest_angle();
   if (name == "inradius") return element_.inradius();
@@ -421,17 +420,14 @@ Number Lowering::corner_number(const SyntaxNode& n, std::string_view name, std::
   return element_.singular_value(corner, name == "smax" ? 0 : name == "smid" ? 1 : element_.dimension() - 1);
 }
 
-template <class F>
-Number Lowering::over_lengths(const F& join, bool squared) {
-  Number all = 0;
-  bool first = true;
+Number Lowering::over_lengths(Operation join, bool squared) {
+  std::optional<Number> all;
   for (const auto& [from, to] : element_.edges()) {
     const Vector e = element_.edge(from, to);
     const Number one = squared ? element_.dot(e, e) : element_.length(e);
-    all = first ? one : join(all, one);
-    first = false;
+    all = all ? builder_.apply(join, *all, one) : one;
   }
-  return all;
+  return *all;
 }
 
 }  // namespace formula_lowering

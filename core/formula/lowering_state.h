@@ -1,6 +1,6 @@
 #pragma once
 // State of the translation of a formula's body: the values of its expressions so far, and the rules for them. Only the lowering*.cpp
-// include it; lowering.h is for all others.
+// include it; formula.h is for all others.
 
 #include <cstdint>
 #include <map>
@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/formula/lowering.h"
+#include "core/formula/formula.h"
 #include "core/formula/vocabulary.h"
 
 // A namespace of its own, since the search has another Value.
@@ -138,8 +138,7 @@ class Lowering {
   Number number_named(const SyntaxNode& n, const FormulaName& entry, const Scope& scope);
   Number corner_number(const SyntaxNode& n, std::string_view name, std::size_t corner);
   /// Joins the lengths of all edges, or the squares of these.
-  template <class F>
-  Number over_lengths(const F& join, bool squared);
+  Number over_lengths(Operation join, bool squared);
 
   // --- Calls ---
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/formula/formula_error.h"
+#include "core/formula/syntax.h"
 #include "core/quality/metric.h"
 
 namespace dmoscope::ui {

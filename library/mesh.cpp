@@ -9,9 +9,8 @@
 
 #include "core/base/same_bits.h"
 #include "core/io/mesh_io.h"
-#include "core/io/reading/binary_scalar.h"
-#include "core/io/source_again.h"
-#include "core/io/vtk/vtk_order.h"
+#include "core/io/reading/binary.h"
+#include "core/io/vtk/vtk_cells.h"
 #include "core/mesh/geographic.h"
 #include "core/mesh/outline.h"
 #include "core/mesh/thin.h"

@@ -24,7 +24,6 @@
 #include "app/subcommands/checkpoint.h"
 #include "app/subcommands/input_report.h"
 #include "app/subcommands/subcommands.h"
-#include "core/io/commented_mesh.h"
 #include "core/io/mesh_io.h"
 #include "core/io/reading/source_file.h"
 #include "core/io/writing/atomic_file.h"

@@ -1,7 +1,6 @@
 #include "core/io/array_patch.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -10,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/same_bits.h"
 #include "core/io/reading/tokenizer.h"
 
 namespace dmoscope {
@@ -17,7 +17,6 @@ namespace {
 
 double& coordinate_of(Vec3& p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
 double coordinate_of(const Vec3& p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
-bool equal_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 
 /// Calls each(number in the array, vertex, axis) for all numbers of an array.
 template <class Each>
@@ -32,11 +31,6 @@ void for_each_number(const CoordinateArray& array, Each&& each) {
 }
 
 }  // namespace
-
-bool same_positions(std::span<const Vec3> a, std::span<const Vec3> b) noexcept {
-  return std::ranges::equal(
-      a, b, [](const Vec3& p, const Vec3& q) { return equal_bits(p.x, q.x) && equal_bits(p.y, q.y) && equal_bits(p.z, q.z); });
-}
 
 void CoordinateArrays::read(ArrayFile& file, CoordinateArray array, std::span<Vec3> positions) {
   const std::optional<ArrayInfo> info = file.find(array.name);
@@ -115,7 +109,7 @@ std::string CoordinateArrays::replaced(ArrayFile& file, std::span<const Vec3> be
     bool any = false;
     for_each_number(array, [&](std::size_t i, std::size_t vertex, int axis) {
       double value = coordinate_of(moved[vertex], axis);
-      if (equal_bits(value, coordinate_of(before[vertex], axis)) || i >= values.values.size()) return;
+      if (same_bits(value, coordinate_of(before[vertex], axis)) || i >= values.values.size()) return;
       // Rounds to float first: a vertex may be in several arrays, of floats and of doubles, and must have one place in all of them.
       if (held.scalar[static_cast<std::size_t>(axis)] == CoordinateScalar::Float32) {
         if (!std::isfinite(static_cast<float>(value))) {

@@ -48,6 +48,4 @@ class CoordinateArrays {
 /// Arrays named by Field::Place, with the numbers that changed; the notes name a field without a place.
 [[nodiscard]] std::vector<ArrayValues> changed_arrays(ArrayFile& file, const Mesh& mesh, std::span<const FieldValues> fields, Notes& notes);
 
-[[nodiscard]] bool same_positions(std::span<const Vec3> a, std::span<const Vec3> b) noexcept;
-
 }  // namespace dmoscope

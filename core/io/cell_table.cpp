@@ -85,6 +85,23 @@ void CellTable::reserve_more(std::size_t cells, std::size_t corners) {
   more(corners_, corners);
 }
 
+std::vector<std::span<const Index>> CellTable::corners_by_cell() const {
+  std::vector<std::span<const Index>> cells;
+  cells.reserve(size());
+  const Index* at = corners_.data();
+  for (const CellShape shape : shapes_) {
+    cells.emplace_back(at, corners_of(shape));
+    at += corners_of(shape);
+  }
+  return cells;
+}
+
+std::vector<Index> elements_of_cells(const CellTable& cells, const Mesh& mesh, std::span<const Index> rows) {
+  std::vector<Index> elements(cells.size(), kNoIndex);
+  for (Index e = 0; e < mesh.elements.size(); ++e) elements[rows.empty() ? e : rows[e]] = e;
+  return elements;
+}
+
 std::vector<Index> split_cells(const CellTable& cells, std::span<const OriginLabels> labels, Mesh& mesh, SourceFile& source) {
   const int top = cells.dimension();
   if (top < 2) return {};

@@ -41,6 +41,8 @@ class CellTable {
   [[nodiscard]] CellShape shape(std::size_t cell) const noexcept { return shapes_[cell]; }
   [[nodiscard]] std::uint32_t origin(std::size_t cell) const noexcept { return origins_[cell]; }
   [[nodiscard]] std::span<const Index> all_corners() const noexcept { return corners_; }
+  /// The corners of each cell.
+  [[nodiscard]] std::vector<std::span<const Index>> corners_by_cell() const;
   void reserve_more(std::size_t cells, std::size_t corners);
   /// Appends one cell with corners_of(shape) corners.
   void add(CellShape shape, const Index* corners, std::uint32_t origin) {
@@ -73,6 +75,9 @@ struct OriginLabels {
 /// says so. `labels`: by origin. Beyond several thousand groups the rest forms one group, with a note. Returns the cell of each element;
 /// empty if every cell is one. Throws InputError (too many corners).
 [[nodiscard]] std::vector<Index> split_cells(const CellTable& cells, std::span<const OriginLabels> labels, Mesh& mesh, SourceFile& source);
+
+/// The element of each cell, kNoIndex for one that is none. `rows`: see split_cells().
+[[nodiscard]] std::vector<Index> elements_of_cells(const CellTable& cells, const Mesh& mesh, std::span<const Index> rows);
 
 /// Values of some rows of a field: indices of any type.
 template <class Rows>

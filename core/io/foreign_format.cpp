@@ -1,15 +1,14 @@
-#include "core/io/foreign_format.h"
-
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "core/base/number_in.h"
 #include "core/io/arrays/array_file.h"
+#include "core/io/format_choice.h"
 #include "core/io/mesh_io.h"
 #include "core/io/reading/tokenizer.h"
 
@@ -28,10 +27,8 @@ struct Head {
     constexpr std::size_t kMostLines = 4096;
     std::string_view rest = bytes;
     while (!rest.empty() && lines.size() < kMostLines) {
-      const std::size_t end = std::min(rest.find_first_of("\r\n"), rest.size());
-      const std::string_view line = trimmed(rest.substr(0, end));
+      const std::string_view line = trimmed(take_line(rest));
       if (!line.empty()) lines.push_back(line);
-      rest.remove_prefix(std::min(end + 1, rest.size()));
     }
   }
   [[nodiscard]] std::string_view line(std::size_t i) const { return i < lines.size() ? lines[i] : std::string_view(); }
@@ -44,34 +41,16 @@ struct Head {
 
 bool begins(std::string_view text, std::string_view with) { return equal_ignoring_case(text.substr(0, with.size()), with); }
 
-/// The words of a line.
-std::vector<std::string_view> words(std::string_view line) {
-  std::vector<std::string_view> found;
-  for (;;) {
-    line = trimmed(line);
-    if (line.empty()) return found;
-    const std::size_t end = std::min(line.find_first_of(" \t"), line.size());
-    found.push_back(line.substr(0, end));
-    line.remove_prefix(end);
-  }
-}
-
-std::optional<long> whole(std::string_view word) {
-  long value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
-  return value;
-}
-
 bool all_whole(std::span<const std::string_view> some) {
-  return std::ranges::all_of(some, [](std::string_view word) { return whole(word).value_or(-1) >= 0; });
+  return std::ranges::all_of(some, [](std::string_view word) { return number_in<long>(word).value_or(-1) >= 0; });
 }
 
 /// Recognises FreeFEM, by "112 178 44": vertices, triangles, edges; then x, y and a label on each line.
 bool is_freefem(const Head& h) {
   if (!h.is(".msh") && !h.is(".mesh")) return false;
-  const auto counts = words(h.line(0)), vertex = words(h.line(1));
-  return counts.size() == 3 && all_whole(counts) && (vertex.size() == 3 || vertex.size() == 4) && whole(vertex.back()).has_value();
+  const auto counts = words_of(h.line(0)), vertex = words_of(h.line(1));
+  return counts.size() == 3 && all_whole(counts) && (vertex.size() == 3 || vertex.size() == 4) &&
+         number_in<long>(vertex.back()).has_value();
 }
 
 bool is_tecplot(const Head& h) {
@@ -87,7 +66,7 @@ bool is_ucd(const Head& h) {
   if (!h.is(".inp") && !h.is(".avs")) return false;
   for (const std::string_view line : h.lines) {
     if (line.starts_with('#')) continue;
-    const auto counts = words(line);
+    const auto counts = words_of(line);
     return counts.size() == 5 && all_whole(counts);
   }
   return false;
@@ -95,7 +74,7 @@ bool is_ucd(const Head& h) {
 
 bool is_gid(const Head& h) {
   return std::ranges::any_of(h.lines, [](std::string_view line) {
-    const auto some = words(line);
+    const auto some = words_of(line);
     return some.size() >= 3 && equal_ignoring_case(some[0], "MESH") &&
            std::ranges::any_of(some, [](std::string_view word) { return equal_ignoring_case(word, "ElemType"); });
   });
@@ -103,18 +82,18 @@ bool is_gid(const Head& h) {
 
 /// Recognises Nemoh, a code for waves: "2" and whether the mesh is half of one; then nodes by number.
 bool is_nemoh(const Head& h) {
-  const auto head = words(h.line(0)), first = words(h.line(1)), second = words(h.line(2));
+  const auto head = words_of(h.line(0)), first = words_of(h.line(1)), second = words_of(h.line(2));
   return h.is(".dat") && head.size() == 2 && head[0] == "2" && (head[1] == "0" || head[1] == "1") && first.size() == 4 &&
-         whole(first[0]) == 1 && second.size() == 4 && whole(second[0]) == 2;
+         number_in<long>(first[0]) == 1 && second.size() == 4 && number_in<long>(second[0]) == 2;
 }
 
 bool is_fvcom(const Head& h) { return begins(h.line(0), "Node Number") && h.line(0).find('=') != std::string_view::npos; }
 
 /// Recognises a part of a mesh of Elmer: mesh.header, mesh.nodes, mesh.elements, mesh.boundary.
 bool is_elmer(const Head& h) {
-  const auto first = words(h.line(0));
+  const auto first = words_of(h.line(0));
   if (h.is(".header")) return first.size() == 3 && all_whole(first);
-  const bool numbered = first.size() >= 4 && whole(first[0]).has_value() && whole(first[1]).has_value();
+  const bool numbered = first.size() >= 4 && number_in<long>(first[0]).has_value() && number_in<long>(first[1]).has_value();
   return numbered && (h.is(".nodes") || h.is(".elements") || h.is(".boundary"));
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 // Interface of a format (for readers and writers only; others use mesh_io.h), and functions that writers share.
 //
-// A new format is a source in a folder beside those of the others, with a function `const FormatHandler& <name>_format()`, declared
-// below and listed in format_choice.cpp.
+// A new format is a source in a folder beside those of the others, with a FormatHandler that is declared below and listed in
+// format_choice.cpp.
 
 #include <array>
 #include <filesystem>
@@ -34,10 +34,15 @@ struct CompanionFile {
   void (*write)(AtomicFile& file, const Mesh& mesh, const IoContext& context);
 };
 
+/// Form of a comment at the end of a file, one line: text around it, and one that must not be in it. Empty: none is possible there.
+struct CommentForm {
+  std::string_view begin{}, end{}, without{};
+};
+
 struct FormatHandler {
   FormatInfo info;
   /// Whether these bytes certainly begin a file of this format, whatever its name. Null or false: the extension decides.
-  bool (*recognises)(std::string_view bytes);
+  bool (*recognises)(std::string_view bytes) = nullptr;
   /// Parses source.bytes() and fills in the source's layout, places, only_in_file and notes. Sets neither Mesh::name nor
   /// Mesh::source. Throws InputError, Cancelled.
   Mesh (*read)(SourceFile& source, const IoContext& context);
@@ -52,34 +57,29 @@ struct FormatHandler {
   std::vector<std::filesystem::path> (*further)(const SourceFile& source, const IoContext& context) = nullptr;
   /// Whether `file`, which is in the folder of `main`, has a name that the writer gives to files beside `main`. Null: never.
   bool (*writes_beside)(const std::filesystem::path& main, const std::filesystem::path& file) = nullptr;
+  /// PLY and VTK have comments in the head only, STL has none; in a fort.14 further ADCIRC input may follow the boundaries.
+  CommentForm comment{};
   /// Reason why no new file of this format is written, and the alternative.
   std::string_view not_written{};
 };
 
-[[nodiscard]] const FormatHandler& off_format();
-[[nodiscard]] const FormatHandler& obj_format();
-[[nodiscard]] const FormatHandler& ply_format();
-[[nodiscard]] const FormatHandler& stl_format();
-[[nodiscard]] const FormatHandler& vtk_format();
-[[nodiscard]] const FormatHandler& vtu_format();   // needs zlib and pugixml: not in every build
-[[nodiscard]] const FormatHandler& vtp_format();   // needs zlib and pugixml: not in every build
-[[nodiscard]] const FormatHandler& pvtu_format();  // needs zlib and pugixml: not in every build
-[[nodiscard]] const FormatHandler& fort14_format();
-[[nodiscard]] const FormatHandler& su2_format();
-[[nodiscard]] const FormatHandler& gmsh_format();
-[[nodiscard]] const FormatHandler& medit_format();
-[[nodiscard]] const FormatHandler& meshb_format();
-[[nodiscard]] const FormatHandler& tetgen_format();
-[[nodiscard]] const FormatHandler& abaqus_format();
-[[nodiscard]] const FormatHandler& sms_2dm_format();
-[[nodiscard]] const FormatHandler& nastran_format();
-[[nodiscard]] const FormatHandler& mike_format();
-[[nodiscard]] const FormatHandler& unv_format();
-[[nodiscard]] const FormatHandler& selafin_format();
-[[nodiscard]] const FormatHandler& xdmf_format();  // needs pugixml: not in every build
-[[nodiscard]] const FormatHandler& exodus_format();
-[[nodiscard]] const FormatHandler& cgns_format();  // needs HDF5: not in every build
-[[nodiscard]] const FormatHandler& med_format();   // needs HDF5: not in every build
+extern const FormatHandler kOffFormat, kObjFormat, kPlyFormat, kStlFormat, kVtkFormat, kFort14Format, kSu2Format, kGmshFormat, kMeditFormat,
+    kMeshbFormat, kTetgenFormat, kAbaqusFormat, kSms2dmFormat, kNastranFormat, kMikeFormat, kUnvFormat, kSelafinFormat, kExodusFormat;
+// Formats that are not in every build: these need zlib and pugixml, the last ones HDF5.
+extern const FormatHandler kVtuFormat, kVtpFormat, kPvtuFormat, kXdmfFormat;
+extern const FormatHandler kCgnsFormat, kMedFormat;
+
+/// Reads a file by a reader made for it: for FormatHandler::read.
+template <class Reader>
+Mesh read_with(SourceFile& source, const IoContext& context) {
+  return Reader(source, context).read();
+}
+
+/// Writes a file by a writer made for it: for FormatHandler::write.
+template <class Writer>
+Notes write_with(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {
+  return Writer(file, mesh, positions, context).write();
+}
 
 /// Files on disk of a mesh that a new one replaces.
 class FormerMesh {

@@ -1,41 +1,38 @@
 #include "core/io/format_choice.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/io/foreign_format.h"
 #include "core/io/reading/gzip.h"
 #include "core/io/reading/tokenizer.h"
 
 namespace dmoscope {
 namespace {
 
-const std::vector<const FormatHandler*>& handlers() {
-  static const std::vector<const FormatHandler*> table{
-      &off_format(),     &obj_format(),     &ply_format(),  &stl_format(),   &vtk_format(),
+constexpr auto kHandlers = std::to_array<const FormatHandler*>({
+    &kOffFormat,    &kObjFormat,     &kPlyFormat,  &kStlFormat,   &kVtkFormat,
 #ifdef DMOSCOPE_VTU
-      &vtu_format(),     &vtp_format(),     &pvtu_format(), &xdmf_format(),
+    &kVtuFormat,    &kVtpFormat,     &kPvtuFormat, &kXdmfFormat,
 #endif
-      &fort14_format(),  &su2_format(),     &gmsh_format(), &medit_format(), &meshb_format(),   &tetgen_format(), &abaqus_format(),
-      &sms_2dm_format(), &nastran_format(), &unv_format(),  &mike_format(),  &selafin_format(), &exodus_format(),
+    &kFort14Format, &kSu2Format,     &kGmshFormat, &kMeditFormat, &kMeshbFormat,   &kTetgenFormat, &kAbaqusFormat,
+    &kSms2dmFormat, &kNastranFormat, &kUnvFormat,  &kMikeFormat,  &kSelafinFormat, &kExodusFormat,
 #ifdef DMOSCOPE_HDF5
-      &cgns_format(),    &med_format(),
+    &kCgnsFormat,   &kMedFormat,
 #endif
-  };
-  return table;
-}
+});
 
 }  // namespace
 
-std::span<const FormatHandler* const> format_handlers() { return handlers(); }
+std::span<const FormatHandler* const> format_handlers() { return kHandlers; }
 
 std::span<const FormatInfo> format_table() {
   static const std::vector<FormatInfo> table = [] {
     std::vector<FormatInfo> result;
-    for (const FormatHandler* handler : handlers()) result.push_back(handler->info);
+    for (const FormatHandler* handler : kHandlers) result.push_back(handler->info);
     return result;
   }();
   return table;
@@ -52,24 +49,18 @@ std::string mesh_extension(const std::filesystem::path& path) {
 }
 
 bool has_extension(const FormatHandler& handler, std::string_view extension) {
-  std::string_view list = handler.info.extensions;
-  while (!list.empty()) {
-    const std::string_view one = list.substr(0, list.find(' '));
-    if (equal_ignoring_case(one, extension)) return true;
-    list.remove_prefix(std::min(list.size(), one.size() + 1));
-  }
-  return false;
+  return any_word(handler.info.extensions, [&](std::string_view one) { return equal_ignoring_case(one, extension); });
 }
 
 const FormatHandler* by_extension(std::string_view extension) {
   if (extension.size() < 2) return nullptr;
-  const auto found = std::ranges::find_if(handlers(), [&](const FormatHandler* handler) { return has_extension(*handler, extension); });
-  return found == handlers().end() ? nullptr : *found;
+  const auto found = std::ranges::find_if(kHandlers, [&](const FormatHandler* handler) { return has_extension(*handler, extension); });
+  return found == kHandlers.end() ? nullptr : *found;
 }
 
 std::string known_formats() {
   std::string result;
-  for (const FormatHandler* handler : handlers()) {
+  for (const FormatHandler* handler : kHandlers) {
     result += fmt::format("{}{} ({})", result.empty() ? "" : ", ", handler->info.name, handler->info.extensions);
   }
 #ifndef DMOSCOPE_VTU
@@ -93,7 +84,7 @@ const FormatHandler& format_of(const std::filesystem::path& path, std::string_vi
   const std::string extension = mesh_extension(path);
   const FormatHandler* named = by_extension(extension);
   if (named != nullptr && is_certain(*named, bytes)) return *named;
-  for (const FormatHandler* handler : handlers()) {
+  for (const FormatHandler* handler : kHandlers) {
     if (is_certain(*handler, bytes)) return *handler;
   }
   if (named != nullptr) return *named;

@@ -9,13 +9,10 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/io/commented_mesh.h"
-#include "core/io/foreign_format.h"
 #include "core/io/format_choice.h"
 #include "core/io/mesh_io.h"
 #include "core/io/reading/gzip.h"
 #include "core/io/reading/tokenizer.h"
-#include "core/io/source_again.h"
 #include "core/io/writing/patch_writer.h"
 #include "core/io/writing/text_writer.h"
 #include "core/mesh/collapsed.h"
@@ -89,11 +86,15 @@ Notes write_anew(AtomicFile& file, const FormatHandler& handler, const Mesh& mes
 }
 
 /// Appends a comment, except behind binary data, where none is possible.
-void add_comment(AtomicFile& file, const FormatHandler& handler, const Mesh& mesh, std::string_view comment, Notes& notes) {
+void add_comment(AtomicFile& file, const FormatHandler& handler, const Mesh& mesh, std::string comment, Notes& notes) {
+  const CommentForm& form = handler.comment;
   const bool binary = can_patch(mesh, handler) && mesh.source->layout().binary && handler.info.name == "off";
-  const std::string text = binary ? std::string() : trailing_comment(handler.info.name, comment);
-  if (text.empty()) return notes.push_back(fmt::format("Provenance was not written: {} has no comments.", handler.info.title));
-  file.write(text);
+  if (binary || form.begin.empty())
+    return notes.push_back(fmt::format("Provenance was not written: {} has no comments.", handler.info.title));
+  for (char& c : comment)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F || c == '$') c = ' ';
+  for (std::size_t at = 0; !form.without.empty() && (at = comment.find(form.without, at)) != std::string::npos; ++at) comment[at + 1] = ' ';
+  file.write(fmt::format("{}{}{}", form.begin, comment, form.end));
 }
 
 /// Throws unless both files of a format with two exist; the error names the one that was asked for.
@@ -256,7 +257,7 @@ std::vector<std::string> write_commented_mesh(const std::filesystem::path& path,
   }
   if (!has_extension(*handler, extension))
     notes.push_back(fmt::format("Written as {}, which {} is.", handler->info.title, mesh.source->path().filename().string()));
-  if (!comment.empty()) add_comment(file, *handler, mesh, comment, notes);
+  if (!comment.empty()) add_comment(file, *handler, mesh, std::string(comment), notes);
   progress.check();
   // Renames last, since two renames cannot be made atomic: everything that can fail is done by now.
   if (second) second->finish();

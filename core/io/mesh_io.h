@@ -57,4 +57,13 @@ void require_known_format(const std::filesystem::path& path, const IoContext& co
 /// OutputError, UsageError (unknown extension), Cancelled.
 std::vector<std::string> write_mesh(const std::filesystem::path& path, const Mesh& mesh, const MovedMesh& moved, const IoContext& context);
 
+/// Writes a mesh like write_mesh() with a comment at the file's end (empty: none). For a format without comments a sentence is added to
+/// those returned.
+std::vector<std::string> write_commented_mesh(const std::filesystem::path& path, const Mesh& mesh, const MovedMesh& moved,
+                                              const IoContext& context, std::string_view comment);
+
+/// Whether write_mesh() writes the bytes of mesh.source to `path` again, with changed coordinates replaced; mesh.positions must be the
+/// file's own. Otherwise it writes a new file.
+[[nodiscard]] bool writes_source_again(const std::filesystem::path& path, const Mesh& mesh);
+
 }  // namespace dmoscope

@@ -8,7 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/base/unknown_value.h"
-#include "core/io/reading/binary_scalar.h"
+#include "core/io/reading/binary.h"
 
 namespace dmoscope {
 namespace {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/same_bits.h"
-#include "core/io/reading/binary_scalar.h"
+#include "core/io/reading/binary.h"
 #include "core/mesh/geographic.h"
 #include "core/mesh/thin.h"
 #include "core/numeric/small_matrix.h"

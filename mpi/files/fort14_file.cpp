@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "core/io/solvers/fort14_text.h"
+#include "core/io/solvers/fort14.h"
 #include "mpi/files/number_lookup.h"
 #include "mpi/files/text_mesh_file.h"
 

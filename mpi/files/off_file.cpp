@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "core/io/polygons/off_text.h"
+#include "core/io/polygons/off.h"
 #include "mpi/files/text_mesh_file.h"
 
 namespace dmoscope {

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "core/io/reading/binary_scalar.h"
+#include "core/io/reading/binary.h"
 #include "core/io/vtk/vtk_cells.h"
 #include "core/io/vtu/vtu_document.h"
 #include "mpi/files/shared_mesh_file.h"

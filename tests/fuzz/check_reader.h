@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/io/writing/field_number.h"
+#include "core/io/writing/text_writer.h"
 #include "tests/fuzz/memory_files.h"
 
 namespace dmoscope::testing {

@@ -8,7 +8,7 @@
 
 #include "core/io/mesh_io.h"
 #include "core/io/reading/source_file.h"
-#include "core/io/writing/field_number.h"
+#include "core/io/writing/text_writer.h"
 #include "core/mesh/faces.h"
 #include "tests/fuzz/samples.h"
 #include "tests/io/files.h"

@@ -1,7 +1,5 @@
 // Files of formats that are not read: each is named, with advice; and no file that is read is mistaken for one.
 
-#include "core/io/foreign_format.h"
-
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -10,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
+#include "core/io/format_choice.h"
 #include "core/io/mesh_io.h"
 #include "tests/fuzz/samples.h"
 #include "tests/io/files.h"

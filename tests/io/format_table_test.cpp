@@ -11,7 +11,7 @@
 #include "core/base/error.h"
 #include "core/io/format.h"
 #include "core/io/reading/source_file.h"
-#include "core/io/writing/field_number.h"
+#include "core/io/writing/text_writer.h"
 #include "tests/fuzz/memory_files.h"
 #include "tests/fuzz/samples.h"
 

@@ -14,11 +14,11 @@
 #include <unistd.h>
 
 #include "core/base/error.h"
-#include "core/io/commented_mesh.h"
+#include "core/io/format.h"
+#include "core/io/mesh_io.h"
+#include "core/io/reading/io_context.h"
 #include "core/io/reading/source_file.h"
-#include "core/io/reading/unpack_budget.h"
 #include "core/io/writing/atomic_file.h"
-#include "core/io/writing/litter.h"
 #include "tests/io/files.h"
 
 namespace dmoscope::test {
@@ -224,7 +224,8 @@ TEST(WriteMesh, TitlesThatNoFileHasAreReadBack) {
 
 TEST(WriteMesh, ACommentStandsWhereAFormatHasThemAndIsReadOver) {
   const Mesh original = read_bytes("a.off", kOneTriangle);
-  for (const FormatInfo& format : format_table()) {
+  for (const FormatHandler* const handler : format_handlers()) {
+    const FormatInfo& format = handler->info;
     if (!is_made_anew(format)) continue;
     const std::string name = "a" + std::string(format.extensions.substr(0, format.extensions.find(' ')));
     SCOPED_TRACE(name);
@@ -234,7 +235,7 @@ TEST(WriteMesh, ACommentStandsWhereAFormatHasThemAndIsReadOver) {
     mesh.source.reset();
     for (int round = 1; round <= 2; ++round) {  // a new file, then the same file
       const auto notes = write_commented_mesh(folder / name, mesh, mesh.positions, progress, "made--by a\ntest $End");
-      const bool has = !trailing_comment(format.name, "x").empty();
+      const bool has = !handler->comment.begin.empty();
       const std::string bytes = get(folder / name);
       EXPECT_EQ(has, notes.empty() || notes.back().find("Provenance was not written") == std::string::npos);
       std::size_t found = 0;

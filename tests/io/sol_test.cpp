@@ -1,7 +1,5 @@
 // MEDIT's solution files beside a mesh: content that is read, skipped or refused.
 
-#include "core/io/medit/sol.h"
-
 #include <cmath>
 #include <string>
 
@@ -9,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
+#include "core/io/medit/medit.h"
 #include "core/io/reading/source_file.h"
 #include "tests/io/files.h"
 #include "tests/support/meshes.h"

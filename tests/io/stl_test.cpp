@@ -1,5 +1,7 @@
 // STL: equal corners become one vertex, a moved vertex is written to all its places, normals follow.
 
+#include "core/io/polygons/stl.h"
+
 #include <array>
 #include <bit>
 #include <cmath>
@@ -11,7 +13,6 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "core/io/polygons/stl_facets.h"
 #include "tests/fuzz/check_reader.h"
 #include "tests/fuzz/samples.h"
 

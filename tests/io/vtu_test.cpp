@@ -11,7 +11,7 @@
 #include "core/base/base64.h"
 #include "core/base/error.h"
 #include "core/io/mesh_io.h"
-#include "core/io/reading/zlib_blocks.h"
+#include "core/io/reading/gzip.h"
 #include "tests/fuzz/check_reader.h"
 #include "tests/fuzz/samples.h"
 #include "tests/io/files.h"

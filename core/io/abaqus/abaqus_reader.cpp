@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include "core/io/abaqus/abaqus.h"
-#include "core/io/abaqus/abaqus_sets.h"
 #include "core/io/numbered_mesh.h"
 #include "core/io/reading/data_lines.h"
 
@@ -19,16 +18,9 @@ namespace {
 
 constexpr TextSyntax kAbaqusSyntax{.comma_is_blank = true};
 
-struct Family {
-  std::string_view prefix;  // name up to the number of nodes
-  int dimension;
-};
-constexpr std::array kFamilies{Family{"C3D", 3},   Family{"DC3D", 3},  Family{"AC3D", 3},  Family{"COH3D", 3}, Family{"SC", 3},
-                               Family{"F3D", 3},   Family{"CSS", 3},   Family{"EC3D", 3},  Family{"Q3D", 3},   Family{"DCC3D", 3},
-                               Family{"CPS", 2},   Family{"CPE", 2},   Family{"CPEG", 2},  Family{"CAX", 2},   Family{"CGAX", 2},
-                               Family{"DCAX", 2},  Family{"ACAX", 2},  Family{"DC2D", 2},  Family{"AC2D", 2},  Family{"S", 2},
-                               Family{"COH2D", 2}, Family{"COHAX", 2}, Family{"DCC2D", 2}, Family{"DCCAX", 2}, Family{"STRI", 2},
-                               Family{"M3D", 2},   Family{"R3D", 2},   Family{"SFM3D", 2}, Family{"DS", 2},    Family{"WARPF2D", 2}};
+// Names of element types up to the number of nodes.
+constexpr std::string_view kSolids = "C3D DC3D AC3D COH3D SC F3D CSS EC3D Q3D DCC3D",
+                           kPlanar = "CPS CPE CPEG CAX CGAX DCAX ACAX DC2D AC2D S COH2D COHAX DCC2D DCCAX STRI M3D R3D SFM3D DS WARPF2D";
 
 /// A keyword with its parameters, such as "*Element, type=C3D8, elset=Body".
 struct Keyword {
@@ -46,7 +38,7 @@ struct Keyword {
 };
 
 /// Words in capitals, with single blanks between them and none around.
-std::string in_capitals(std::string_view words) {
+std::string keyword_words(std::string_view words) {
   std::string result;
   for (const char c : abaqus_key(trimmed(words))) {
     if (c != ' ' && c != '\t') {
@@ -61,10 +53,10 @@ std::string in_capitals(std::string_view words) {
 Keyword keyword_of(std::span<const std::string_view> fields) {
   Keyword keyword;
   if (fields.empty()) return keyword;
-  keyword.name = in_capitals(fields.front().substr(1));
+  keyword.name = keyword_words(fields.front().substr(1));
   for (const std::string_view field : fields.subspan(1)) {
     const std::size_t equals = field.find('=');
-    keyword.parameters.emplace_back(in_capitals(field.substr(0, equals)),
+    keyword.parameters.emplace_back(keyword_words(field.substr(0, equals)),
                                     equals == std::string_view::npos ? std::string_view() : trimmed(field.substr(equals + 1)));
   }
   return keyword;
@@ -72,9 +64,10 @@ Keyword keyword_of(std::span<const std::string_view> fields) {
 
 bool is_number(std::string_view field) { return !field.empty() && field.find_first_not_of("0123456789") == std::string_view::npos; }
 
+/// Reader, see FormatHandler. Files of one part (or none) are read. Throws InputError, Cancelled.
 class AbaqusReader {
  public:
-  AbaqusReader(SourceFile& source, Progress& progress) : source_(source), lines_(source, progress), numbered_(source) {}
+  AbaqusReader(SourceFile& source, const IoContext& context) : source_(source), lines_(source, context.progress), numbered_(source) {}
 
   Mesh read() {
     while (lines_.next()) {
@@ -170,7 +163,7 @@ class AbaqusReader {
   void begin_nodes(const Keyword& keyword) {
     if (of_the_assembly()) return;
     if (keyword.has("INPUT")) lines_.fail("*NODE, INPUT=: files in several parts are not read; put all into one");
-    const std::string system = in_capitals(keyword.value("SYSTEM"));
+    const std::string system = keyword_words(keyword.value("SYSTEM"));
     if (!system.empty() && system != "R") {
       lines_.fail(fmt::format("*NODE, SYSTEM={}: only rectangular coordinates are read", quote_token(system)));
     }
@@ -185,7 +178,7 @@ class AbaqusReader {
   void begin_elements(const Keyword& keyword) {
     if (of_the_assembly()) return;
     if (keyword.has("INPUT")) lines_.fail("*ELEMENT, INPUT=: files in several parts are not read; put all into one");
-    const std::string type = in_capitals(keyword.value("TYPE"));
+    const std::string type = keyword_words(keyword.value("TYPE"));
     if (type.empty()) lines_.fail("*ELEMENT without TYPE=");
     type_ = abaqus_type(type);
     if (type_.higher_order) {
@@ -211,12 +204,11 @@ class AbaqusReader {
   }
 
   void begin_surface(const Keyword& keyword) {
-    const std::string type = in_capitals(keyword.value("TYPE"));
+    const std::string type = keyword_words(keyword.value("TYPE"));
     if (keyword.value("NAME").empty() || (!type.empty() && type != "ELEMENT" && type != "NODE") || keyword.has("COMBINE")) {
       return say_other("SURFACE");
     }
-    std::string_view name = keyword.value("NAME");
-    if (name.size() >= 2 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
+    const std::string_view name = unquoted(keyword.value("NAME"));
     surface_ = &sets_.add_surface(std::string(name), type == "NODE");
     block_ = Block::Surface;
   }
@@ -344,7 +336,7 @@ class AbaqusReader {
     AbaqusSets::SurfaceItem item;
     if (fields[0].empty()) return source_.add_only_in_file("surfaces of all free sides");
     add_member(item.set, surface_->of_nodes ? AbaqusSets::Of::Nodes : AbaqusSets::Of::Elements, fields[0]);
-    if (fields.size() > 1) item.side = in_capitals(fields[1]);
+    if (fields.size() > 1) item.side = keyword_words(fields[1]);
     surface_->items.push_back(std::move(item));
   }
 
@@ -353,9 +345,7 @@ class AbaqusReader {
     numbered_.finish(mesh_);
     const std::vector<OriginLabels> unlabelled(types_.size(), OriginLabels{{}, false});
     const std::vector<Index> rows = split_cells(numbered_.cells(), unlabelled, mesh_, source_);
-    std::vector<Index> elements(numbered_.cell_count(), kNoIndex);
-    for (Index e = 0; e < mesh_.elements.size(); ++e) elements[rows.empty() ? e : rows[e]] = e;
-    sets_.add_groups(numbered_, elements, types_, mesh_, source_);
+    sets_.add_groups(numbered_, elements_of_cells(numbered_.cells(), mesh_, rows), types_, mesh_, source_);
   }
 
   SourceFile& source_;
@@ -387,49 +377,46 @@ class AbaqusReader {
 bool recognises_abaqus(std::string_view bytes) {
   constexpr std::array<std::string_view, 7> kFirst{"HEADING", "NODE", "PART", "PREPRINT", "ELEMENT", "NSET", "INCLUDE"};
   while (!bytes.empty()) {
-    const std::size_t end = std::min(bytes.find_first_of("\r\n"), bytes.size());
-    const std::string_view line = trimmed(bytes.substr(0, end));
+    const std::string_view line = trimmed(take_line(bytes));
     if (!line.empty() && !line.starts_with("**")) {
       if (!line.starts_with('*')) return false;
-      const std::string name = in_capitals(line.substr(1, line.find(',') - 1));
+      const std::string name = keyword_words(line.substr(1, line.find(',') - 1));
       return std::ranges::find(kFirst, name) != kFirst.end();
     }
-    bytes.remove_prefix(std::min(end + 1, bytes.size()));
   }
   return false;
 }
 
 }  // namespace
 
-AbaqusType abaqus_type(std::string_view name) noexcept {
-  for (const Family& family : kFamilies) {
-    if (!name.starts_with(family.prefix)) continue;
-    const std::string_view rest = name.substr(family.prefix.size());
-    const std::string_view digits = rest.substr(0, rest.find_first_not_of("0123456789"));
+AbaqusType abaqus_type(std::string_view name) {
+  const auto nodes = [&](std::string_view prefix) {
+    const std::string_view rest = name.starts_with(prefix) ? name.substr(prefix.size()) : std::string_view();
+    return rest.substr(0, rest.find_first_not_of("0123456789"));
+  };
+  for (const std::string_view prefix : words_of(kSolids)) {
+    const std::string_view digits = nodes(prefix);
     if (digits.empty()) continue;
-    if (family.dimension == 3) {
-      if (digits == "4") return {CellShape::Tetrahedron};
-      if (digits == "5") return {CellShape::Pyramid};
-      if (digits == "6") return {CellShape::Wedge};
-      if (digits == "8") return {CellShape::Hexahedron};
-    } else {
-      if (digits == "3") return {CellShape::Triangle};
-      if (digits == "4") return {CellShape::Quadrilateral};
-    }
+    if (digits == "4") return {CellShape::Tetrahedron};
+    if (digits == "5") return {CellShape::Pyramid};
+    if (digits == "6") return {CellShape::Wedge};
+    if (digits == "8") return {CellShape::Hexahedron};
+    return {{}, true};
+  }
+  for (const std::string_view prefix : words_of(kPlanar)) {
+    const std::string_view digits = nodes(prefix);
+    if (digits.empty()) continue;
+    if (digits == "3") return {CellShape::Triangle};
+    if (digits == "4") return {CellShape::Quadrilateral};
     return {{}, true};
   }
   return {};
 }
 
-Mesh read_abaqus(SourceFile& source, const IoContext& context) { return AbaqusReader(source, context.progress).read(); }
-
-const FormatHandler& abaqus_format() {
-  static const FormatHandler handler{
-      {"abaqus", "Abaqus", ".inp", "2D and 3D elements, node sets, element sets, surfaces; files of one part; also CalculiX's"},
-      recognises_abaqus,
-      read_abaqus,
-      write_abaqus};
-  return handler;
-}
+constinit const FormatHandler kAbaqusFormat{
+    .info = {"abaqus", "Abaqus", ".inp", "2D and 3D elements, node sets, element sets, surfaces; files of one part; also CalculiX's"},
+    .recognises = recognises_abaqus,
+    .read = read_with<AbaqusReader>,
+    .write = write_abaqus};
 
 }  // namespace dmoscope

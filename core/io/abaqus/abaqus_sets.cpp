@@ -1,5 +1,3 @@
-#include "core/io/abaqus/abaqus_sets.h"
-
 #include <algorithm>
 #include <numeric>
 
@@ -36,7 +34,8 @@ class GroupMaker {
         mesh_(mesh),
         source_(source),
         room_(kLeastRoom + 16 * source.bytes().size()),
-        in_set_(elements.size(), 0) {}
+        in_set_(elements.size(), 0),
+        corners_(numbered.cells().corners_by_cell()) {}
 
   void node_set(const std::string& name, std::string_view role, const AbaqusSet& set) {
     std::vector<Index> members;
@@ -123,17 +122,9 @@ class GroupMaker {
     return true;
   }
 
-  std::span<const Index> corners(Index cell) {
-    if (offsets_.empty()) {
-      offsets_.assign(1, 0);
-      for (std::size_t c = 0; c < elements_.size(); ++c) offsets_.push_back(offsets_.back() + corners_of(numbered_.cells().shape(c)));
-    }
-    return numbered_.cells().all_corners().subspan(offsets_[cell], offsets_[cell + 1] - offsets_[cell]);
-  }
-
   void add_cell(Parts& parts, Index cell) {
     const CellShape shape = numbered_.cells().shape(cell);
-    const std::span<const Index> of_cell = corners(cell);
+    const std::span<const Index> of_cell = corners_[cell];
     if (elements_[cell] != kNoIndex) {
       parts.elements.push_back(elements_[cell]);
     } else if (const auto kind = kind_of(shape)) {
@@ -155,7 +146,7 @@ class GroupMaker {
     }
     if (side.size() != 2 || !(side[0] == 'S' || (side[0] == 'E' && !volume)) || side[1] < '1') return false;
     const auto number = static_cast<std::size_t>(side[1] - '1');
-    const std::span<const Index> of_cell = corners(cell);
+    const std::span<const Index> of_cell = corners_[cell];
     if (!volume) {
       if (number >= of_cell.size()) return false;
       parts.edges.insert(parts.edges.end(), {of_cell[number], of_cell[(number + 1) % of_cell.size()]});
@@ -189,17 +180,15 @@ class GroupMaker {
   Mesh& mesh_;
   SourceFile& source_;
   std::size_t room_;
-  std::vector<std::uint8_t> in_set_;  // flags by cell
-  std::vector<std::size_t> offsets_;  // offsets of the cells' corners
+  std::vector<std::uint8_t> in_set_;             // flags by cell
+  std::vector<std::span<const Index>> corners_;  // corners of each cell
 };
 
 }  // namespace
 
 std::string abaqus_key(std::string_view name) {
-  if (name.size() >= 2 && name.front() == '"' && name.back() == '"') return std::string(name.substr(1, name.size() - 2));
-  std::string key(name);
-  std::ranges::transform(key, key.begin(), [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; });
-  return key;
+  const std::string_view within = unquoted(name);
+  return within.size() < name.size() ? std::string(within) : in_capitals(name);
 }
 
 void AbaqusSet::add(std::int32_t number) {

@@ -11,10 +11,9 @@
 #include <fmt/format.h>
 
 #include "core/io/abaqus/abaqus.h"
-#include "core/io/abaqus/abaqus_sets.h"
 #include "core/io/element_sides.h"
 #include "core/io/mesh_writer.h"
-#include "core/io/writing/field_number.h"
+#include "core/io/writing/text_writer.h"
 
 namespace dmoscope {
 namespace {
@@ -22,7 +21,7 @@ namespace {
 class AbaqusWriter : MeshWriter {
  public:
   AbaqusWriter(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context)
-      : MeshWriter(file, mesh, positions, context, abaqus_format().info.title, "surface") {}
+      : MeshWriter(file, mesh, positions, context, kAbaqusFormat.info.title, "surface") {}
 
   Notes write() {
     out_ << "*HEADING\n" << heading() << '\n';

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/io/arrays/netcdf_classic.h"
 #ifdef DMOSCOPE_HDF5
 #include "core/io/arrays/hdf5_file.h"
 #endif
@@ -14,10 +13,6 @@ void ArrayFile::fail(const std::string& what) const { throw InputError(file_, 0,
 
 void ArrayFile::take_room(std::uint64_t count, std::size_t) {
   if (count > bytes_.size()) fail(fmt::format("truncated: {} things are more than it has bytes", count));
-}
-
-bool is_netcdf_classic(std::string_view bytes) noexcept {
-  return bytes.starts_with("CDF\x01") || bytes.starts_with("CDF\x02") || bytes.starts_with("CDF\x05");
 }
 
 bool is_hdf5(std::string_view bytes) noexcept { return bytes.starts_with("\x89HDF\r\n\x1a\n"); }
@@ -37,11 +32,5 @@ std::unique_ptr<ArrayFile> open_hdf5(const SourceFile& source, const IoContext&)
                        : "this is no HDF5 file");
 }
 #endif
-
-std::unique_ptr<ArrayFile> open_netcdf(const SourceFile& source, const IoContext& context) {
-  if (is_netcdf_classic(source.bytes())) return std::make_unique<NetcdfClassic>(source.bytes(), source.path().string());
-  if (is_hdf5(source.bytes())) return open_hdf5(source, context);
-  throw InputError(source.path().string(), 0, "this is no netCDF file, which an Exodus file is");
-}
 
 }  // namespace dmoscope

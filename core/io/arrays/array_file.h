@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/io/reading/binary_scalar.h"
+#include "core/io/reading/binary.h"
 #include "core/io/reading/io_context.h"
 #include "core/io/reading/source_file.h"
 

@@ -13,8 +13,8 @@
 #include <hdf5.h>
 
 #include "core/base/error.h"
+#include "core/io/reading/io_context.h"
 #include "core/io/reading/tokenizer.h"
-#include "core/io/reading/unpack_budget.h"
 #include "core/io/writing/atomic_file.h"
 
 namespace dmoscope {

@@ -100,7 +100,4 @@ struct CgnsCells {
 /// number first. Throws InputError.
 [[nodiscard]] std::vector<std::array<Index, 2>> read_cgns_pairs(const CgnsTree& tree, const CgnsPoints& points);
 
-/// Reader, see FormatHandler.
-[[nodiscard]] Mesh read_cgns(SourceFile& source, const IoContext& context);
-
 }  // namespace dmoscope

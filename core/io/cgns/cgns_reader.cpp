@@ -169,10 +169,6 @@ std::vector<ArrayValues> changed_solutions(Hdf5File& file, const CgnsPoints& poi
 
 Notes patch_cgns(AtomicFile& file, const Mesh& mesh, const MovedMesh& moved, const IoContext& context) {
   Notes notes;
-  if (same_positions(mesh.positions, moved.positions) && moved.fields.empty()) {
-    file.write(mesh.source->bytes());
-    return notes;
-  }
   Hdf5File arrays(mesh.source->bytes(), mesh.source->path().string(), context);
   const CgnsPoints points = read_cgns_points(CgnsTree(arrays), nullptr);
   file.write(points.coordinates.replaced(arrays, mesh.positions, moved.positions, file.path().string(), notes,
@@ -185,8 +181,6 @@ bool recognises_cgns(std::string_view bytes) {
   return is_adf(bytes) || (is_hdf5(bytes) && bytes.substr(0, kLook).find("CGNSLibraryVersion") != std::string_view::npos);
 }
 
-}  // namespace
-
 Mesh read_cgns(SourceFile& source, const IoContext& context) {
   if (is_adf(source.bytes())) {
     throw InputError(source.path().string(), 0,
@@ -196,15 +190,14 @@ Mesh read_cgns(SourceFile& source, const IoContext& context) {
   return CgnsReader(source, context).read();
 }
 
-const FormatHandler& cgns_format() {
-  static const FormatHandler handler{
-      .info = {"cgns", "CGNS", ".cgns",
-               "unstructured and structured zones in HDF5, boundary conditions, families, solutions; only written where it was read"},
-      .recognises = recognises_cgns,
-      .read = read_cgns,
-      .patch = patch_cgns,
-      .not_written = "CGNS files are written only where one was read: write it as .vtu or .msh"};
-  return handler;
-}
+}  // namespace
+
+constinit const FormatHandler kCgnsFormat{
+    .info = {"cgns", "CGNS", ".cgns",
+             "unstructured and structured zones in HDF5, boundary conditions, families, solutions; only written where it was read"},
+    .recognises = recognises_cgns,
+    .read = read_cgns,
+    .patch = patch_cgns,
+    .not_written = "CGNS files are written only where one was read: write it as .vtu or .msh"};
 
 }  // namespace dmoscope

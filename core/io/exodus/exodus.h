@@ -31,7 +31,4 @@ inline constexpr std::string_view kExodusSideSet = "side set";
 /// Reads the coordinates into `positions`, which is resized. Throws InputError.
 [[nodiscard]] CoordinateArrays read_exodus_points(ArrayFile& file, std::vector<Vec3>& positions);
 
-/// Reader, see FormatHandler.
-[[nodiscard]] Mesh read_exodus(SourceFile& source, const IoContext& context);
-
 }  // namespace dmoscope

@@ -9,29 +9,19 @@
 namespace dmoscope {
 namespace {
 
-struct ExodusWord {
-  std::string_view begins;  // prefix in capitals; digits may follow
+/// Words of element types, in capitals; digits may follow.
+struct ExodusWords {
+  std::string_view begins;
   CellShape shape;
 };
-constexpr auto kExodusWords = std::to_array<ExodusWord>({{"SPHERE", CellShape::Point},
-                                                         {"CIRCLE", CellShape::Point},
-                                                         {"POINT", CellShape::Point},
-                                                         {"TRUSS", CellShape::Line},
-                                                         {"BEAM", CellShape::Line},
-                                                         {"BAR", CellShape::Line},
-                                                         {"ROD", CellShape::Line},
-                                                         {"EDGE", CellShape::Line},
-                                                         {"LINE", CellShape::Line},
-                                                         {"SPRING", CellShape::Line},
-                                                         {"TRI", CellShape::Triangle},
-                                                         {"QUAD", CellShape::Quadrilateral},
-                                                         {"SHELL", CellShape::Quadrilateral},
-                                                         {"MEMBRANE", CellShape::Quadrilateral},
-                                                         {"TET", CellShape::Tetrahedron},
-                                                         {"HEX", CellShape::Hexahedron},
-                                                         {"WEDGE", CellShape::Wedge},
-                                                         {"PENTA", CellShape::Wedge},
-                                                         {"PYR", CellShape::Pyramid}});
+constexpr auto kExodusWords = std::to_array<ExodusWords>({{"SPHERE CIRCLE POINT", CellShape::Point},
+                                                          {"TRUSS BEAM BAR ROD EDGE LINE SPRING", CellShape::Line},
+                                                          {"TRI", CellShape::Triangle},
+                                                          {"QUAD SHELL MEMBRANE", CellShape::Quadrilateral},
+                                                          {"TET", CellShape::Tetrahedron},
+                                                          {"HEX", CellShape::Hexahedron},
+                                                          {"WEDGE PENTA", CellShape::Wedge},
+                                                          {"PYR", CellShape::Pyramid}});
 
 struct Side {
   Index count;
@@ -68,18 +58,12 @@ std::span<const Side> sides_of(CellShape shape, bool faces_too) noexcept {
   }
 }
 
-std::string capitals_of(std::string_view word) {
-  std::string text(word);
-  for (char& c : text) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-  return text;
-}
-
 }  // namespace
 
 std::optional<CellShape> exodus_shape(std::string_view word, std::uint64_t nodes) noexcept {
-  const std::string text = capitals_of(trimmed(word));
-  const auto* const found =
-      std::find_if(kExodusWords.begin(), kExodusWords.end(), [&](const ExodusWord& one) { return text.starts_with(one.begins); });
+  const std::string text = in_capitals(trimmed(word));
+  const auto begins = [&](std::string_view prefix) { return text.starts_with(prefix); };
+  const auto found = std::ranges::find_if(kExodusWords, [&](const ExodusWords& some) { return any_word(some.begins, begins); });
   if (found == kExodusWords.end()) return std::nullopt;
   CellShape shape = found->shape;
   if (shape == CellShape::Quadrilateral && nodes == 3 && !text.starts_with("QUAD")) shape = CellShape::Triangle;  // for example SHELL3
@@ -89,7 +73,7 @@ std::optional<CellShape> exodus_shape(std::string_view word, std::uint64_t nodes
 }
 
 bool is_exodus_shell(std::string_view word) noexcept {
-  const std::string text = capitals_of(word);
+  const std::string text = in_capitals(word);
   return text.find("SHELL") != std::string::npos || text.starts_with("MEMBRANE") || text.starts_with("TRI");
 }
 

@@ -18,6 +18,7 @@ namespace {
 
 constexpr std::uint64_t kMostBlocks = 1U << 16U;
 
+/// Reader, see FormatHandler.
 class ExodusReader {
  public:
   ExodusReader(SourceFile& source, const IoContext& context)
@@ -148,7 +149,8 @@ class ExodusReader {
   void side_sets() {
     const std::uint64_t n = count("num_side_sets");
     const std::vector<GroupLabel> labels = labels_of("ss", kExodusSideSet, n);
-    cell_corners();
+    corners_ = cells_.corners_by_cell();
+    element_of_ = elements_of_cells(cells_, mesh_, rows_);
     shells_have_faces_ = space_ == 3;
     for (std::uint64_t s = 0; s < n && !shells_have_faces_; ++s) shells_have_faces_ = has_edge_behind_faces(s + 1);
     for (std::uint64_t s = 0; s < n; ++s) {
@@ -174,18 +176,6 @@ class ExodusReader {
     return false;
   }
 
-  /// Finds the offset of each cell's corners, and its element.
-  void cell_corners() {
-    starts_.reserve(cells_.size());
-    element_of_.assign(cells_.size(), kNoIndex);
-    std::size_t at = 0;
-    for (std::size_t c = 0; c < cells_.size(); ++c) {
-      starts_.push_back(at);
-      at += corners_of(cells_.shape(c));
-    }
-    for (Index e = 0; e < mesh_.elements.size(); ++e) element_of_[rows_.empty() ? e : rows_[e]] = e;
-  }
-
   void side_set(std::uint64_t number, const GroupLabel& label, const std::vector<std::int64_t>& elements,
                 const std::vector<std::int64_t>& sides) {
     const std::string called = fmt::format("side set {}", number);
@@ -202,7 +192,7 @@ class ExodusReader {
       const auto side = exodus_side(cells_.shape(cell), blocks_[cells_.origin(cell)].shell && shells_have_faces_, sides[i]);
       if (side.empty()) fail(fmt::format("{}: element {} has no side {}", called, elements[i], sides[i]));
       std::array<Index, 4> corners{};
-      for (std::size_t k = 0; k < side.size(); ++k) corners[k] = cells_.all_corners()[starts_[cell] + side[k]];
+      for (std::size_t k = 0; k < side.size(); ++k) corners[k] = corners_[cell][side[k]];
       if (side.size() == 2) {
         edges.members.insert(edges.members.end(), corners.begin(), corners.begin() + 2);
       } else if (cells_.dimension() == 2) {  // face of a shell in a mesh of shells
@@ -301,8 +291,8 @@ class ExodusReader {
   CellTable cells_;
   std::vector<OriginLabels> labels_;
   std::vector<Block> blocks_;
-  std::vector<Index> rows_;  // cell of each element; empty: every cell is one
-  std::vector<std::size_t> starts_;
+  std::vector<Index> rows_;                      // cell of each element; empty: every cell is one
+  std::vector<std::span<const Index>> corners_;  // corners of each cell
   std::vector<Index> element_of_;
 };
 
@@ -333,16 +323,10 @@ CoordinateArrays read_exodus_points(ArrayFile& file, std::vector<Vec3>& position
   return coordinates;
 }
 
-Mesh read_exodus(SourceFile& source, const IoContext& context) { return ExodusReader(source, context).read(); }
-
 namespace {
 
 Notes patch_exodus(AtomicFile& file, const Mesh& mesh, const MovedMesh& moved, const IoContext& context) {
   Notes notes;
-  if (same_positions(mesh.positions, moved.positions) && moved.fields.empty()) {
-    file.write(mesh.source->bytes());
-    return notes;
-  }
   const std::unique_ptr<ArrayFile> arrays = open_netcdf(*mesh.source, context);
   std::vector<Vec3> before;
   const CoordinateArrays coordinates = read_exodus_points(*arrays, before);
@@ -363,7 +347,7 @@ bool recognises_exodus(std::string_view bytes) {
 
 }  // namespace
 
-const FormatHandler& exodus_format(){static const FormatHandler handler{
+constinit const FormatHandler kExodusFormat{
     .info = {"exodus", "Exodus II", ".e .exo .g .ex2",
 #ifdef DMOSCOPE_HDF5
              "2D and 3D elements, element blocks, node and side sets, results of the last time step; only written "
@@ -373,10 +357,8 @@ const FormatHandler& exodus_format(){static const FormatHandler handler{
              "where it was read; without netCDF-4, for this build was made without HDF5"},
 #endif
     .recognises = recognises_exodus,
-    .read = read_exodus,
+    .read = read_with<ExodusReader>,
     .patch = patch_exodus,
     .not_written = "Exodus files are written only where one was read: write it as .vtu or .msh"};
-return handler;
-}  // namespace dmoscope
 
 }  // namespace dmoscope

@@ -1,5 +1,3 @@
-#include "core/io/gmsh/gmsh_cells.h"
-
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -45,8 +43,7 @@ void GmshCells::physical_names() {
     }
     if (dimension < kAnyDimension || dimension > 3) in_.words.fail(fmt::format("a physical group of {} dimensions", dimension));
     if (!std::in_range<int>(number)) in_.words.fail(fmt::format("the number of a physical group is too large: {}", number));
-    std::string_view name = in_.words.rest_of_line();
-    if (name.size() >= 2 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
+    const std::string_view name = unquoted(in_.words.rest_of_line());
     if (name.empty()) continue;
     names_[{static_cast<int>(dimension), static_cast<int>(number)}] = name;
   }
@@ -54,28 +51,33 @@ void GmshCells::physical_names() {
 
 void GmshCells::entities() {
   in_.begin_data();
+  each_entity([this](int dimension) { entity(dimension); });
+  source_.add_only_in_file("the geometry ($Entities)");
+}
+
+template <class Read>
+void GmshCells::each_entity(Read read) {
   std::array<std::size_t, 4> counts{};
   for (std::size_t& n : counts) n = in_.count("the number of entities", 10.0, 36.0);
   for (int dimension = 0; dimension < 4; ++dimension) {
-    for (std::size_t i = 0; i < counts[static_cast<std::size_t>(dimension)]; ++i) entity(dimension);
+    for (std::size_t i = 0; i < counts[static_cast<std::size_t>(dimension)]; ++i) read(dimension);
   }
-  source_.add_only_in_file("the geometry ($Entities)");
 }
 
 void GmshCells::entity(int dimension) {
   const int tag = in_.whole("the number of an entity");
-  const int corners = dimension == 0 ? 3 : 6;
-  for (int k = 0; k < corners; ++k) (void)in_.real("the bounds of an entity");
-  std::vector<int> physical = read_physical();
+  std::vector<int> physical = end_entity(dimension);
   if (!physical.empty()) entity_physical_[{dimension, tag}] = std::move(physical);
-  if (dimension == 0) return;
-  const std::size_t bounds = in_.count("the number of entities that bound one", 2.0, kInt);
-  for (std::size_t i = 0; i < bounds; ++i) (void)in_.whole("an entity that bounds one");
 }
 
-std::vector<int> GmshCells::read_physical() {
+std::vector<int> GmshCells::end_entity(int dimension) {
+  const int corners = dimension == 0 ? 3 : 6;
+  for (int k = 0; k < corners; ++k) (void)in_.real("the bounds of an entity");
   std::vector<int> physical(in_.count("the number of physical groups of an entity", 2.0, kInt));
   for (int& number : physical) number = in_.whole("a physical group");
+  if (dimension == 0) return physical;
+  const std::size_t bounds = in_.count("the number of entities that bound one", 2.0, kInt);
+  for (std::size_t i = 0; i < bounds; ++i) (void)in_.whole("an entity that bounds one");
   return physical;
 }
 
@@ -88,11 +90,7 @@ void GmshCells::partitioned_entities() {
     (void)in_.whole("the number of a ghost entity");
     (void)in_.whole("a partition");
   }
-  std::array<std::size_t, 4> counts{};
-  for (std::size_t& n : counts) n = in_.count("the number of entities", 10.0, 36.0);
-  for (int dimension = 0; dimension < 4; ++dimension) {
-    for (std::size_t i = 0; i < counts[static_cast<std::size_t>(dimension)]; ++i) partitioned_entity(dimension);
-  }
+  each_entity([this](int dimension) { partitioned_entity(dimension); });
   source_.add_only_in_file("the partitions of its elements");
 }
 
@@ -102,14 +100,9 @@ void GmshCells::partitioned_entity(int dimension) {
   const int whole = in_.whole("the number of an entity");
   const std::size_t partitions = in_.count("the number of partitions of an entity", 2.0, kInt);
   for (std::size_t i = 0; i < partitions; ++i) (void)in_.whole("a partition");
-  const int corners = dimension == 0 ? 3 : 6;
-  for (int k = 0; k < corners; ++k) (void)in_.real("the bounds of an entity");
-  std::vector<int> physical = read_physical();
+  std::vector<int> physical = end_entity(dimension);
   whole_[{dimension, tag}] = {whole_dimension, whole};
   if (!physical.empty() && whole_dimension == dimension) entity_physical_.try_emplace({dimension, whole}, std::move(physical));
-  if (dimension == 0) return;
-  const std::size_t bounds = in_.count("the number of entities that bound one", 2.0, kInt);
-  for (std::size_t i = 0; i < bounds; ++i) (void)in_.whole("an entity that bounds one");
 }
 
 /// The entity, by dimension and number, of which this one is a part; the entity itself in a mesh without partitions.

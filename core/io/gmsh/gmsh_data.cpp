@@ -1,5 +1,3 @@
-#include "core/io/gmsh/gmsh_data.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,8 +7,34 @@
 #include <fmt/format.h>
 
 #include "core/io/cell_table.h"
+#include "core/io/gmsh/gmsh.h"
 
 namespace dmoscope {
+
+int GmshInput::whole(std::string_view what) {
+  if (binary) return int_at(words.block(sizeof(std::int32_t), what).data());
+  const std::int64_t value = words.integer(what);
+  if (!std::in_range<int>(value)) words.fail(fmt::format("{} is too large: {}", what, value));
+  return static_cast<int>(value);
+}
+
+std::int64_t GmshInput::size(std::string_view what) {
+  return any_count(binary ? size_at(words.block(sizeof(std::int64_t), what).data()) : words.integer(what), what);
+}
+
+std::int64_t GmshInput::any_count(std::int64_t n, std::string_view what) const {
+  if (n < 0) words.fail(fmt::format("{} is negative or too large: {}", what, n));
+  return n;
+}
+
+double GmshInput::real(std::string_view what) { return binary ? real_at(words.block(sizeof(double), what).data()) : words.number(what); }
+
+std::size_t GmshInput::count(std::string_view what, double text, double bytes) {
+  const auto n = static_cast<std::size_t>(size(what));
+  words.need(n, binary ? bytes : text, what);
+  return n;
+}
+
 namespace {
 
 constexpr std::size_t kReal = 8;  // size in bytes
@@ -24,8 +48,7 @@ GmshData::Head GmshData::read_head() {
   const std::size_t strings = words.count("the number of strings", 1.0);
   (void)words.rest_of_line();
   for (std::size_t i = 0; i < strings; ++i) {
-    std::string_view line = words.rest_of_line();
-    if (line.size() >= 2 && line.front() == '"' && line.back() == '"') line = line.substr(1, line.size() - 2);
+    const std::string_view line = unquoted(words.rest_of_line());
     if (i == 0) head.name = line;
   }
   const std::size_t reals = words.count("the number of real tags", 2.0);

@@ -7,10 +7,7 @@
 
 #include "core/base/memory.h"
 #include "core/io/gmsh/gmsh.h"
-#include "core/io/gmsh/gmsh_cells.h"
-#include "core/io/gmsh/gmsh_data.h"
-#include "core/io/gmsh/gmsh_input.h"
-#include "core/io/tag_places.h"
+#include "core/io/numbered_mesh.h"
 
 namespace dmoscope {
 namespace {
@@ -19,9 +16,11 @@ constexpr std::string_view kFormatSection = "$MeshFormat";
 constexpr std::size_t kRealBytes = 8;  // size in bytes
 constexpr std::size_t kPointBytes = 3 * kRealBytes;
 
+/// Reader, see FormatHandler. Versions 2 and 4.1, ASCII and binary of either byte order. Throws InputError, Cancelled.
 class GmshReader {
  public:
-  GmshReader(SourceFile& source, Progress& progress) : source_(source), in_(source, progress), cells_(in_, source), data_(in_, source) {}
+  GmshReader(SourceFile& source, const IoContext& context)
+      : source_(source), in_(source, context.progress), cells_(in_, source), data_(in_, source) {}
 
   Mesh read() {
     while (!words().at_end()) section(std::string(words().word("a section")));
@@ -99,14 +98,8 @@ class GmshReader {
       if (!in_.big_endian && load_number<std::int32_t>(one, false) != 1)
         words().fail("the byte order is told by a number 1, which is not here");
     }
-    CoordinateLayout layout;
-    layout.syntax.free_form = true;
-    if (in_.binary) {
-      layout.binary = true;
-      layout.big_endian = in_.big_endian;
-      layout.at = {0, kRealBytes, 2 * kRealBytes};
-    }
-    source_.set_layout(layout);
+    source_.set_layout(in_.binary ? CoordinateLayout::packed(CoordinateScalar::Float64, in_.big_endian)
+                                  : CoordinateLayout{.syntax = {.free_form = true}});
   }
 
   /// Reads pairs of vertices, by curves and surfaces. In version 2 these are words even in a binary file.
@@ -268,15 +261,12 @@ bool recognises_gmsh(std::string_view bytes) { return bytes.starts_with(kFormatS
 
 }  // namespace
 
-Mesh read_gmsh(SourceFile& source, const IoContext& context) { return GmshReader(source, context.progress).read(); }
-
-const FormatHandler& gmsh_format() {
-  static const FormatHandler handler{
-      {"gmsh", "Gmsh", ".msh", "2D and 3D elements, physical groups, data; versions 2.2 and 4.1, ASCII and binary; made anew: 2.2 ASCII"},
-      recognises_gmsh,
-      read_gmsh,
-      write_gmsh};
-  return handler;
-}
+constinit const FormatHandler kGmshFormat{
+    .info = {"gmsh", "Gmsh", ".msh",
+             "2D and 3D elements, physical groups, data; versions 2.2 and 4.1, ASCII and binary; made anew: 2.2 ASCII"},
+    .recognises = recognises_gmsh,
+    .read = read_with<GmshReader>,
+    .write = write_gmsh,
+    .comment = {"$Comments\n", "\n$EndComments\n"}};
 
 }  // namespace dmoscope

@@ -9,7 +9,7 @@
 
 #include "core/io/gmsh/gmsh.h"
 #include "core/io/mesh_writer.h"
-#include "core/io/writing/one_line.h"
+#include "core/io/writing/text_writer.h"
 
 namespace dmoscope {
 namespace {
@@ -17,7 +17,7 @@ namespace {
 class GmshWriter : MeshWriter {
  public:
   GmshWriter(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context)
-      : MeshWriter(file, mesh, positions, context, gmsh_format().info.title, "physical group") {}
+      : MeshWriter(file, mesh, positions, context, kGmshFormat.info.title, "physical group") {}
 
   Notes write() {
     out_ << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
@@ -106,16 +106,13 @@ class GmshWriter : MeshWriter {
   std::vector<int> entities_of(std::span<const int> physical) {
     std::vector<int> entities(physical.begin(), physical.end());
     std::replace(entities.begin(), entities.end(), 0, 1);
-    const auto positive = [](double v) { return v == std::nearbyint(v) && v >= 1.0 && v <= 2147483647.0; };
     for (std::size_t i = 0; i < mesh_.fields.size(); ++i) {
       const Field& field = mesh_.fields[i];
-      if (field.name != kGmshGeometrical || field.on != Field::On::Elements || field.values.size() != entities.size() ||
-          !std::all_of(field.values.begin(), field.values.end(), positive)) {
-        continue;
-      }
-      std::transform(field.values.begin(), field.values.end(), entities.begin(), [](double v) { return static_cast<int>(v); });
+      if (field.name != kGmshGeometrical || field.on != Field::On::Elements || field.values.size() != entities.size()) continue;
+      auto kept = whole_values(field, 1.0);
+      if (!kept) continue;
       kept_fields_.push_back(i);
-      break;
+      return *std::move(kept);
     }
     return entities;
   }
@@ -126,7 +123,7 @@ class GmshWriter : MeshWriter {
     const bool of_nodes = field.on == Field::On::Vertices;
     const std::size_t things = of_nodes ? positions_.size() : mesh_.elements.size();
     const auto n = static_cast<std::size_t>(field.components);
-    if (field.components < 1 || field.values.size() != things * n) return;
+    if (!is_of(field, field.on)) return;
     kept_fields_.push_back(i);
     const auto has_some = [&](std::size_t thing) {
       const auto row = std::span(field.values).subspan(thing * n, n);

@@ -264,14 +264,11 @@ bool recognises_med(std::string_view bytes) {
 
 }  // namespace
 
-const FormatHandler& med_format() {
-  static const FormatHandler handler{
-      .info = {"med", "MED", ".med .mmed .rmed", "one mesh in HDF5, groups, results of the last time step; only written where it was read"},
-      .recognises = recognises_med,
-      .read = read_med,
-      .patch = patch_med,
-      .not_written = "MED files are written only where one was read: write it as .vtu or .msh"};
-  return handler;
-}
+constinit const FormatHandler kMedFormat{
+    .info = {"med", "MED", ".med .mmed .rmed", "one mesh in HDF5, groups, results of the last time step; only written where it was read"},
+    .recognises = recognises_med,
+    .read = read_med,
+    .patch = patch_med,
+    .not_written = "MED files are written only where one was read: write it as .vtu or .msh"};
 
 }  // namespace dmoscope

@@ -10,13 +10,109 @@
 
 #include <fmt/format.h>
 
+#include "core/base/error.h"
 #include "core/base/memory.h"
 #include "core/io/medit/medit.h"
-#include "core/io/medit/medit_contents.h"
-#include "core/io/medit/sol.h"
 #include "core/io/reading/tokenizer.h"
 
 namespace dmoscope {
+
+void MeditContents::reserve_cells(CellShape shape, std::size_t count) {
+  cells_.reserve_more(count, count * corners_of(shape));
+  if (shape == CellShape::Line) edges_.reserve(2 * count);
+}
+
+void MeditContents::add_cell(CellShape shape, const Index* corners, int reference) {
+  cells_.add(shape, corners, origin_of(reference));
+  if (shape == CellShape::Line) edges_.insert(edges_.end(), {corners[0], corners[1]});
+}
+
+std::uint32_t MeditContents::origin_of(int reference) {
+  if (!labels_.empty() && labels_[last_origin_].labels.front().code == reference) return last_origin_;
+  const auto [at, added] = origins_.try_emplace(reference, static_cast<std::uint32_t>(labels_.size()));
+  if (added) labels_.push_back({{{fmt::format("reference {}", reference), std::string(kMeditReference), reference}}, reference != 0});
+  return last_origin_ = at->second;
+}
+
+void MeditContents::fail_mark(const MeditMarks& marks, std::size_t i, std::size_t things, std::string_view what) const {
+  throw InputError(source_.path().string(), marks.lines.empty() ? 0 : marks.lines[i],
+                   fmt::format("{} {} out of range (the file has {} {})", marks.keyword, marks.numbers[i], things, what));
+}
+
+void MeditContents::make_group(const MeditMarks& marks) {
+  const CellShape shape = medit_mark(marks.keyword)->of;
+  if (shape >= CellShape::Triangle) return make_face_group(marks, shape);
+  const bool of_edges = shape == CellShape::Line;
+  const std::size_t things = of_edges ? edges_.size() / 2 : mesh.positions.size();
+  Group group{.name = marks.keyword, .role = std::string(kMeditMark), .code = 0, .dimension = of_edges ? 1 : 0};
+  for (std::size_t i = 0; i < marks.numbers.size(); ++i) {
+    const std::int64_t number = marks.numbers[i];
+    if (number < 1 || static_cast<std::uint64_t>(number) > things) fail_mark(marks, i, things, of_edges ? "edges" : "vertices");
+    const auto at = static_cast<std::size_t>(number - 1);
+    if (of_edges) {
+      group.members.insert(group.members.end(), {edges_[2 * at], edges_[2 * at + 1]});
+    } else {
+      group.members.push_back(static_cast<Index>(at));
+    }
+  }
+  if (!group.members.empty()) mesh.groups.push_back(std::move(group));
+}
+
+/// Makes a group of faces of a volume, or of elements if these are the mesh.
+void MeditContents::make_face_group(const MeditMarks& marks, CellShape shape) {
+  std::vector<Index> cells;  // those of this shape
+  for (Index c = 0; c < cells_.size(); ++c)
+    if (cells_.shape(c) == shape) cells.push_back(c);
+  const std::vector<std::span<const Index>> corners = cells_.corners_by_cell();
+  const std::vector<Index> elements = elements_of_cells(cells_, mesh, rows_);
+  Group group{.name = marks.keyword, .role = std::string(kMeditMark), .code = 0, .dimension = 2};
+  for (std::size_t i = 0; i < marks.numbers.size(); ++i) {
+    const std::int64_t number = marks.numbers[i];
+    if (number < 1 || static_cast<std::uint64_t>(number) > cells.size()) fail_mark(marks, i, cells.size(), info(*kind_of(shape)).plural);
+    const Index cell = cells[static_cast<std::size_t>(number - 1)];
+    if (elements[cell] == kNoIndex) {
+      group.faces.add(*kind_of(shape), corners[cell]);
+    } else {
+      group.members.push_back(elements[cell]);
+    }
+  }
+  if (!group.members.empty() || group.faces.size() > 0) mesh.groups.push_back(std::move(group));
+}
+
+void MeditContents::add_field(Field::On on, std::vector<double> values) {
+  mesh.fields.push_back(
+      {.name = std::string(kMeditField), .on = on, .type = "int", .role = std::string(kMeditReference), .values = std::move(values)});
+}
+
+/// Makes elements and groups. References of elements become groups if they are few, else a field.
+void MeditContents::split() {
+  constexpr std::size_t kMostGroups = 256;
+  std::vector<std::uint8_t> of_element(labels_.size(), 0);  // flags by origin
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    if (dimension_of(cells_.shape(c)) == cells_.dimension()) of_element[cells_.origin(c)] = 1;
+  }
+  const bool many = static_cast<std::size_t>(std::count(of_element.begin(), of_element.end(), 1)) > kMostGroups;
+  if (many) {
+    for (OriginLabels& labels : labels_) labels.of_elements = false;
+  }
+  rows_ = split_cells(cells_, labels_, mesh, source_);
+  if (!many) return;
+  std::vector<double> values(mesh.elements.size());
+  for (Index e = 0; e < mesh.elements.size(); ++e) {
+    values[e] = labels_[cells_.origin(rows_.empty() ? e : rows_[e])].labels.front().code;
+  }
+  add_field(Field::On::Elements, std::move(values));
+}
+
+Mesh MeditContents::finish() {
+  split();
+  for (const MeditMarks& marks : marks_) make_group(marks);
+  if (std::any_of(references.begin(), references.end(), [](int r) { return r != 0; })) {
+    add_field(Field::On::Vertices, {references.begin(), references.end()});
+  }
+  return std::move(mesh);
+}
+
 namespace {
 
 constexpr TextSyntax kMeditSyntax{.comment = '#', .comma_is_blank = false, .backslash_joins_lines = false, .free_form = true};
@@ -35,8 +131,11 @@ bool is_higher_order(std::string_view keyword) {
 
 class MeditReader {
  public:
-  MeditReader(SourceFile& source, Progress& progress)
-      : source_(source), progress_(progress), tokens_(source.bytes(), source.path().string(), kMeditSyntax, progress), contents_(source) {}
+  MeditReader(SourceFile& source, const IoContext& context)
+      : source_(source),
+        progress_(context.progress),
+        tokens_(source.bytes(), source.path().string(), kMeditSyntax, context.progress),
+        contents_(source) {}
 
   Mesh read() {
     const std::string_view first = tokens_.token();
@@ -114,13 +213,9 @@ class MeditReader {
     source_.reserve_places(count);
     contents_.references.reserve(count);
     for (std::size_t v = 0; v < count; ++v) {
-      if (tokens_.at_end()) tokens_.fail_at_end("x coordinate");
-      source_.add_place(tokens_.offset());
-      Vec3 p;
-      p.x = tokens_.read_double("x coordinate");
-      p.y = tokens_.read_double("y coordinate");
-      if (dimension_ == 3) p.z = tokens_.read_double("z coordinate");
-      contents_.mesh.positions.push_back(p);
+      std::size_t place = 0;
+      contents_.mesh.positions.push_back(tokens_.read_point(dimension_, place));
+      source_.add_place(place);
       contents_.references.push_back(reference());
     }
   }
@@ -168,7 +263,9 @@ class MeditReader {
     if (dimension_ == 0) tokens_.fail_at_end("Dimension");
     if (contents_.mesh.positions.empty()) tokens_.fail_at_end("Vertices");
     if (source_.bytes().find('#') != std::string_view::npos) source_.add_only_in_file("comments");
-    return contents_.finish();
+    Mesh mesh = contents_.finish();
+    read_solutions_beside(source_, mesh, progress_);
+    return mesh;
   }
 
   SourceFile& source_;
@@ -187,12 +284,6 @@ bool recognises_medit(std::string_view bytes) {
   return equal_ignoring_case(tokens.token(), kMeditSignature);
 }
 
-Mesh read_medit(SourceFile& source, const IoContext& context) {
-  Mesh mesh = MeditReader(source, context.progress).read();
-  read_solutions_beside(source, mesh, context.progress);
-  return mesh;
-}
-
 }  // namespace
 
 const MeditMark* medit_mark(std::string_view keyword) noexcept {
@@ -201,16 +292,11 @@ const MeditMark* medit_mark(std::string_view keyword) noexcept {
   return found == kMeditMarks.end() ? nullptr : found;
 }
 
-const FormatHandler& medit_format() {
-  static const FormatHandler handler{
-      {"medit", "MEDIT", ".mesh", "2D and 3D elements, references, corners, ridges, required vertices, edges and faces; ASCII"},
-      recognises_medit,
-      read_medit,
-      write_medit,
-      nullptr,
-      nullptr,
-      solutions_beside};
-  return handler;
-}
+constinit const FormatHandler kMeditFormat{
+    .info = {"medit", "MEDIT", ".mesh", "2D and 3D elements, references, corners, ridges, required vertices, edges and faces; ASCII"},
+    .recognises = recognises_medit,
+    .read = read_with<MeditReader>,
+    .write = write_medit,
+    .further = solutions_beside};
 
 }  // namespace dmoscope

@@ -12,7 +12,8 @@
 #include "core/io/medit/medit.h"
 #include "core/io/mesh_writer.h"
 #include "core/io/reading/tokenizer.h"
-#include "core/io/writing/one_line.h"
+#include "core/io/writing/text_writer.h"
+#include "core/mesh/faces.h"
 
 namespace dmoscope {
 namespace {
@@ -38,18 +39,10 @@ const MeditMark* mark_of(const Group& group, const Mesh& mesh) {
   return all ? mark : nullptr;
 }
 
-/// Corners of a face in ascending order.
-std::array<Index, 4> face_key(std::span<const Index> corners) {
-  std::array<Index, 4> key{kNoIndex, kNoIndex, kNoIndex, kNoIndex};
-  std::ranges::copy(corners, key.begin());
-  std::ranges::sort(key);
-  return key;
-}
-
 class MeditWriter : MeshWriter {
  public:
   MeditWriter(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context)
-      : MeshWriter(file, mesh, positions, context, medit_format().info.title, "reference") {
+      : MeshWriter(file, mesh, positions, context, kMeditFormat.info.title, "reference") {
     for (std::size_t i = 0; i < numbers_.size(); ++i) {
       // Restores reference 0: cells without a reference became a group if they are no elements.
       if (groups_[i].role == kMeditReference && groups_[i].code == 0) numbers_[i] = 0;
@@ -96,16 +89,13 @@ class MeditWriter : MeshWriter {
 
   /// The references in a field; `otherwise` if there is none.
   std::vector<int> references_of(Field::On on, std::vector<int> otherwise) {
-    const auto whole = [](double v) { return v == std::nearbyint(v) && std::abs(v) <= 2147483647.0; };
     for (std::size_t i = 0; i < mesh_.fields.size(); ++i) {
       const Field& field = mesh_.fields[i];
-      if (field.name != kMeditField || field.on != on || field.values.size() != otherwise.size() ||
-          !std::all_of(field.values.begin(), field.values.end(), whole)) {
-        continue;
-      }
-      std::transform(field.values.begin(), field.values.end(), otherwise.begin(), [](double v) { return static_cast<int>(v); });
+      if (field.name != kMeditField || field.on != on || field.values.size() != otherwise.size()) continue;
+      auto kept = whole_values(field);
+      if (!kept) continue;
       kept_fields_.push_back(i);
-      break;
+      return *std::move(kept);
     }
     return otherwise;
   }
@@ -158,7 +148,7 @@ class MeditWriter : MeshWriter {
     std::array<ReferencedCells, 2> faces;
     const auto add_face = [&](const ElementTable& of_group, Index f, int reference) {
       ReferencedCells& cells = faces[static_cast<std::size_t>(of_group.kind(f))];
-      face_numbers_.try_emplace(face_key(of_group.corners(f)), cells.references.size());
+      face_numbers_.try_emplace(corner_set(of_group.corners(f)), cells.references.size());
       add(cells, of_group.corners(f), reference);
     };
     for (std::size_t i = 0; i < groups_.size(); ++i) {
@@ -171,7 +161,7 @@ class MeditWriter : MeshWriter {
       const ElementTable& of_group = groups_[i].faces;
       if (marks_[i] == nullptr) continue;
       for (Index f = 0; f < of_group.size(); ++f)
-        if (!face_numbers_.contains(face_key(of_group.corners(f)))) add_face(of_group, f, 0);
+        if (!face_numbers_.contains(corner_set(of_group.corners(f)))) add_face(of_group, f, 0);
     }
     section(kKeywords[0], 3, faces[0]);
     section(kKeywords[1], 4, faces[1]);
@@ -231,7 +221,7 @@ class MeditWriter : MeshWriter {
     if (group.of_elements()) {
       for (const Index e : group.members) numbers.push_back(element_numbers_[e]);
     }
-    for (Index f = 0; f < group.faces.size(); ++f) numbers.push_back(face_numbers_.at(face_key(group.faces.corners(f))));
+    for (Index f = 0; f < group.faces.size(); ++f) numbers.push_back(face_numbers_.at(corner_set(group.faces.corners(f))));
     return numbers;
   }
 

@@ -13,8 +13,6 @@
 #include "core/base/memory.h"
 #include "core/io/format.h"
 #include "core/io/medit/medit.h"
-#include "core/io/medit/medit_contents.h"
-#include "core/io/medit/sol.h"
 #include "core/io/reading/binary.h"
 
 namespace dmoscope {
@@ -37,10 +35,11 @@ bool recognises_meshb(std::string_view bytes) {
 
 class MeshbReader {
  public:
-  MeshbReader(SourceFile& source, Progress& progress)
+  MeshbReader(SourceFile& source, const IoContext& context)
       : source_(source),
+        progress_(context.progress),
         big_endian_(source.bytes().starts_with('\0')),
-        in_(source.bytes(), 0, big_endian_, source.path().string(), progress),
+        in_(source.bytes(), 0, big_endian_, source.path().string(), context.progress),
         contents_(source) {}
 
   Mesh read() {
@@ -53,7 +52,9 @@ class MeshbReader {
     if (dimension_ == 0) in_.fail("the file has no Dimension");
     if (contents_.mesh.positions.empty()) in_.fail("the file has no Vertices");
     check_corners();
-    return contents_.finish();
+    Mesh mesh = contents_.finish();
+    read_solutions_beside(source_, mesh, progress_);
+    return mesh;
   }
 
  private:
@@ -128,14 +129,8 @@ class MeshbReader {
     if (dimension_ == 0) in_.fail("Vertices before Dimension");
     const std::size_t stride = static_cast<std::size_t>(dimension_) * real_bytes() + whole_bytes();
     const std::size_t n = count(stride, "vertices");
-    CoordinateLayout layout;
-    layout.binary = true;
-    layout.big_endian = big_endian_;
-    layout.components = dimension_;
-    const auto size = static_cast<std::uint32_t>(real_bytes());
-    layout.at = {0, size, 2 * size};
-    layout.scalar.fill(version_ == 1 ? CoordinateScalar::Float32 : CoordinateScalar::Float64);
-    source_.set_layout(layout);
+    const auto type = version_ == 1 ? CoordinateScalar::Float32 : CoordinateScalar::Float64;
+    source_.set_layout(CoordinateLayout::packed(type, big_endian_, dimension_));
     source_.set_uniform_places(in_.offset(), stride, n);
     reserve_large(contents_.mesh.positions, n);
     contents_.references.reserve(n);
@@ -179,6 +174,7 @@ class MeshbReader {
   }
 
   SourceFile& source_;
+  Progress& progress_;
   bool big_endian_;
   BinaryReader in_;
   MeditContents contents_;
@@ -188,22 +184,13 @@ class MeshbReader {
   std::vector<std::int32_t> met_;
 };
 
-Mesh read_meshb(SourceFile& source, const IoContext& context) {
-  Mesh mesh = MeshbReader(source, context.progress).read();
-  read_solutions_beside(source, mesh, context.progress);
-  return mesh;
-}
-
 }  // namespace
 
-const FormatHandler& meshb_format() {
-  static const FormatHandler handler{
-      .info = {"meshb", "MEDIT binary", ".meshb", "as MEDIT, versions 1 to 4, either byte order; only written where it was read"},
-      .recognises = recognises_meshb,
-      .read = read_meshb,
-      .further = solutions_beside,
-      .not_written = "binary MEDIT files are written only where one was read: write it as .mesh"};
-  return handler;
-}
+constinit const FormatHandler kMeshbFormat{
+    .info = {"meshb", "MEDIT binary", ".meshb", "as MEDIT, versions 1 to 4, either byte order; only written where it was read"},
+    .recognises = recognises_meshb,
+    .read = read_with<MeshbReader>,
+    .further = solutions_beside,
+    .not_written = "binary MEDIT files are written only where one was read: write it as .mesh"};
 
 }  // namespace dmoscope

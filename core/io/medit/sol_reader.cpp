@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "core/io/medit/sol.h"
+#include "core/io/medit/medit.h"
 #include "core/io/reading/source_file.h"
 #include "core/io/reading/tokenizer.h"
 

@@ -12,9 +12,7 @@
 #include "core/base/same_bits.h"
 #include "core/io/mesh_writer.h"
 #include "core/io/nastran/nastran.h"
-#include "core/io/nastran/nastran_cards.h"
-#include "core/io/writing/field_number.h"
-#include "core/io/writing/one_line.h"
+#include "core/io/writing/text_writer.h"
 
 namespace dmoscope {
 namespace {
@@ -44,7 +42,7 @@ std::string rounding_note(std::size_t rounded) {
 class NastranWriter : MeshWriter {
  public:
   NastranWriter(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context)
-      : MeshWriter(file, mesh, positions, context, nastran_format().info.title, "property of lines"), file_(file) {
+      : MeshWriter(file, mesh, positions, context, kNastranFormat.info.title, "property of lines"), file_(file) {
     number_groups();
   }
 

@@ -1,8 +1,11 @@
 // Wavefront OBJ: vertices and faces; everything else is kept when the file is patched. http://www.martinreddy.net/gfx/3d/OBJ.spec
 
+#include "core/io/polygons/obj.h"
+
 #include <algorithm>
 #include <array>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -10,12 +13,11 @@
 
 #include "core/base/error.h"
 #include "core/io/format.h"
-#include "core/io/polygons/obj_text.h"
 #include "core/io/reading/tokenizer.h"
-#include "core/io/writing/one_line.h"
 #include "core/io/writing/text_writer.h"
 
 namespace dmoscope {
+
 namespace {
 
 /// Statements that Mesh cannot hold, and their names for the user.
@@ -34,8 +36,8 @@ constexpr std::array<Statement, 8> kKept{{{"vt", "texture coordinates"},
 
 class ObjReader {
  public:
-  ObjReader(SourceFile& source, Progress& progress)
-      : source_(source), tokens_(source.bytes(), source.path().string(), kObjSyntax, progress) {
+  ObjReader(SourceFile& source, const IoContext& context)
+      : source_(source), tokens_(source.bytes(), source.path().string(), kObjSyntax, context.progress) {
     source.set_layout({.syntax = kObjSyntax});
   }
 
@@ -77,7 +79,7 @@ class ObjReader {
   void vertex() {
     if (mesh_.positions.size() + 1 >= kNoIndex) tokens_.fail(fmt::format("a mesh can have {} vertices at most", kNoIndex - 1));
     std::size_t place = 0;
-    mesh_.positions.push_back(read_obj_vertex(tokens_, place));
+    mesh_.positions.push_back(tokens_.read_point(3, place));
     source_.add_place(place);
     int extras = 0;
     while (!tokens_.token_on_line().empty()) ++extras;
@@ -142,12 +144,10 @@ class ObjReader {
   std::size_t points_ = 0;
 };
 
-Mesh read_obj(SourceFile& source, const IoContext& context) { return ObjReader(source, context.progress).read(); }
-
 Notes write_obj(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {
   Notes notes;
-  require_surface_elements(file, mesh, obj_format().info.title);
-  note_dropped(mesh, {}, {}, obj_format().info.title, notes);
+  require_surface_elements(file, mesh, kObjFormat.info.title);
+  note_dropped(mesh, {}, {}, kObjFormat.info.title, notes);
   TextWriter out(file, context);
   if (!mesh.title.empty()) out << "# " << one_line(mesh.title) << '\n';
   out.for_each(positions.size(), [&](TextBuffer& part, std::size_t v) {
@@ -164,10 +164,37 @@ Notes write_obj(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positi
 
 }  // namespace
 
-const FormatHandler& obj_format() {
-  static const FormatHandler handler{
-      {"obj", "Wavefront OBJ", ".obj", "positions, triangles and quadrilaterals"}, nullptr, read_obj, write_obj};
-  return handler;
+constinit const FormatHandler kObjFormat{.info = {"obj", "Wavefront OBJ", ".obj", "positions, triangles and quadrilaterals"},
+                                         .read = read_with<ObjReader>,
+                                         .write = write_obj,
+                                         .comment = {"# ", "\n"}};
+
+namespace {
+
+void check_references(const Tokenizer& tokens, std::string_view token, std::size_t slash) {
+  for (int part = 0; slash != std::string_view::npos; ++part) {
+    if (part == 2) tokens.fail(fmt::format("expected v, v/vt, v//vn or v/vt/vn, got {}", quote_token(token)));
+    const std::size_t next = token.find('/', slash + 1);
+    const std::string_view number = token.substr(slash + 1, next == std::string_view::npos ? next : next - slash - 1);
+    if (!number.empty()) (void)tokens.parse_integer(number, part == 0 ? "texture coordinate index" : "normal index");
+    slash = next;
+  }
+}
+
+}  // namespace
+
+std::size_t read_obj_face(Tokenizer& tokens, std::array<std::int64_t, 4>& corners) {
+  std::size_t count = 0;
+  for (std::string_view token = tokens.token_on_line(); !token.empty(); token = tokens.token_on_line()) {
+    const std::size_t slash = token.find('/');
+    const std::int64_t index = count < corners.size() ? tokens.parse_integer(token.substr(0, slash), "vertex index") : 1;
+    if (count < corners.size()) check_references(tokens, token, slash);
+    if (index == 0) tokens.fail("vertex index 0 out of range (OBJ counts from 1)");
+    if (count < corners.size()) corners[count] = index;
+    ++count;
+  }
+  if (count != 3 && count != 4) tokens.fail(fmt::format("face with {} corners: only triangles and quadrilaterals are read", count));
+  return count;
 }
 
 }  // namespace dmoscope

@@ -1,6 +1,8 @@
 // OFF, the object file format of Geomview: ASCII and binary, with or without normals, colours and texture coordinates.
 // http://www.geomview.org/docs/html/OFF.html
 
+#include "core/io/polygons/off.h"
+
 #include <array>
 #include <cmath>
 
@@ -9,14 +11,13 @@
 #include "core/base/error.h"
 #include "core/base/memory.h"
 #include "core/io/format.h"
-#include "core/io/polygons/off_text.h"
 #include "core/io/reading/binary.h"
 #include "core/io/reading/line_chunks.h"
 #include "core/io/reading/tokenizer.h"
-#include "core/io/writing/one_line.h"
 #include "core/io/writing/text_writer.h"
 
 namespace dmoscope {
+
 namespace {
 
 /// Whether the file begins with the word, and a count or BINARY after it: "OFF coast" may be the title of another format's file.
@@ -119,9 +120,7 @@ void read_faces(Tokenizer& tokens, std::size_t count, SourceFile& source, Mesh& 
 
 void read_text(Tokenizer& tokens, const OffHeader& header, SourceFile& source, Mesh& mesh, const IoContext& context) {
   const auto [vertices, faces] = read_off_counts(tokens);
-  CoordinateLayout layout;
-  layout.syntax = {.comment = '#'};
-  source.set_layout(layout);
+  source.set_layout({.syntax = {.comment = '#'}});
   read_vertices(tokens, vertices, header, source, mesh, context);
   read_faces(tokens, faces, source, mesh, context);
   if (source.bytes().find('#') != std::string_view::npos) source.add_only_in_file("comments");
@@ -163,12 +162,7 @@ void read_binary(BinaryReader reader, const OffHeader& header, SourceFile& sourc
   const std::size_t extra = (header.normals ? 12U : 0U) + (header.colours ? 16U : 0U) + (header.texture ? 8U : 0U);
   const auto count = static_cast<std::size_t>(vertices);
   reader.require_count(count, 12 + extra, "vertices");
-  CoordinateLayout layout;
-  layout.binary = true;
-  layout.big_endian = true;
-  layout.at = {0, 4, 8};
-  layout.scalar.fill(CoordinateScalar::Float32);
-  source.set_layout(layout);
+  source.set_layout(CoordinateLayout::packed(CoordinateScalar::Float32, true));
   source.set_uniform_places(reader.offset(), 12 + extra, count);
   reserve_large(mesh.positions, count);
   for (std::size_t v = 0; v < count; ++v) {
@@ -204,8 +198,8 @@ Mesh read_off(SourceFile& source, const IoContext& context) {
 
 Notes write_off(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {
   Notes notes;
-  require_surface_elements(file, mesh, off_format().info.title);
-  note_dropped(mesh, {}, {}, off_format().info.title, notes);
+  require_surface_elements(file, mesh, kOffFormat.info.title);
+  note_dropped(mesh, {}, {}, kOffFormat.info.title, notes);
   TextWriter out(file, context);
   out << "OFF\n";
   if (!mesh.title.empty()) out << "# " << one_line(mesh.title) << '\n';
@@ -224,10 +218,66 @@ Notes write_off(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positi
 
 }  // namespace
 
-const FormatHandler& off_format() {
-  static const FormatHandler handler{
-      {"off", "OFF", ".off", "positions, triangles and quadrilaterals; ASCII and binary"}, recognises_off, read_off, write_off};
-  return handler;
+constinit const FormatHandler kOffFormat{.info = {"off", "OFF", ".off", "positions, triangles and quadrilaterals; ASCII and binary"},
+                                         .recognises = recognises_off,
+                                         .read = read_off,
+                                         .write = write_off,
+                                         .comment = {"# ", "\n"}};
+
+std::optional<OffHeader> parse_off_header(std::string_view word) {
+  OffHeader header;
+  const auto eat = [&word](std::string_view prefix) {
+    if (!word.starts_with(prefix)) return false;
+    word.remove_prefix(prefix.size());
+    return true;
+  };
+  header.texture = eat("ST");
+  header.colours = eat("C");
+  header.normals = eat("N");
+  if (word != "OFF") return std::nullopt;
+  return header;
+}
+
+OffHeader read_off_word(Tokenizer& tokens) {
+  if (tokens.at_end()) tokens.fail_at_end("OFF");
+  const std::size_t begin = tokens.offset();
+  const std::string_view word = tokens.token_on_line();
+  if (const auto found = parse_off_header(word)) return *found;
+  if (word.front() < '0' || word.front() > '9' || word.find("OFF") != std::string_view::npos)
+    tokens.fail(fmt::format("expected OFF (or a form of it such as COFF, NOFF, STOFF), got {}", quote_token(word)));
+  tokens.seek(begin, tokens.line());  // the word may be missing
+  return {};
+}
+
+OffCounts read_off_counts(Tokenizer& tokens) {
+  constexpr std::size_t kShortestVertex = 6;  // bytes of "0 0 0\n"
+  constexpr std::size_t kShortestFace = 8;    // bytes of "3 0 1 2\n"
+  if (tokens.at_end()) tokens.fail_at_end("number of vertices");
+  const std::size_t vertices = tokens.read_count("number of vertices", kShortestVertex);
+  const std::size_t faces = tokens.read_count("number of faces", kShortestFace);
+  tokens.end_line();  // the number of edges, which is unused and sometimes missing
+  return {vertices, faces};
+}
+
+Vec3 read_off_vertex(Tokenizer& tokens, std::size_t& place, bool& extras) {
+  const Vec3 p = tokens.read_point(3, place);
+  extras = tokens.more_on_line() || extras;
+  tokens.end_line();
+  return p;
+}
+
+std::span<const Index> read_off_face(Tokenizer& tokens, std::size_t vertices, std::array<Index, 4>& corner, bool& extras) {
+  const std::int64_t corners = tokens.read_integer("number of corners");
+  if (corners != 3 && corners != 4) tokens.fail(wrong_off_corners(corners));
+  const std::span<Index> used(corner.data(), static_cast<std::size_t>(corners));
+  for (Index& c : used) c = tokens.read_index("vertex index", vertices, "vertices");
+  extras = tokens.more_on_line() || extras;
+  tokens.end_line();
+  return used;
+}
+
+std::string wrong_off_corners(std::int64_t corners) {
+  return fmt::format("face with {} corners: only triangles and quadrilaterals are read", corners);
 }
 
 }  // namespace dmoscope

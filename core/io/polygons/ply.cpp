@@ -13,9 +13,9 @@
 #include "core/base/memory.h"
 #include "core/io/mesh_writer.h"
 #include "core/io/polygons/ply_header.h"
-#include "core/io/reading/binary_scalar.h"
+#include "core/io/reading/binary.h"
 #include "core/io/reading/mixed_input.h"
-#include "core/io/writing/one_line.h"
+#include "core/io/writing/text_writer.h"
 
 namespace dmoscope {
 namespace {
@@ -34,7 +34,7 @@ struct Row {
 
 class PlyReader {
  public:
-  PlyReader(SourceFile& source, Progress& progress) : source_(source), in_(source, progress) {}
+  PlyReader(SourceFile& source, const IoContext& context) : source_(source), in_(source, context.progress) {}
 
   Mesh read() {
     header_ = read_ply_header(in_);
@@ -270,8 +270,6 @@ class PlyReader {
   std::size_t vertex_count_ = 0;
 };
 
-Mesh read_ply(SourceFile& source, const IoContext& context) { return PlyReader(source, context.progress).read(); }
-
 /// A field as a property of a new file.
 struct Column {
   const Field* field;
@@ -282,7 +280,9 @@ struct Column {
 class PlyWriter : MeshWriter {
  public:
   PlyWriter(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context)
-      : MeshWriter(file, mesh, positions, context, "PLY") {}
+      : MeshWriter(file, mesh, positions, context, "PLY") {
+    require_surface_elements(file, mesh, title_);
+  }
 
   Notes write() {
     const std::vector<Column> of_vertices = columns(Field::On::Vertices, positions_.size(), kAxes);
@@ -353,22 +353,14 @@ class PlyWriter : MeshWriter {
   }
 };
 
-Notes write_ply(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {
-  require_surface_elements(file, mesh, "PLY");
-  return PlyWriter(file, mesh, positions, context).write();
-}
-
 bool recognises_ply(std::string_view bytes) { return bytes.starts_with("ply\n") || bytes.starts_with("ply\r"); }
 
 }  // namespace
 
-const FormatHandler& ply_format() {
-  static const FormatHandler handler{
-      .info = {"ply", "PLY", ".ply", "triangles and quadrilaterals with one number per property; ASCII and binary"},
-      .recognises = recognises_ply,
-      .read = read_ply,
-      .write = write_ply};
-  return handler;
-}
+constinit const FormatHandler kPlyFormat{
+    .info = {"ply", "PLY", ".ply", "triangles and quadrilaterals with one number per property; ASCII and binary"},
+    .recognises = recognises_ply,
+    .read = read_with<PlyReader>,
+    .write = write_with<PlyWriter>};
 
 }  // namespace dmoscope

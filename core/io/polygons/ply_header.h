@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/reading/binary_scalar.h"
+#include "core/io/reading/binary.h"
 #include "core/io/reading/mixed_input.h"
 
 namespace dmoscope {

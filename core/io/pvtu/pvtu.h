@@ -45,8 +45,6 @@ struct PieceIds {
 /// left out.
 [[nodiscard]] Mesh join_pieces(const std::vector<Mesh>& pieces, const std::string& file, std::vector<std::string>& notes);
 
-/// Reader, see FormatHandler::read.
-[[nodiscard]] Mesh read_pvtu(SourceFile& source, const IoContext& context);
 /// Writer, see FormatHandler::write. Writes the pieces beside the file, with ids, and gives them their final names; only `file` is left to
 /// be committed. The context sets the number of pieces; by default there is one for each million elements.
 std::vector<std::string> write_pvtu(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context);

@@ -1,10 +1,12 @@
 #pragma once
-// Files packed by gzip (RFC 1952): mesh.vtk.gz. Needs zlib, which is not in every build.
+// Packing and unpacking by zlib, which is not in every build: files packed by gzip (RFC 1952) such as mesh.vtk.gz, blocks (RFC 1950).
 
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/io/reading/io_context.h"
 #include "core/io/reading/source_file.h"
@@ -38,5 +40,13 @@ class GzipPacker {
   std::unique_ptr<Stream> stream_;
   Sink sink_;
 };
+
+// --- Blocks of known size; only in builds with zlib ---
+
+/// Appends the `size` bytes that `packed` unpacks to. False, with `out` unchanged, if it unpacks to any other size; allocates nothing for
+/// sizes that so few bytes cannot unpack to.
+[[nodiscard]] bool zlib_unpack(std::string_view packed, std::size_t size, std::vector<char>& out);
+
+[[nodiscard]] std::string zlib_packed(std::string_view bytes);
 
 }  // namespace dmoscope

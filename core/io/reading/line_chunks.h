@@ -17,7 +17,17 @@ struct LineChunk {
 };
 
 /// The next chunks of about `size` bytes each, at most `most` of them. Fewer, or none, if lines do not end with a line feed.
-[[nodiscard]] std::vector<LineChunk> next_chunks(std::string_view text, std::size_t begin, std::size_t size, std::size_t most);
+[[nodiscard]] inline std::vector<LineChunk> next_chunks(std::string_view text, std::size_t begin, std::size_t size, std::size_t most) {
+  std::vector<LineChunk> chunks;
+  while (chunks.size() < most && text.size() - begin > size) {
+    const std::size_t last = text.substr(begin + size, size).find('\n');
+    if (last == std::string_view::npos) break;
+    const std::size_t end = begin + size + last + 1;
+    chunks.push_back({begin, end});
+    begin = end;
+  }
+  return chunks;
+}
 
 /// Parses lines from `tokens` on in chunks, one for each thread at a time, until an error:
 ///

@@ -1,7 +1,6 @@
 #include "core/io/reading/mixed_input.h"
 
 #include <algorithm>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -76,13 +75,7 @@ auto MixedInput::parsed(Parse&& parse) {
 double MixedInput::number(std::string_view what) {
   if (double value = 0.0; text_.take_double(value, token_)) return value;
   const std::string_view found = word(what);
-  std::string_view letters = found;
-  const bool negative = letters.starts_with('-');
-  if (negative || letters.starts_with('+')) letters.remove_prefix(1);
-  if (equal_ignoring_case(letters, "nan")) return std::numeric_limits<double>::quiet_NaN();
-  if (equal_ignoring_case(letters, "inf") || equal_ignoring_case(letters, "infinity")) {
-    return negative ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
-  }
+  if (const std::optional<double> special = not_finite(found)) return *special;
   return parsed([&] { return text_.parse_double(found, what); });
 }
 

@@ -36,6 +36,17 @@ struct CoordinateLayout {
   std::array<CoordinateScalar, 3> scalar{CoordinateScalar::Float64,  // types of x, y, z; text: as declared, more digits are possible
                                          CoordinateScalar::Float64, CoordinateScalar::Float64};
   bool big_endian = false;  // byte order of a binary file
+
+  /// Layout in a binary file where x, y and perhaps z follow each other.
+  [[nodiscard]] static CoordinateLayout packed(CoordinateScalar type, bool big_endian, int components = 3) {
+    const std::uint32_t size = type == CoordinateScalar::Float32 ? 4 : 8;
+    return {.binary = true,
+            .components = components,
+            .at = {0, size, 2 * size},
+            .syntax = {},
+            .scalar = {type, type, type},
+            .big_endian = big_endian};
+  }
 };
 
 /// The bytes of a file, in memory of their own.
@@ -68,6 +79,7 @@ struct Mesh;
 /// while another program writes the file.
 class SourceFile {
  public:
+  SourceFile() = default;
   SourceFile(std::filesystem::path path, FileBytes bytes)
       : path_(std::move(path)), bytes_(std::move(bytes)), size_on_disk_(bytes_.view().size()) {}
 
@@ -140,12 +152,20 @@ class SourceFile {
     first_beside_ = first;
   }
 
+  /// Passes all members to an archive, which saves or loads them.
+  template <class Archive>
+  friend void pass(Archive& archive, SourceFile& file) {
+    archive(file.path_, file.bytes_, file.size_on_disk_, file.format_, file.beside_, file.first_beside_, file.not_patchable_, file.layout_,
+            file.places_, file.first_, file.stride_, file.uniform_count_, file.place_vertices_, file.only_in_file_, file.notes_,
+            file.field_pieces_, file.companion_);
+  }
+
  private:
   std::filesystem::path path_;
   std::string beside_;
   std::size_t first_beside_ = 0;
   FileBytes bytes_;
-  std::size_t size_on_disk_;
+  std::size_t size_on_disk_ = 0;
   std::string format_;
   std::shared_ptr<const SourceFile> companion_;
   CoordinateLayout layout_;

@@ -1,5 +1,6 @@
 #include "core/io/reading/tokenizer.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -195,6 +196,16 @@ std::int64_t Tokenizer::read_integer(std::string_view what) {
   return take_integer(value, begin) ? value : parse_integer(read_token(what), what);
 }
 
+Vec3 Tokenizer::read_point(int components, std::size_t& place) {
+  skip_to_token();
+  place = position_;
+  Vec3 p;
+  p.x = read_double("x coordinate");
+  p.y = read_double("y coordinate");
+  if (components == 3) p.z = read_double("z coordinate");
+  return p;
+}
+
 std::int64_t Tokenizer::parse_integer(std::string_view token, std::string_view what) const {
   std::string_view digits = token;
   if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);
@@ -274,19 +285,47 @@ bool equal_ignoring_case(std::string_view a, std::string_view b) noexcept {
   return true;
 }
 
+std::vector<std::string_view> words_of(std::string_view line, std::size_t most) {
+  std::vector<std::string_view> words;
+  for (line = trimmed(line); !line.empty() && words.size() < most; line = trimmed(line)) {
+    words.push_back(line.substr(0, line.find_first_of(" \t")));
+    line.remove_prefix(words.back().size());
+  }
+  return words;
+}
+
+std::string_view unquoted(std::string_view text) noexcept {
+  return text.size() >= 2 && text.front() == '"' && text.back() == '"' ? text.substr(1, text.size() - 2) : text;
+}
+
+std::string in_capitals(std::string_view text) {
+  std::string capitals(text);
+  for (char& c : capitals) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  return capitals;
+}
+
+std::string_view take_line(std::string_view& text) noexcept {
+  const std::string_view line = text.substr(0, text.find_first_of("\r\n"));
+  text.remove_prefix(line.size());
+  text.remove_prefix(text.starts_with("\r\n") ? 2 : std::min<std::size_t>(text.size(), 1));
+  return line;
+}
+
+std::optional<double> not_finite(std::string_view word) {
+  const bool negative = word.starts_with('-');
+  if (negative || word.starts_with('+')) word.remove_prefix(1);
+  if (equal_ignoring_case(word, "nan")) return std::numeric_limits<double>::quiet_NaN();
+  if (!equal_ignoring_case(word, "inf") && !equal_ignoring_case(word, "infinity")) return std::nullopt;
+  return negative ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
+}
+
 double any_double(Tokenizer& tokens) {
   double value = 0.0;
   std::size_t begin = 0;
   if (tokens.take_double(value, begin)) return value;
   const std::string_view token = tokens.read_token("a number");
-  std::string_view letters = token;
-  const bool negative = letters.starts_with('-');
-  if (negative || letters.starts_with('+')) letters.remove_prefix(1);
-  if (equal_ignoring_case(letters, "nan")) return std::numeric_limits<double>::quiet_NaN();
-  if (equal_ignoring_case(letters, "inf") || equal_ignoring_case(letters, "infinity")) {
-    return negative ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
-  }
-  return tokens.parse_double(token, "a number");
+  const std::optional<double> special = not_finite(token);
+  return special ? *special : tokens.parse_double(token, "a number");
 }
 
 }  // namespace dmoscope

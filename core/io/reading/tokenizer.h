@@ -4,8 +4,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/base/error.h"
 #include "core/base/progress.h"
@@ -105,6 +107,8 @@ class Tokenizer {
   /// Takes a finite number as the nearest double: a leading + and Fortran's D exponent are understood, nan and inf refused.
   double read_double(std::string_view what);
   std::int64_t read_integer(std::string_view what);
+  /// Takes x, y and, if there are three components, z. `place` gets the offset of x.
+  Vec3 read_point(int components, std::size_t& place);
   /// Takes an index of one of `count` things called `plural` ("vertices"), counted from `base` (0 or 1) in the file. Returns it from 0.
   Index read_index(std::string_view what, std::size_t count, std::string_view plural, std::int64_t base = 0);
   /// Takes a count of things that follow: not negative, below 2^32 - 1, and so small that `bytes_each` for each fit in the bytes left (so
@@ -199,6 +203,32 @@ class Tokenizer {
 
 /// Whether two words agree except for the case of their letters (ASCII).
 [[nodiscard]] bool equal_ignoring_case(std::string_view a, std::string_view b) noexcept;
+
+/// The words of a line between blanks and tabs, at most `most`.
+[[nodiscard]] std::vector<std::string_view> words_of(std::string_view line, std::size_t most = std::string_view::npos);
+
+/// Whether a list of words with blanks between them has one for which is(word) holds.
+template <class Is>
+[[nodiscard]] bool any_word(std::string_view list, const Is& is) {
+  for (std::size_t at = 0; at < list.size();) {
+    const std::string_view word = list.substr(at, list.find(' ', at) - at);
+    if (is(word)) return true;
+    at += word.size() + 1;
+  }
+  return false;
+}
+
+/// A text without the double quotes around it, if it has them.
+[[nodiscard]] std::string_view unquoted(std::string_view text) noexcept;
+
+/// A text with its letters (ASCII) in capitals.
+[[nodiscard]] std::string in_capitals(std::string_view text);
+
+/// Takes the first line, without its end, from a text that is not empty.
+std::string_view take_line(std::string_view& text) noexcept;
+
+/// The infinity or NaN that a word says, in whatever case; none if it says no such number.
+[[nodiscard]] std::optional<double> not_finite(std::string_view word);
 
 /// Takes the next number, which may be infinite or NaN. Throws InputError if there is none.
 [[nodiscard]] double any_double(Tokenizer& tokens);

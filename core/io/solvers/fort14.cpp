@@ -2,10 +2,13 @@
 // elements, open and land boundaries.
 // https://adcirc.org/home/documentation/users-manual-v53/input-file-descriptions/adcirc-grid-and-boundary-information-file-fort-14/
 
+#include "core/io/solvers/fort14.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -13,50 +16,172 @@
 
 #include "core/base/error.h"
 #include "core/base/memory.h"
+#include "core/base/number_in.h"
 #include "core/io/format.h"
+#include "core/io/numbered_mesh.h"
 #include "core/io/reading/tokenizer.h"
-#include "core/io/solvers/fort14_text.h"
-#include "core/io/writing/one_line.h"
 #include "core/io/writing/text_writer.h"
 
 namespace dmoscope {
+
 namespace {
 
-/// Node numbers in the file: mostly 1, 2, ... but any are possible.
-class NodeNumbers {
+/// Columns behind the node number in a line of a land boundary, by IBTYPE: the node on a weir's other side, then heights and coefficients.
+struct WeirColumns {
+  bool pair = false;
+  int numbers = 0;
+};
+WeirColumns weir_columns(int type) {
+  switch (type) {
+    case 3:
+    case 13:
+    case 23:
+      return {false, 2};
+    case 4:
+    case 24:
+      return {true, 3};
+    case 5:
+    case 25:
+      return {true, 5};  // a sixth, the pipe's diameter, is missing in some files
+    default:
+      return {};
+  }
+}
+
+class BoundaryReader {
  public:
-  void reserve(std::size_t count) { numbers_.reserve(count); }
-  void add(std::int64_t number) {
-    dense_ = dense_ && number == static_cast<std::int64_t>(numbers_.size()) + 1;
-    numbers_.push_back({number, static_cast<Index>(numbers_.size())});
-  }
-  /// Completes the numbers, after all are added. Returns the second of two nodes with one number, if there is one.
-  std::optional<Index> finish() {
-    if (dense_) return std::nullopt;
-    std::sort(numbers_.begin(), numbers_.end());
-    const auto twice = std::adjacent_find(numbers_.begin(), numbers_.end(), [](auto a, auto b) { return a.first == b.first; });
-    if (twice == numbers_.end()) return std::nullopt;
-    return std::next(twice)->second;
-  }
-  [[nodiscard]] std::size_t size() const noexcept { return numbers_.size(); }
-  /// Reads a node's number. Throws InputError if no node has it.
-  Index read(Tokenizer& tokens, std::string_view what) const {
-    if (dense_) return tokens.read_index(what, numbers_.size(), "vertices", 1);
-    const std::int64_t number = tokens.read_integer(what);
-    const auto found = std::lower_bound(numbers_.begin(), numbers_.end(), std::pair<std::int64_t, Index>(number, 0));
-    if (found == numbers_.end() || found->first != number) tokens.fail(fmt::format("{} {}: no vertex has this number", what, number));
-    return found->second;
+  BoundaryReader(Tokenizer& tokens, const std::function<Index(Tokenizer&, std::string_view)>& number, SourceFile* source)
+      : tokens_(tokens), number_(number), source_(source) {}
+
+  /// Reads the boundaries; a file may end before them, or after the open ones.
+  std::vector<Group> read() {
+    constexpr std::size_t kShortestBoundary = 2;  // bytes of "0\n"
+    if (tokens_.at_end()) return std::move(groups_);
+    const std::size_t open = tokens_.read_count("number of open boundaries", kShortestBoundary);
+    tokens_.end_line();
+    read_total(open, "number of open boundary vertices");
+    for (std::size_t b = 0; b < open; ++b) read_open(b);
+    if (tokens_.at_end()) return std::move(groups_);
+    const std::size_t land = tokens_.read_count("number of land boundaries", kShortestBoundary);
+    tokens_.end_line();
+    read_total(land, "number of land boundary vertices");
+    for (std::size_t b = 0; b < land; ++b) read_land(b);
+    if (tokens_.at_end()) return std::move(groups_);
+    if (source_ == nullptr) return std::move(groups_);
+    source_->add_note(fmt::format("The file goes on after its boundaries (line {}); the rest is kept but not read.", tokens_.line()));
+    source_->add_only_in_file("what follows the boundaries");
+    return std::move(groups_);
   }
 
  private:
-  std::vector<std::pair<std::int64_t, Index>> numbers_;
-  bool dense_ = true;
+  void begin_line(std::string_view what) {
+    if (tokens_.at_end()) tokens_.fail_at_end(what);
+  }
+
+  /// Skips the sum over all boundaries: nothing depends on it, and it is often wrong. Some files end before it if there are no boundaries.
+  void read_total(std::size_t boundaries, std::string_view what) {
+    if (boundaries == 0 && tokens_.at_end()) return;
+    begin_line(what);
+    (void)tokens_.read_integer(what);
+    tokens_.end_line();
+  }
+
+  std::size_t read_size() {
+    begin_line("number of vertices of a boundary");
+    return tokens_.read_count("number of vertices of a boundary", 2);
+  }
+
+  void read_open(std::size_t b) {
+    Group group{.name = fmt::format("{} {}", kFort14Open, b + 1), .role = std::string(kFort14Open), .code = 0, .dimension = 0};
+    const std::size_t size = read_size();
+    const std::string_view type = tokens_.token_on_line();  // IBTYPEE may be missing, with a remark in its place
+    group.code = number_in<int>(type).value_or(0);
+    tokens_.end_line();
+    group.members.reserve(size);
+    for (std::size_t i = 0; i < size; ++i) {
+      begin_line("vertex of an open boundary");
+      group.members.push_back(number_(tokens_, "vertex index"));
+      tokens_.end_numbers_of("a vertex of a boundary");
+    }
+    groups_.push_back(std::move(group));
+  }
+
+  void read_land(std::size_t b) {
+    Group group{.name = fmt::format("{} {}", kFort14Land, b + 1), .role = std::string(kFort14Land), .code = 0, .dimension = 0};
+    const std::size_t size = read_size();
+    const std::int64_t type = tokens_.read_integer("type of a land boundary (IBTYPE)");
+    if (type < -1000000 || type > 1000000) tokens_.fail(fmt::format("type of a land boundary (IBTYPE) out of range: {}", type));
+    group.code = static_cast<int>(type);
+    tokens_.end_line();
+    const WeirColumns columns = weir_columns(group.code);
+    if (is_fort14_weir(group.code) && source_ != nullptr)
+      source_->add_only_in_file("heights, coefficients and pairs of vertices of the weirs");
+    // Adds a group for the far bank of a weir: the file lists both banks in one string, the farther one beside the nearer.
+    Group far_side{.name = group.name + ", far side", .role = group.role, .code = group.code, .dimension = 0};
+    group.members.reserve(size);
+    for (std::size_t i = 0; i < size; ++i) {
+      begin_line("vertex of a land boundary");
+      group.members.push_back(number_(tokens_, "vertex index"));
+      if (columns.pair) far_side.members.push_back(number_(tokens_, "vertex index"));
+      for (int n = 0; n < columns.numbers; ++n) (void)tokens_.read_double("height or coefficient of a weir");
+      tokens_.end_line();
+    }
+    groups_.push_back(std::move(group));
+    if (columns.pair) groups_.push_back(std::move(far_side));
+  }
+
+  Tokenizer& tokens_;
+  const std::function<Index(Tokenizer&, std::string_view)>& number_;
+  SourceFile* source_;
+  std::vector<Group> groups_;
 };
+
+}  // namespace
+
+Fort14Head read_fort14_head(Tokenizer& tokens) {
+  constexpr std::size_t kShortestElement = 10;  // bytes of "1 3 1 2 3\n"
+  constexpr std::size_t kShortestNode = 8;      // bytes of "1 0 0 0\n"
+  Fort14Head head;
+  head.title = trimmed(tokens.rest_of_line());
+  if (tokens.at_end()) tokens.fail_at_end("number of elements");
+  head.elements = tokens.read_count("number of elements", kShortestElement);
+  head.nodes = tokens.read_count("number of vertices", kShortestNode);
+  tokens.end_line();
+  return head;
+}
+
+Fort14Node read_fort14_node(Tokenizer& tokens) {
+  if (tokens.at_end()) tokens.fail_at_end("number of a vertex");
+  Fort14Node node;
+  node.number = tokens.read_integer("number of a vertex");
+  node.position = tokens.read_point(2, node.place);
+  node.depth = tokens.read_double("depth");
+  tokens.end_numbers_of("a vertex");
+  return node;
+}
+
+std::size_t read_fort14_element(Tokenizer& tokens) {
+  if (tokens.at_end()) tokens.fail_at_end("number of an element");
+  (void)tokens.read_integer("number of an element");
+  const std::int64_t corners = tokens.read_integer("number of corners");
+  if (corners != 3 && corners != 4)
+    tokens.fail(fmt::format("element with {} corners: only triangles and quadrilaterals are read", corners));
+  return static_cast<std::size_t>(corners);
+}
+
+bool is_fort14_weir(int type) { return weir_columns(type).numbers > 0; }
+
+std::vector<Group> read_fort14_boundaries(Tokenizer& tokens, const std::function<Index(Tokenizer&, std::string_view)>& number,
+                                          SourceFile* source) {
+  return BoundaryReader(tokens, number, source).read();
+}
+
+namespace {
 
 class Reader {
  public:
-  Reader(SourceFile& source, Progress& progress)
-      : source_(source), tokens_(source.bytes(), source.path().string(), kFort14Syntax, progress) {
+  Reader(SourceFile& source, const IoContext& context)
+      : source_(source), tokens_(source.bytes(), source.path().string(), kFort14Syntax, context.progress) {
     source.set_layout({.components = 2, .syntax = kFort14Syntax});
   }
 
@@ -66,7 +191,7 @@ class Reader {
     read_nodes(head.nodes);
     read_elements(head.elements);
     mesh_.groups = read_fort14_boundaries(
-        tokens_, [this](Tokenizer& tokens, std::string_view what) { return numbers_.read(tokens, what); }, &source_);
+        tokens_, [this](Tokenizer& tokens, std::string_view what) { return vertex(tokens, what); }, &source_);
     return std::move(mesh_);
   }
 
@@ -75,7 +200,6 @@ class Reader {
     Field depth{.name = "depth", .on = Field::On::Vertices, .type = "double", .role = "depth", .place = {.with_positions = true, .at = 2}};
     reserve_large(mesh_.positions, count);
     reserve_large(depth.values, count);
-    numbers_.reserve(count);
     source_.reserve_places(count);
     for (std::size_t v = 0; v < count; ++v) {
       const Fort14Node node = read_fort14_node(tokens_);
@@ -90,13 +214,22 @@ class Reader {
     mesh_.fields.push_back(std::move(depth));
   }
 
+  /// Reads a node's number. Throws InputError if no node has it.
+  [[nodiscard]] Index vertex(Tokenizer& tokens, std::string_view what) const {
+    if (numbers_.count_from_one()) return tokens.read_index(what, numbers_.size(), "vertices", 1);
+    const std::int64_t number = tokens.read_integer(what);
+    const Index found = numbers_.find(number);
+    if (found == kNoIndex) tokens.fail(fmt::format("{} {}: no vertex has this number", what, number));
+    return found;
+  }
+
   void read_elements(std::size_t count) {
     mesh_.elements.reserve(count, 3 * count);
     for (std::size_t e = 0; e < count; ++e) {
       const std::size_t corners = read_fort14_element(tokens_);
       std::array<Index, 4> corner{};
       const std::span<Index> used(corner.data(), corners);
-      for (Index& c : used) c = numbers_.read(tokens_, "vertex index");
+      for (Index& c : used) c = vertex(tokens_, "vertex index");
       add_element(mesh_, corners == 3 ? ElementKind::Triangle : ElementKind::Quadrilateral, used, source_);
       tokens_.end_numbers_of("an element");
     }
@@ -105,10 +238,8 @@ class Reader {
   SourceFile& source_;
   Tokenizer tokens_;
   Mesh mesh_;
-  NodeNumbers numbers_;
+  TagPlaces numbers_;  // numbers of the nodes, mostly 1, 2, ...
 };
-
-Mesh read_fort14(SourceFile& source, const IoContext& context) { return Reader(source, context.progress).read(); }
 
 // --- Writing new files ---
 
@@ -170,7 +301,7 @@ void write_boundaries(TextWriter& out, const Mesh& mesh, std::span<const std::si
 
 Notes write_fort14(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {
   Notes notes;
-  const std::string_view title = fort14_format().info.title;
+  const std::string_view title = kFort14Format.info.title;
   require_surface_elements(file, mesh, title);
   require_constant_z(file, positions, title, notes);
   const std::optional<std::size_t> depth = depth_field(file, mesh, notes);
@@ -203,13 +334,9 @@ Notes write_fort14(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> pos
 
 }  // namespace
 
-const FormatHandler& fort14_format() {
-  static const FormatHandler handler{
-      {"fort14", "ADCIRC fort.14", ".14 .grd .gr3 .ll", "x, y and depth, triangles and quadrilaterals, open and land boundaries"},
-      nullptr,
-      read_fort14,
-      write_fort14};
-  return handler;
-}
+constinit const FormatHandler kFort14Format{
+    .info = {"fort14", "ADCIRC fort.14", ".14 .grd .gr3 .ll", "x, y and depth, triangles and quadrilaterals, open and land boundaries"},
+    .read = read_with<Reader>,
+    .write = write_fort14};
 
 }  // namespace dmoscope

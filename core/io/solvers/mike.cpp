@@ -2,7 +2,6 @@
 // https://docs.mikepoweredbydhi.com/core_libraries/dfs/dfs-file-system/ (Mesh file format)
 
 #include <array>
-#include <charconv>
 #include <utility>
 #include <vector>
 
@@ -10,6 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/base/memory.h"
+#include "core/base/number_in.h"
 #include "core/io/format.h"
 #include "core/io/reading/tokenizer.h"
 
@@ -18,44 +18,24 @@ namespace {
 
 constexpr TextSyntax kMikeSyntax{};
 
-std::vector<std::string_view> words_of(std::string_view line) {
-  std::vector<std::string_view> found;
-  for (line = trimmed(line); !line.empty(); line = trimmed(line)) {
-    const std::size_t end = std::min(line.find_first_of(" \t"), line.size());
-    found.push_back(line.substr(0, end));
-    line.remove_prefix(end);
-  }
-  return found;
-}
-
-bool is_whole_word(std::string_view word) {
-  long value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  return error == std::errc() && end == word.data() + word.size();
-}
+bool is_whole_word(std::string_view word) { return number_in<long>(word).has_value(); }
 
 /// Whether the file begins with the kind and unit of the levels, which older files leave out, the number of nodes, and the projection; then
 /// "1 x y z code".
 bool recognises_mike(std::string_view bytes) {
-  const auto line = [&bytes] {
-    const std::size_t end = std::min(bytes.find('\n'), bytes.size());
-    const std::string_view one = bytes.substr(0, end);
-    bytes.remove_prefix(std::min(end + 1, bytes.size()));
-    return words_of(one.substr(0, 4096));
-  };
-  const auto head = line();
+  const auto head = words_of(take_line(bytes).substr(0, 4096));
   const std::size_t numbers = head.size() >= 4 && is_whole_word(head[1]) ? 3 : 1;
   if (head.size() <= numbers || is_whole_word(head[numbers])) return false;
   for (std::size_t i = 0; i < numbers; ++i)
     if (!is_whole_word(head[i]) || head[i].front() == '-') return false;
-  const auto node = line();
+  const auto node = words_of(take_line(bytes).substr(0, 4096));
   return node.size() == 5 && node[0] == "1" && is_whole_word(node[4]);
 }
 
 class MikeReader {
  public:
-  MikeReader(SourceFile& source, Progress& progress)
-      : source_(source), tokens_(source.bytes(), source.path().string(), kMikeSyntax, progress) {
+  MikeReader(SourceFile& source, const IoContext& context)
+      : source_(source), tokens_(source.bytes(), source.path().string(), kMikeSyntax, context.progress) {
     source.set_layout({.components = 2, .syntax = kMikeSyntax});
   }
 
@@ -141,18 +121,13 @@ class MikeReader {
   Mesh mesh_;
 };
 
-Mesh read_mike(SourceFile& source, const IoContext& context) { return MikeReader(source, context.progress).read(); }
-
 }  // namespace
 
-const FormatHandler& mike_format() {
-  static const FormatHandler handler{
-      .info = {"mike", "MIKE mesh", ".mesh",
-               "x, y and level, triangles and quadrilaterals, codes of the boundary; only written where it was read"},
-      .recognises = recognises_mike,
-      .read = read_mike,
-      .not_written = "a mesh of MIKE is written only where one was read: write it as .2dm"};
-  return handler;
-}
+constinit const FormatHandler kMikeFormat{
+    .info = {"mike", "MIKE mesh", ".mesh",
+             "x, y and level, triangles and quadrilaterals, codes of the boundary; only written where it was read"},
+    .recognises = recognises_mike,
+    .read = read_with<MikeReader>,
+    .not_written = "a mesh of MIKE is written only where one was read: write it as .2dm"};
 
 }  // namespace dmoscope

@@ -31,10 +31,10 @@ bool recognises_selafin(std::string_view bytes) { return begins_record_of_80(byt
 
 class SelafinReader {
  public:
-  SelafinReader(SourceFile& source, Progress& progress)
+  SelafinReader(SourceFile& source, const IoContext& context)
       : source_(source),
         big_endian_(!begins_record_of_80(source.bytes(), false)),
-        in_(source.bytes(), 0, big_endian_, source.path().string(), progress) {}
+        in_(source.bytes(), 0, big_endian_, source.path().string(), context.progress) {}
 
   Mesh read() {
     if (!recognises_selafin(source_.bytes())) in_.fail("a SELAFIN file begins with a title of 80 characters");
@@ -169,8 +169,6 @@ class SelafinReader {
   std::vector<std::string> names_;
 };
 
-Mesh read_selafin(SourceFile& source, const IoContext& context) { return SelafinReader(source, context.progress).read(); }
-
 /// Patches the coordinates: all x come before all y, not vertex by vertex.
 Notes patch_selafin(AtomicFile& file, const Mesh& mesh, const MovedMesh& moved, const IoContext&) {
   const std::span<const Vec3> positions = moved.positions;
@@ -212,14 +210,11 @@ Notes patch_selafin(AtomicFile& file, const Mesh& mesh, const MovedMesh& moved, 
 
 }  // namespace
 
-const FormatHandler& selafin_format() {
-  static const FormatHandler handler{.info = {"selafin", "TELEMAC SELAFIN", ".slf .sel .ser",
-                                              "triangles or quadrilaterals in a plane, variables; only written where it was read"},
-                                     .recognises = recognises_selafin,
-                                     .read = read_selafin,
-                                     .patch = patch_selafin,
-                                     .not_written = "SELAFIN files are written only where one was read: write it as .2dm"};
-  return handler;
-}
+constinit const FormatHandler kSelafinFormat{.info = {"selafin", "TELEMAC SELAFIN", ".slf .sel .ser",
+                                                      "triangles or quadrilaterals in a plane, variables; only written where it was read"},
+                                             .recognises = recognises_selafin,
+                                             .read = read_with<SelafinReader>,
+                                             .patch = patch_selafin,
+                                             .not_written = "SELAFIN files are written only where one was read: write it as .2dm"};
 
 }  // namespace dmoscope

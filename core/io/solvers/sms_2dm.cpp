@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -16,10 +15,11 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/number_in.h"
 #include "core/io/mesh_writer.h"
 #include "core/io/numbered_mesh.h"
 #include "core/io/reading/tokenizer.h"
-#include "core/io/writing/one_line.h"
+#include "core/io/writing/text_writer.h"
 
 namespace dmoscope {
 namespace {
@@ -38,23 +38,10 @@ constexpr std::array kElementCards{
     ElementCard{"E9Q", std::nullopt}};
 constexpr std::array<std::string_view, 4> kVolumeCards{"E4T", "E5P", "E6W", "E8H"};
 
-std::optional<int> whole_number(std::string_view token) {
-  int value = 0;
-  const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), value);
-  if (error != std::errc() || end != token.data() + token.size()) return std::nullopt;
-  return value;
-}
-
-std::string_view without_quotes(std::string_view text) {
-  text = trimmed(text);
-  if (text.size() >= 2 && text.front() == '"' && text.back() == '"') text = text.substr(1, text.size() - 2);
-  return text;
-}
-
 class Sms2dmReader {
  public:
-  Sms2dmReader(SourceFile& source, Progress& progress)
-      : source_(source), tokens_(source.bytes(), source.path().string(), k2dmSyntax, progress), numbered_(source) {
+  Sms2dmReader(SourceFile& source, const IoContext& context)
+      : source_(source), tokens_(source.bytes(), source.path().string(), k2dmSyntax, context.progress), numbered_(source) {
     source.set_layout({.components = 2, .syntax = {}});
   }
 
@@ -84,7 +71,7 @@ class Sms2dmReader {
     } else if (std::find(kVolumeCards.begin(), kVolumeCards.end(), card) != kVolumeCards.end()) {
       tokens_.fail(fmt::format("{} is a volume element: of these files only the planar ones are read", card));
     } else if (card == "MESHNAME") {
-      mesh_.title = without_quotes(tokens_.rest_of_line());
+      mesh_.title = unquoted(trimmed(tokens_.rest_of_line()));
     } else if (card == "NUM_MATERIALS_PER_ELEM") {
       materials_ = tokens_.read_count("the number of materials", 0);
       tokens_.end_line();
@@ -104,13 +91,11 @@ class Sms2dmReader {
 
   void node() {
     const std::int32_t number = label("the number of a node");
-    Vec3 p;
-    const std::string_view x = tokens_.read_token("x coordinate");
-    p.x = tokens_.parse_double(x, "x coordinate");
-    p.y = tokens_.read_double("y coordinate");
+    std::size_t place = 0;
+    const Vec3 p = tokens_.read_point(2, place);
     elevations_.push_back(tokens_.read_double("elevation of a node"));
     if (tokens_.more_on_line()) tokens_.fail("a node has a number, x, y and an elevation: there is more on this line");
-    numbered_.add_node(number, p, tokens_.offset_of(x));
+    numbered_.add_node(number, p, place);
     tokens_.end_line();
   }
 
@@ -130,7 +115,7 @@ class Sms2dmReader {
     for (std::size_t m = 0; tokens_.more_on_line(); ++m) {
       if (materials_ && m >= *materials_) tokens_.fail(fmt::format("an element has {} materials: there is more on this line", *materials_));
       const std::string_view token = tokens_.token_on_line();
-      const std::optional<int> value = whole_number(token);
+      const std::optional<int> value = number_in<int>(token);
       if (m == 0 && value) {
         material = *value;
       } else {
@@ -151,8 +136,8 @@ class Sms2dmReader {
   }
 
   void material_name() {
-    const std::optional<int> number = whole_number(tokens_.token_on_line());
-    const std::string_view name = without_quotes(tokens_.rest_of_line());
+    const std::optional<int> number = number_in<int>(tokens_.token_on_line());
+    const std::string_view name = unquoted(trimmed(tokens_.rest_of_line()));
     if (number && !name.empty()) names_[*number] = name;
   }
 
@@ -173,12 +158,12 @@ class Sms2dmReader {
     string_.clear();
     const std::size_t offset = tokens_.offset();
     const std::size_t line = tokens_.line();
-    if (const std::optional<int> number = whole_number(tokens_.token_on_line())) {
+    if (const std::optional<int> number = number_in<int>(tokens_.token_on_line())) {
       string.number = *number;
     } else {
       tokens_.seek(offset, line);
     }
-    string.name = without_quotes(tokens_.rest_of_line());
+    string.name = unquoted(trimmed(tokens_.rest_of_line()));
     strings_.push_back(std::move(string));
   }
 
@@ -246,8 +231,6 @@ class Sms2dmReader {
   std::size_t unnumbered_ = 0;
 };
 
-Mesh read_2dm(SourceFile& source, const IoContext& context) { return Sms2dmReader(source, context.progress).read(); }
-
 bool recognises_2dm(std::string_view bytes) {
   return bytes.starts_with(k2dmSignature) && bytes.size() > k2dmSignature.size() &&
          static_cast<unsigned char>(bytes[k2dmSignature.size()]) <= ' ';
@@ -258,7 +241,7 @@ bool recognises_2dm(std::string_view bytes) {
 class Writer : MeshWriter {
  public:
   Writer(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context)
-      : MeshWriter(file, mesh, positions, context, sms_2dm_format().info.title, kString) {
+      : MeshWriter(file, mesh, positions, context, kSms2dmFormat.info.title, kString) {
     require_surface_elements(file, mesh, title_);
     require_constant_z(file, positions, title_, notes_);
   }
@@ -360,18 +343,12 @@ class Writer : MeshWriter {
   }
 };
 
-Notes write_2dm(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {
-  return Writer(file, mesh, positions, context).write();
-}
-
 }  // namespace
 
-const FormatHandler& sms_2dm_format() {
-  static const FormatHandler handler{{"2dm", "SMS 2dm", ".2dm", "x, y and elevation, triangles and quadrilaterals, materials, nodestrings"},
-                                     recognises_2dm,
-                                     read_2dm,
-                                     write_2dm};
-  return handler;
-}
+constinit const FormatHandler kSms2dmFormat{
+    .info = {"2dm", "SMS 2dm", ".2dm", "x, y and elevation, triangles and quadrilaterals, materials, nodestrings"},
+    .recognises = recognises_2dm,
+    .read = read_with<Sms2dmReader>,
+    .write = write_with<Writer>};
 
 }  // namespace dmoscope

@@ -12,11 +12,10 @@
 
 #include "core/base/error.h"
 #include "core/base/memory.h"
-#include "core/io/boundary_strings.h"
 #include "core/io/format.h"
+#include "core/io/mesh_writer.h"
 #include "core/io/reading/tokenizer.h"
-#include "core/io/vtk/vtk_order.h"
-#include "core/io/writing/one_line.h"
+#include "core/io/vtk/vtk_cells.h"
 #include "core/io/writing/text_writer.h"
 
 namespace dmoscope {
@@ -78,8 +77,8 @@ bool recognises_su2(std::string_view bytes) {
 
 class Su2Reader {
  public:
-  Su2Reader(SourceFile& source, Progress& progress)
-      : source_(source), progress_(progress), tokens_(source.bytes(), source.path().string(), kSu2Syntax, progress) {}
+  Su2Reader(SourceFile& source, const IoContext& context)
+      : source_(source), progress_(context.progress), tokens_(source.bytes(), source.path().string(), kSu2Syntax, context.progress) {}
 
   Mesh read() {
     const std::int64_t dimension = value_of("NDIME");
@@ -201,12 +200,11 @@ class Su2Reader {
     bool flat_z = false;
     for (std::size_t v = 0; v < count; ++v) {
       begin_line("x coordinate");
-      source_.add_place(tokens_.offset());
-      Vec3 p;
-      p.x = tokens_.read_double("x coordinate");
-      p.y = tokens_.read_double("y coordinate");
+      std::size_t place = 0;
+      Vec3 p = tokens_.read_point(dimension_, place);
+      source_.add_place(place);
       if (v == 0 && dimension_ == 2) flat_z = has_flat_z();
-      if (dimension_ == 3 || flat_z) p.z = tokens_.read_double("z coordinate");
+      if (flat_z) p.z = tokens_.read_double("z coordinate");
       if (flat_z && p.z != 0.0) tokens_.fail(fmt::format("z coordinate {} where 0 or the number of a point is expected", p.z));
       mesh_.positions.push_back(p);
       end_numbered(numbered, "a point");
@@ -317,8 +315,6 @@ class Su2Reader {
   std::size_t markers_expected_ = 0;
 };
 
-Mesh read_su2(SourceFile& source, const IoContext& context) { return Su2Reader(source, context.progress).read(); }
-
 // --- Writing new files ---
 
 /// A marker to be written.
@@ -373,10 +369,10 @@ Notes write_su2(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positi
   Notes notes;
   const auto kinds = mesh.elements.kinds();
   const bool volume = std::any_of(kinds.begin(), kinds.end(), [](ElementKind kind) { return info(kind).dimension == 3; });
-  if (!volume) require_constant_z(file, positions, su2_format().info.title, notes);
+  if (!volume) require_constant_z(file, positions, kSu2Format.info.title, notes);
   std::vector<std::size_t> kept;
   const std::vector<Marker> markers = markers_of(mesh, kept, notes);
-  note_dropped(mesh, {}, kept, su2_format().info.title, notes);
+  note_dropped(mesh, {}, kept, kSu2Format.info.title, notes);
 
   TextWriter out(file, context);
   if (!mesh.title.empty()) out << "% " << one_line(mesh.title) << '\n';
@@ -395,10 +391,10 @@ Notes write_su2(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positi
 
 }  // namespace
 
-const FormatHandler& su2_format() {
-  static const FormatHandler handler{
-      {"su2", "SU2", ".su2", "positions, elements of all kinds, markers"}, recognises_su2, read_su2, write_su2};
-  return handler;
-}
+constinit const FormatHandler kSu2Format{.info = {"su2", "SU2", ".su2", "positions, elements of all kinds, markers"},
+                                         .recognises = recognises_su2,
+                                         .read = read_with<Su2Reader>,
+                                         .write = write_su2,
+                                         .comment = {"% ", "\n"}};
 
 }  // namespace dmoscope

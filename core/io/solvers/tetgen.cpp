@@ -12,7 +12,7 @@
 
 #include "core/base/error.h"
 #include "core/base/memory.h"
-#include "core/io/format.h"
+#include "core/io/mesh_writer.h"
 #include "core/io/reading/tokenizer.h"
 #include "core/io/writing/text_writer.h"
 
@@ -42,7 +42,7 @@ std::vector<Field> fields_of(Field::On on, std::size_t attributes, bool marker, 
 
 class TetgenReader {
  public:
-  TetgenReader(SourceFile& source, Progress& progress) : source_(source), progress_(progress) {}
+  TetgenReader(SourceFile& source, const IoContext& context) : source_(source), progress_(context.progress) {}
 
   Mesh read() {
     if (source_.companion() == nullptr) throw InputError(source_.path().string(), 0, "the file with the elements (.ele) is missing");
@@ -95,13 +95,9 @@ class TetgenReader {
     for (std::size_t v = 0; v < count; ++v) {
       if (tokens.at_end()) tokens.fail_at_end(fmt::format("vertex {} of {}", v + 1, count));
       number(tokens, v, first_, "vertex");
-      (void)tokens.more_on_line();
-      source_.add_place(tokens.offset());
-      Vec3 p;
-      p.x = tokens.read_double("x coordinate");
-      p.y = tokens.read_double("y coordinate");
-      if (dimension_ == 3) p.z = tokens.read_double("z coordinate");
-      mesh_.positions.push_back(p);
+      std::size_t place = 0;
+      mesh_.positions.push_back(tokens.read_point(dimension_, place));
+      source_.add_place(place);
       for (Field& field : fields) field.values.push_back(value(tokens, field));
       tokens.end_line_of("a vertex");
     }
@@ -160,8 +156,6 @@ class TetgenReader {
   std::int64_t first_ = 1;  // number of the first vertex
 };
 
-Mesh read_tetgen(SourceFile& source, const IoContext& context) { return TetgenReader(source, context.progress).read(); }
-
 // --- Writing new files: everything counts from 1 ---
 
 /// A column of an attribute: values[row * stride] from `first` on.
@@ -178,9 +172,7 @@ struct Columns {
 };
 
 bool is_marker(const Field& field) {
-  const auto whole = [](double v) { return v == std::nearbyint(v) && std::abs(v) <= 2147483647.0; };
-  return field.on == Field::On::Vertices && field.role == kMarker && field.components == 1 &&
-         std::all_of(field.values.begin(), field.values.end(), whole);
+  return field.on == Field::On::Vertices && field.role == kMarker && field.components == 1 && whole_values(field);
 }
 
 /// The fields of vertices or elements that the files can hold.
@@ -221,7 +213,7 @@ ElementKind only_kind(const AtomicFile& file, const Mesh& mesh) {
   for (const ElementKind kind : kinds) {
     if ((kind == ElementKind::Triangle || kind == ElementKind::Tetrahedron) && kind == kinds.front()) continue;
     throw OutputError(file.path().string(),
-                      fmt::format("{} holds only triangles or only tetrahedra, and the mesh has {}{}", tetgen_format().info.title,
+                      fmt::format("{} holds only triangles or only tetrahedra, and the mesh has {}{}", kTetgenFormat.info.title,
                                   info(kinds.front()).plural, kind == kinds.front() ? "" : fmt::format(" and {}", info(kind).plural)));
   }
   return kinds.empty() ? ElementKind::Triangle : kinds.front();
@@ -230,14 +222,14 @@ ElementKind only_kind(const AtomicFile& file, const Mesh& mesh) {
 Notes write_nodes(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {
   Notes notes;
   const bool volume = only_kind(file, mesh) == ElementKind::Tetrahedron;
-  if (!volume) require_constant_z(file, positions, tetgen_format().info.title, notes);
+  if (!volume) require_constant_z(file, positions, kTetgenFormat.info.title, notes);
   const Columns columns = columns_of(mesh, Field::On::Vertices);
   const Columns of_elements = columns_of(mesh, Field::On::Elements);
   note_names(columns, notes);
   note_names(of_elements, notes);
   std::vector<std::size_t> kept = columns.kept;
   kept.insert(kept.end(), of_elements.kept.begin(), of_elements.kept.end());
-  note_dropped(mesh, kept, {}, tetgen_format().info.title, notes);
+  note_dropped(mesh, kept, {}, kTetgenFormat.info.title, notes);
 
   TextWriter out(file, context);
   out << positions.size() << ' ' << (volume ? 3 : 2) << ' ' << columns.attributes.size() << ' ' << (columns.marker != nullptr ? 1 : 0)
@@ -266,18 +258,15 @@ void write_elements(AtomicFile& file, const Mesh& mesh, const IoContext& context
   out.finish();
 }
 
+constexpr CompanionFile kElementFile{".node", ".ele", write_elements};
+
 }  // namespace
 
-const FormatHandler& tetgen_format() {
-  static const CompanionFile elements{".node", ".ele", write_elements};
-  static const FormatHandler handler{.info = {"tetgen", "Triangle and TetGen", ".node .ele",
-                                              "triangles or tetrahedra, attributes, boundary markers; two files, either names both"},
-                                     .recognises = nullptr,
-                                     .read = read_tetgen,
-                                     .write = write_nodes,
-                                     .patch = nullptr,
-                                     .companion = &elements};
-  return handler;
-}
+constinit const FormatHandler kTetgenFormat{.info = {"tetgen", "Triangle and TetGen", ".node .ele",
+                                                     "triangles or tetrahedra, attributes, boundary markers; two files, either names both"},
+                                            .read = read_with<TetgenReader>,
+                                            .write = write_nodes,
+                                            .companion = &kElementFile,
+                                            .comment = {"# ", "\n"}};
 
 }  // namespace dmoscope

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <charconv>
 #include <map>
 #include <optional>
 #include <string>
@@ -14,28 +13,23 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/number_in.h"
 #include "core/base/same_bits.h"
 #include "core/io/format.h"
 #include "core/io/numbered_mesh.h"
 #include "core/io/reading/data_lines.h"
-#include "core/io/writing/field_number.h"
 #include "core/io/writing/text_writer.h"
 
 namespace dmoscope {
 namespace {
 
 constexpr std::size_t kWholeColumns = 10;
-constexpr std::string_view kMark = "-1";  // alone on a line, begins or ends a dataset
+constexpr std::string_view kDatasetMark = "-1";  // alone on a line, begins or ends a dataset
 constexpr std::string_view kBlanks = " \t";
 
-/// Words of a line, at most `most`; where they touch, by columns.
-std::vector<std::string_view> words_of(std::string_view line, std::size_t most, std::size_t columns) {
-  std::vector<std::string_view> words;
-  for (std::string_view left = trimmed(line); !left.empty() && words.size() < most; left = trimmed(left)) {
-    const std::size_t end = std::min(left.find_first_of(kBlanks), left.size());
-    words.push_back(left.substr(0, end));
-    left.remove_prefix(end);
-  }
+/// Entries of a line, at most `most`; where they touch, by columns.
+std::vector<std::string_view> entries_of(std::string_view line, std::size_t most, std::size_t columns) {
+  std::vector<std::string_view> words = words_of(line, most);
   if (std::ranges::all_of(words, [columns](std::string_view word) { return word.size() <= columns; })) return words;
   words.clear();
   for (std::size_t at = 0; at < line.size() && words.size() < most; at += columns) {
@@ -55,7 +49,7 @@ constexpr std::array kNodeSets{NodeSet{"2411", 25, false}, NodeSet{"781", 25, fa
 
 class UnvReader {
  public:
-  UnvReader(SourceFile& source, Progress& progress) : source_(source), lines_(source, progress), numbered_(source) {}
+  UnvReader(SourceFile& source, const IoContext& context) : source_(source), lines_(source, context.progress), numbered_(source) {}
 
   Mesh read() {
     while (lines_.next()) {
@@ -82,7 +76,7 @@ class UnvReader {
   };
 
   [[nodiscard]] bool is_blank() const { return trimmed(lines_.line()).empty(); }
-  [[nodiscard]] bool is_mark() const { return trimmed(lines_.line()) == kMark; }
+  [[nodiscard]] bool is_mark() const { return trimmed(lines_.line()) == kDatasetMark; }
   /// Goes to the next line of the dataset; false at its end.
   [[nodiscard]] bool next_record() {
     if (!lines_.next()) lines_.fail("the file ends within a dataset, which ends with -1");
@@ -91,7 +85,7 @@ class UnvReader {
   void need_record(std::string_view what) {
     if (!next_record()) lines_.fail(fmt::format("the dataset ends before {}", what));
   }
-  [[nodiscard]] std::vector<std::string_view> wholes(std::size_t most = 8) const { return words_of(lines_.line(), most, kWholeColumns); }
+  [[nodiscard]] std::vector<std::string_view> wholes(std::size_t most = 8) const { return entries_of(lines_.line(), most, kWholeColumns); }
   [[nodiscard]] std::string_view nth(const std::vector<std::string_view>& words, std::size_t n, std::string_view what) const {
     if (n >= words.size()) lines_.fail(fmt::format("expected {}", what));
     return words[n];
@@ -114,7 +108,7 @@ class UnvReader {
     columns_ = set.columns;
     constexpr std::size_t kHead = 4;  // words before the coordinates: the number, two systems, a colour
     while (next_record()) {
-      std::vector<std::string_view> words = words_of(lines_.line(), kHead, kWholeColumns);
+      std::vector<std::string_view> words = entries_of(lines_.line(), kHead, kWholeColumns);
       const std::int32_t number = label(words, 0, "the number of a node");
       std::string_view coordinates = lines_.line();
       if (set.on_one_line) {
@@ -124,7 +118,7 @@ class UnvReader {
         need_record("the coordinates of a node");
         coordinates = lines_.line();
       }
-      words = words_of(coordinates, 4, columns_);
+      words = entries_of(coordinates, 4, columns_);
       if (words.size() != 3) lines_.fail(fmt::format("a node has 3 coordinates, not {}", words.size()));
       if (static_cast<std::size_t>(words[1].data() - words[0].data()) == words[0].size())
         source_.set_not_patchable("coordinates touch each other");
@@ -310,31 +304,16 @@ Notes patch_unv(AtomicFile& file, const Mesh& mesh, const MovedMesh& moved, cons
 }
 
 bool recognises_unv(std::string_view bytes) {
-  const auto line = [&bytes] {
-    const std::size_t end = std::min(bytes.find_first_of("\r\n"), bytes.size());
-    const std::string_view one = trimmed(bytes.substr(0, std::min<std::size_t>(end, 256)));
-    bytes.remove_prefix(std::min(bytes.find('\n', end), bytes.size() - 1) + 1);
-    return one;
-  };
-  if (bytes.empty() || line() != kMark || bytes.empty()) return false;
-  const std::string_view number = line();
-  int value = 0;
-  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
-  return error == std::errc() && end == number.data() + number.size() && value > 0;
+  return trimmed(take_line(bytes)) == kDatasetMark && number_in<int>(trimmed(take_line(bytes))).value_or(0) > 0;
 }
-
-Mesh read_unv(SourceFile& source, const IoContext& context) { return UnvReader(source, context.progress).read(); }
 
 }  // namespace
 
-const FormatHandler& unv_format() {
-  static const FormatHandler handler{
-      .info = {"unv", "Universal file (I-deas)", ".unv", "2D and 3D elements, properties and groups; only written where it was read"},
-      .recognises = recognises_unv,
-      .read = read_unv,
-      .patch = patch_unv,
-      .not_written = "a universal file is written only where one was read: write it as .msh or .bdf"};
-  return handler;
-}
+constinit const FormatHandler kUnvFormat{
+    .info = {"unv", "Universal file (I-deas)", ".unv", "2D and 3D elements, properties and groups; only written where it was read"},
+    .recognises = recognises_unv,
+    .read = read_with<UnvReader>,
+    .patch = patch_unv,
+    .not_written = "a universal file is written only where one was read: write it as .msh or .bdf"};
 
 }  // namespace dmoscope

@@ -1,5 +1,3 @@
-#include "core/io/vtk/vtk_reader.h"
-
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -12,19 +10,20 @@
 
 #include "core/base/memory.h"
 #include "core/io/format.h"
-#include "core/io/vtk/vtk_attributes.h"
+#include "core/io/vtk/vtk.h"
 #include "core/io/vtk/vtk_cells.h"
-#include "core/io/vtk/vtk_structured.h"
-#include "core/io/vtk/vtk_values.h"
 
 namespace dmoscope {
 namespace {
 
 constexpr std::string_view kSignature = "# vtk DataFile Version";
 
+/// Reader, see FormatHandler::read. Cells of fewer dimensions than the elements (vertices, lines, the faces of a volume mesh) are skipped
+/// with a note, and their rows of cell data with them; writing the same file again keeps both.
 class VtkReader {
  public:
-  VtkReader(SourceFile& source, Progress& progress) : source_(source), values_(source, progress), attributes_(values_, source) {}
+  VtkReader(SourceFile& source, const IoContext& context)
+      : source_(source), values_(source, context.progress), attributes_(values_, source) {}
 
   Mesh read() {
     header();
@@ -231,17 +230,10 @@ class VtkReader {
   }
 
   void set_layout(ScalarType type, std::size_t first, std::size_t n) {
-    CoordinateLayout layout;
-    layout.syntax.free_form = true;
-    layout.scalar.fill(type == ScalarType::Float32 ? CoordinateScalar::Float32 : CoordinateScalar::Float64);
-    if (values_.binary) {
-      const auto size = static_cast<std::uint32_t>(size_of(type));
-      layout.binary = true;
-      layout.big_endian = true;
-      layout.at = {0, size, 2 * size};
-      source_.set_uniform_places(first, std::size_t{3} * size, n);
-    }
-    source_.set_layout(layout);
+    const auto scalar = type == ScalarType::Float32 ? CoordinateScalar::Float32 : CoordinateScalar::Float64;
+    source_.set_layout(values_.binary ? CoordinateLayout::packed(scalar, true)
+                                      : CoordinateLayout{.syntax = {.free_form = true}, .scalar = {scalar, scalar, scalar}});
+    if (values_.binary) source_.set_uniform_places(first, 3 * size_of(type), n);
     if (is_whole(type)) source_.set_not_patchable("its points are whole numbers");
   }
 
@@ -328,16 +320,11 @@ bool recognises_vtk(std::string_view bytes) { return equal_ignoring_case(bytes.s
 
 }  // namespace
 
-Mesh read_vtk(SourceFile& source, const IoContext& context) { return VtkReader(source, context.progress).read(); }
-
-const FormatHandler& vtk_format() {
-  static const FormatHandler handler{
-      .info = {"vtk", "VTK legacy", ".vtk",
-               "2D and 3D elements, point and cell data; ASCII and binary; POLYDATA, UNSTRUCTURED_GRID, and structured grids"},
-      .recognises = recognises_vtk,
-      .read = read_vtk,
-      .write = write_vtk};
-  return handler;
-}
+constinit const FormatHandler kVtkFormat{
+    .info = {"vtk", "VTK legacy", ".vtk",
+             "2D and 3D elements, point and cell data; ASCII and binary; POLYDATA, UNSTRUCTURED_GRID, and structured grids"},
+    .recognises = recognises_vtk,
+    .read = read_with<VtkReader>,
+    .write = write_vtk};
 
 }  // namespace dmoscope

@@ -5,12 +5,10 @@
 #include <vector>
 
 #include "core/io/mesh_writer.h"
-#include "core/io/reading/binary_scalar.h"
-#include "core/io/vtk/vtk_attributes.h"
+#include "core/io/reading/binary.h"
+#include "core/io/vtk/vtk.h"
 #include "core/io/vtk/vtk_cells.h"
-#include "core/io/vtk/vtk_order.h"
-#include "core/io/vtk/vtk_reader.h"
-#include "core/io/writing/one_line.h"
+#include "core/io/writing/text_writer.h"
 
 namespace dmoscope {
 namespace {
@@ -66,7 +64,7 @@ class VtkWriter : MeshWriter {
     bool begun = false;
     for (std::size_t i = 0; i < mesh_.fields.size(); ++i) {
       const Field& field = mesh_.fields[i];
-      if (field.on != on || field.components < 1 || field.values.size() != count * static_cast<std::size_t>(field.components)) continue;
+      if (!is_of(field, on)) continue;
       kept_fields_.push_back(i);
       if (!begun) out_ << header << count << '\n';
       begun = true;

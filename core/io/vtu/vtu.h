@@ -28,10 +28,6 @@ inline constexpr std::array kVtuRoles{VtuRole{"Scalars", "SCALARS"},
                                       VtuRole{"GlobalIds", "GLOBAL_IDS"},
                                       VtuRole{"PedigreeIds", "PEDIGREE_IDS"}};
 
-/// Reader, see FormatHandler::read. Several pieces become one mesh, without joining points on their seams. Cells of fewer dimensions than
-/// the elements are skipped as in VTK legacy files.
-[[nodiscard]] Mesh read_vtu(SourceFile& source, const IoContext& context);
-
 /// Writer of new VTU files: appended raw data of double precision, zlib, 64-bit sizes; see FormatHandler::write.
 std::vector<std::string> write_vtu(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context);
 

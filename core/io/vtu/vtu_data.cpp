@@ -1,5 +1,3 @@
-#include "core/io/vtu/vtu_data.h"
-
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -11,8 +9,9 @@
 #include "core/base/base64.h"
 #include "core/base/error.h"
 #include "core/io/reading/binary.h"
+#include "core/io/reading/gzip.h"
 #include "core/io/reading/tokenizer.h"
-#include "core/io/reading/zlib_blocks.h"
+#include "core/io/vtu/vtu_document.h"
 
 namespace dmoscope {
 namespace {

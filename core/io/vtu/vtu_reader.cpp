@@ -14,17 +14,17 @@
 #include "core/base/memory.h"
 #include "core/io/format.h"
 #include "core/io/reading/binary.h"
+#include "core/io/reading/io_context.h"
 #include "core/io/reading/tokenizer.h"
-#include "core/io/reading/unpack_budget.h"
 #include "core/io/vtk/vtk_cells.h"
-#include "core/io/vtk/vtk_structured.h"
 #include "core/io/vtu/vtu.h"
-#include "core/io/vtu/vtu_data.h"
 #include "core/io/vtu/vtu_document.h"
 
 namespace dmoscope {
 namespace {
 
+/// Reader, see FormatHandler::read. Several pieces become one mesh, without joining points on their seams. Cells of fewer dimensions than
+/// the elements are skipped as in VTK legacy files.
 class VtuReader {
  public:
   VtuReader(SourceFile& source, const IoContext& context)
@@ -461,26 +461,20 @@ bool recognises_vtp(std::string_view bytes) { return is_of_poly_data(vtk_file_ta
 
 }  // namespace
 
-Mesh read_vtu(SourceFile& source, const IoContext& context) { return VtuReader(source, context).read(); }
+constinit const FormatHandler kVtuFormat{
+    .info = {"vtu", "VTU", ".vtu", "2D and 3D elements, point and cell data; VTK's XML, ASCII, base64 and raw, uncompressed and zlib"},
+    .recognises = recognises_vtu,
+    .read = read_with<VtuReader>,
+    .write = write_vtu,
+    .patch = patch_vtu,
+    .comment = {"<!-- ", " -->\n", "--"}};
 
-const FormatHandler& vtu_format() {
-  static const FormatHandler handler{
-      .info = {"vtu", "VTU", ".vtu", "2D and 3D elements, point and cell data; VTK's XML, ASCII, base64 and raw, uncompressed and zlib"},
-      .recognises = recognises_vtu,
-      .read = read_vtu,
-      .write = write_vtu,
-      .patch = patch_vtu};
-  return handler;
-}
-
-const FormatHandler& vtp_format() {
-  static const FormatHandler handler{
-      .info = {"vtp", "VTP", ".vtp", "triangles and quadrilaterals, point and cell data; VTK's XML PolyData, encoded as VTU is"},
-      .recognises = recognises_vtp,
-      .read = read_vtu,
-      .write = write_vtp,
-      .patch = patch_vtu};
-  return handler;
-}
+constinit const FormatHandler kVtpFormat{
+    .info = {"vtp", "VTP", ".vtp", "triangles and quadrilaterals, point and cell data; VTK's XML PolyData, encoded as VTU is"},
+    .recognises = recognises_vtp,
+    .read = read_with<VtuReader>,
+    .write = write_vtp,
+    .patch = patch_vtu,
+    .comment = {"<!-- ", " -->\n", "--"}};
 
 }  // namespace dmoscope

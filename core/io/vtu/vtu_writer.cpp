@@ -1,22 +1,28 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "core/base/error.h"
+#include "core/base/same_bits.h"
 #include "core/base/xml_text.h"
-#include "core/io/format.h"
-#include "core/io/reading/binary_scalar.h"
+#include "core/io/mesh_writer.h"
+#include "core/io/reading/binary.h"
+#include "core/io/reading/io_context.h"
 #include "core/io/reading/tokenizer.h"
 #include "core/io/vtk/vtk_cells.h"
-#include "core/io/vtk/vtk_order.h"
 #include "core/io/vtu/vtu.h"
-#include "core/io/vtu/vtu_data.h"
+#include "core/io/vtu/vtu_document.h"
+#include "core/io/writing/patch_writer.h"
 #include "core/io/writing/text_writer.h"
 
 namespace dmoscope {
+
 namespace {
 
 constexpr bool kBigEndian = std::endian::native == std::endian::big;
@@ -38,16 +44,13 @@ ScalarType type_of(const Field& field) {
   return fits ? type : ScalarType::Float64;
 }
 
-class VtuWriter {
+class VtuWriter : MeshWriter {
  public:
   /// Begins a file. `poly`: as PolyData.
   VtuWriter(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context, bool poly)
-      : poly_(poly),
-        file_(file),
-        mesh_(mesh),
-        positions_(positions),
-        context_(context),
-        encoding_{kBigEndian, ScalarType::UInt64, true, false, kBlockBytes} {}
+      : MeshWriter(file, mesh, positions, context, poly ? "VTP" : "VTU"), poly_(poly), file_(file), context_(context) {
+    if (poly) require_surface_elements(file, mesh, title_);
+  }
 
   Notes write() {
     const std::string_view dataset = poly_ ? "PolyData" : "UnstructuredGrid";
@@ -56,19 +59,15 @@ class VtuWriter {
         "compressor=\"vtkZLibDataCompressor\">\n  <{0}>\n    <Piece NumberOfPoints=\"{2}\" {3}=\"{4}\">\n",
         dataset, kBigEndian ? "BigEndian" : "LittleEndian", positions_.size(),
         poly_ ? "NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys" : "NumberOfCells", mesh_.elements.size());
-    data(Field::On::Vertices, "PointData", positions_.size());
-    data(Field::On::Elements, "CellData", mesh_.elements.size());
+    data(Field::On::Vertices, "PointData");
+    data(Field::On::Elements, "CellData");
     points();
     cells();
     xml_ += fmt::format("    </Piece>\n  </{}>\n  <AppendedData encoding=\"raw\">\n   _", dataset);
-    TextWriter out(file_, context_);
-    out << xml_;
-    for (const std::string& one : appended_) out.bytes(one);
-    out << "\n  </AppendedData>\n</VTKFile>\n";
-    out.finish();
-    Notes notes;
-    note_dropped(mesh_, kept_, {}, poly_ ? "VTP" : "VTU", notes);
-    return notes;
+    out_ << xml_;
+    for (const std::string& one : appended_) out_.bytes(one);
+    out_ << "\n  </AppendedData>\n</VTKFile>\n";
+    return finish();
   }
 
  private:
@@ -121,21 +120,18 @@ class VtuWriter {
     xml_ += fmt::format("      </{}>\n", list);
   }
 
-  void data(Field::On on, std::string_view element, std::size_t count) {
-    const auto is_of = [&](const Field& field) {
-      return field.on == on && field.components >= 1 && field.values.size() == count * static_cast<std::size_t>(field.components);
-    };
+  void data(Field::On on, std::string_view element) {
     xml_ += fmt::format("      <{}", element);
     for (const VtuRole& role : kVtuRoles) {
       const auto active = std::find_if(mesh_.fields.begin(), mesh_.fields.end(),
-                                       [&](const Field& field) { return is_of(field) && equal_ignoring_case(field.role, role.role); });
+                                       [&](const Field& field) { return is_of(field, on) && equal_ignoring_case(field.role, role.role); });
       if (active != mesh_.fields.end()) xml_ += fmt::format(" {}=\"{}\"", role.attribute, xml_escaped(active->name));
     }
     xml_ += ">\n";
     for (std::size_t i = 0; i < mesh_.fields.size(); ++i) {
       const Field& field = mesh_.fields[i];
-      if (!is_of(field)) continue;
-      kept_.push_back(i);
+      if (!is_of(field, on)) continue;
+      kept_fields_.push_back(i);
       const ScalarType type = type_of(field);
       array(field.name, type, static_cast<std::size_t>(field.components),
             bytes_of(type, field.values.size(), [&](std::size_t k) { return field.values[k]; }));
@@ -145,14 +141,11 @@ class VtuWriter {
 
   bool poly_;
   AtomicFile& file_;
-  const Mesh& mesh_;
-  std::span<const Vec3> positions_;
   const IoContext& context_;
-  VtuEncoding encoding_;
+  const VtuEncoding encoding_{kBigEndian, ScalarType::UInt64, true, false, kBlockBytes};
   std::string xml_;
   std::vector<std::string> appended_;  // arrays as they will be behind the underscore
   std::size_t offset_ = 0;
-  std::vector<std::size_t> kept_;
 };
 
 }  // namespace
@@ -164,8 +157,177 @@ Notes write_vtu(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positi
 }
 
 Notes write_vtp(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {
-  require_surface_elements(file, mesh, "VTP");
   return VtuWriter(file, mesh, positions, context, true).write();
+}
+
+namespace {
+
+/// The numbers of an array before and after, row by row.
+struct ArrayChange {
+  std::span<const double> before, after;
+  bool of_points = false;
+};
+
+/// Writes arrays again whose numbers changed: points, and fields of points. Moves the offsets of arrays behind them in appended data.
+class VtuPatcher {
+ public:
+  VtuPatcher(AtomicFile& file, const Mesh& mesh, const MovedMesh& moved, const IoContext& context)
+      : file_(file),
+        mesh_(mesh),
+        moved_(moved),
+        context_(context),
+        document_(*mesh.source, context.progress),
+        appended_(document_.appended()),
+        budget_(mesh.source->size_on_disk(), context.most_memory) {}
+
+  Notes write() {
+    std::size_t first = 0;
+    for (const pugi::xml_node piece : document_.grid().children("Piece")) {
+      const std::size_t count = document_.count(piece, "NumberOfPoints", mesh_.positions.size() - first);
+      if (count > 0) {
+        points(piece.child("Points").child("DataArray"), first, count);
+        fields(piece.child("PointData"), first, count);
+      }
+      first += count;
+    }
+    move_offsets();
+    apply();
+    if (rounded_ > 0)
+      notes_.push_back(fmt::format("{} moved coordinates were rounded to 32-bit floats, which is what the file holds.", rounded_));
+    return std::move(notes_);
+  }
+
+ private:
+  /// A range of the source, and the bytes that replace it.
+  struct Replacement {
+    std::size_t begin, end;
+    std::string bytes;
+    bool appended;
+  };
+
+  void points(pugi::xml_node node, std::size_t first, std::size_t count) {
+    static_assert(sizeof(Vec3) == 3 * sizeof(double));
+    const auto numbers = [&](std::span<const Vec3> all) { return std::span<const double>(&all[first].x, 3 * count); };
+    replace(*document_.array(node), {numbers(mesh_.positions), numbers(moved_.positions), true});
+  }
+
+  /// Replaces the fields of points. As in the reader, an array belongs to the first field of its name that was not met in this piece.
+  void fields(pugi::xml_node data, std::size_t first, std::size_t count) {
+    std::vector<std::uint8_t> met(mesh_.fields.size(), 0);
+    for (const pugi::xml_node node : data.children("DataArray")) {
+      const auto array = document_.array(node);
+      if (!array) continue;
+      std::size_t f = 0;
+      const auto is_its = [&](const Field& field) { return field.on == Field::On::Vertices && field.name == array->name; };
+      while (f < met.size() && (met[f] != 0 || !is_its(mesh_.fields[f]))) ++f;
+      if (f == met.size()) continue;
+      met[f] = 1;
+      const auto changed = std::ranges::find(moved_.fields, f, &FieldValues::field);
+      if (changed == moved_.fields.end()) continue;
+      const std::size_t n = array->components;
+      const auto numbers = [&](const std::vector<double>& all) { return std::span<const double>(all).subspan(first * n, count * n); };
+      replace(*array, {numbers(mesh_.fields[f].values), numbers(changed->values), false});
+    }
+  }
+
+  void replace(const VtuArray& array, const ArrayChange& change) {
+    if (same_numbers(change.before, change.after)) return;
+    const bool shared =
+        array.appended && std::ranges::count(appended_, array.begin, &VtuDocument::Appended::begin) > 1;  // set by find_shared_data()
+    if (shared && !change.of_points)
+      return notes_.push_back(fmt::format("Field \"{}\" was carried: other data share its bytes.", array.name));
+    if (array.ascii) return replace_text(array, change);
+    const std::size_t size = size_of(array.type);
+    const VtuData before = vtu_data(document_, array, change.after.size() * size);
+    std::string bytes(before.bytes);
+    for (std::size_t i = 0; i < change.after.size(); ++i) {
+      if (same_bits(change.before[i], change.after[i])) continue;
+      if (change.of_points) require_float(array.type, change.after[i], i / 3);
+      store_scalar(bytes.data() + i * size, array.type, document_.big_endian(), change.after[i]);
+    }
+    const VtuEncoding encoding{document_.big_endian(), document_.header(), document_.compressed(), array.base64, before.block};
+    const std::size_t blanks = array.appended ? 0 : document_.bytes().find_first_not_of(" \t\r\n", array.begin) - array.begin;
+    replacements_.push_back(
+        {array.begin + blanks, before.end, vtu_encoded(file_.path().string(), bytes, encoding, context_.pool), array.appended});
+  }
+
+  void replace_text(const VtuArray& array, const ArrayChange& change) {
+    std::size_t end = array.begin;
+    std::vector<std::uint64_t> places;
+    (void)vtu_numbers(document_, array, change.after.size(), end, budget_, &places);
+    Progress unwatched;
+    Tokenizer words(document_.bytes().substr(0, array.limit), document_.file(), vtu_text_syntax(), unwatched);
+    TextBuffer text;
+    std::size_t copied = array.begin;
+    for (std::size_t i = 0; i < change.after.size(); ++i) {
+      if (same_bits(change.before[i], change.after[i])) continue;
+      text << document_.bytes().substr(copied, places[i] - copied);
+      put_number(text, change.after[i], change.of_points ? ScalarType::Float64 : array.type);
+      words.seek(places[i]);
+      copied = places[i] + words.token().size();
+    }
+    replacements_.push_back({array.begin, copied, std::string(text.text()), false});
+  }
+
+  [[nodiscard]] static bool same_numbers(std::span<const double> a, std::span<const double> b) {
+    return std::ranges::equal(a, b, [](double x, double y) { return same_bits(x, y); });
+  }
+
+  void require_float(ScalarType type, double value, std::size_t vertex) {
+    if (type != ScalarType::Float32) return;
+    if (!std::isfinite(static_cast<float>(value)))
+      throw OutputError(file_.path().string(), fmt::format("coordinate {} of vertex {} is too large for a 32-bit float", value, vertex));
+    if (static_cast<double>(static_cast<float>(value)) != value) ++rounded_;
+  }
+
+  /// Moves the offsets of appended arrays by the changes in size of those before them.
+  void move_offsets() {
+    const auto by_begin = [](const Replacement& a, const Replacement& b) { return a.begin < b.begin; };
+    std::sort(replacements_.begin(), replacements_.end(), by_begin);
+    std::vector<std::size_t> ends;    // ends of replaced appended data, ascending
+    std::vector<std::size_t> growth;  // growth up to each end; below zero it wraps around, and back when it is added
+    for (const Replacement& one : replacements_) {
+      if (!one.appended) continue;
+      ends.push_back(one.end);
+      growth.push_back((growth.empty() ? 0 : growth.back()) + one.bytes.size() - (one.end - one.begin));
+    }
+    for (const auto& array : appended_) {
+      const auto before = static_cast<std::size_t>(std::upper_bound(ends.begin(), ends.end(), array.begin) - ends.begin());
+      if (before == 0 || growth[before - 1] == 0) continue;
+      const auto [begin, size] = document_.attribute_place(array.node, "offset");
+      replacements_.push_back({begin, begin + size, std::to_string(array.offset + growth[before - 1]), false});
+    }
+    std::sort(replacements_.begin(), replacements_.end(), by_begin);
+  }
+
+  void apply() {
+    TextWriter out(file_, context_);
+    std::size_t copied = 0;
+    for (const Replacement& one : replacements_) {
+      out.bytes(document_.bytes().substr(copied, one.begin - copied));
+      out.bytes(one.bytes);
+      copied = one.end;
+    }
+    out.bytes(document_.bytes().substr(copied));
+  }
+
+  AtomicFile& file_;
+  const Mesh& mesh_;
+  const MovedMesh& moved_;
+  const IoContext& context_;
+  VtuDocument document_;
+  std::vector<VtuDocument::Appended> appended_;
+  UnpackBudget budget_;
+  Notes notes_;
+  std::vector<Replacement> replacements_;
+  std::size_t rounded_ = 0;
+};
+
+}  // namespace
+
+Notes patch_vtu(AtomicFile& file, const Mesh& mesh, const MovedMesh& moved, const IoContext& context) {
+  if (mesh.source->place_count() == moved.positions.size() && moved.fields.empty()) return write_patched(file, mesh, moved, context);
+  return VtuPatcher(file, mesh, moved, context).write();
 }
 
 }  // namespace dmoscope

@@ -1,21 +1,100 @@
 #include "core/io/writing/atomic_file.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <cstring>
+#include <filesystem>
 #include <system_error>
+#include <vector>
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/xattr.h>
 #include <unistd.h>
 
 #include "core/base/error.h"
 #include "core/io/reading/gzip.h"
-#include "core/io/writing/kept_attributes.h"
-#include "core/io/writing/litter.h"
 
 namespace dmoscope {
+
+namespace {
+
+/// Gives a file its former owner and group, or else the group alone: most users may not give a file away, but may choose one of their
+/// groups.
+void keep_owner(const struct stat& status, int descriptor) {
+  struct stat now {};
+  if (::fstat(descriptor, &now) != 0) return;
+  if (now.st_uid == status.st_uid && now.st_gid == status.st_gid) return;
+  if (::fchown(descriptor, status.st_uid, status.st_gid) == 0) return;
+  if (::fchown(descriptor, static_cast<uid_t>(-1), status.st_gid) != 0) return;  // then the group stays that of the process, too
+}
+
+void keep_extended(const std::filesystem::path& from, int descriptor) {
+  const ssize_t size = ::listxattr(from.c_str(), nullptr, 0);
+  if (size <= 0) return;
+  std::vector<char> names(static_cast<std::size_t>(size));
+  const ssize_t listed = ::listxattr(from.c_str(), names.data(), names.size());
+  for (ssize_t at = 0; at < listed; at += static_cast<ssize_t>(std::strlen(&names[static_cast<std::size_t>(at)])) + 1) {
+    const char* const name = &names[static_cast<std::size_t>(at)];
+    const ssize_t length = ::getxattr(from.c_str(), name, nullptr, 0);
+    if (length < 0) continue;
+    std::vector<char> value(static_cast<std::size_t>(length));
+    const ssize_t got = ::getxattr(from.c_str(), name, value.data(), value.size());
+    if (got >= 0) (void)::fsetxattr(descriptor, name, value.data(), static_cast<std::size_t>(got), 0);
+  }
+}
+
+/// Gives an open file the permissions of another and, if the system allows it, its owner, its group and its extended attributes (with
+/// access lists). Returns 0, or the system's error if the permissions cannot be given.
+int keep_attributes(const std::filesystem::path& from, const struct stat& status, int descriptor) {
+  keep_owner(status, descriptor);
+  keep_extended(from, descriptor);
+  return ::fchmod(descriptor, status.st_mode & 07777U) == 0 ? 0 : errno;
+}
+
+constexpr std::string_view kBegin = ".dmoscope-";
+constexpr std::string_view kLitterEnd = ".tmp";
+
+bool all_digits(std::string_view text) noexcept {
+  return !text.empty() && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
+}
+
+/// Removes a file whose process is dead, which released its lock. It is locked here meanwhile: a process that has just created it, and has
+/// not locked it yet, waits and sees that it is gone. A name that by now is another file's is left alone.
+void remove_if_dead(int folder, const char* name) noexcept {
+  const int descriptor = ::openat(folder, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (descriptor < 0) return;
+  struct stat opened {
+  }, named{};
+  if (::fstat(descriptor, &opened) == 0 && S_ISREG(opened.st_mode) && ::flock(descriptor, LOCK_EX | LOCK_NB) == 0 &&
+      ::fstatat(folder, name, &named, AT_SYMLINK_NOFOLLOW) == 0 && named.st_ino == opened.st_ino && named.st_dev == opened.st_dev)
+    (void)::unlinkat(folder, name, 0);
+  ::close(descriptor);
+}
+
+}  // namespace
+
+std::string litter_name(pid_t process, unsigned number) { return fmt::format("{}{}-{}{}", kBegin, process, number, kLitterEnd); }
+
+bool is_litter_name(std::string_view name) noexcept {
+  if (!name.starts_with(kBegin) || !name.ends_with(kLitterEnd) || name.size() < kBegin.size() + kLitterEnd.size()) return false;
+  const std::string_view numbers = name.substr(kBegin.size(), name.size() - kBegin.size() - kLitterEnd.size());
+  const std::size_t dash = numbers.find('-');
+  return dash != std::string_view::npos && all_digits(numbers.substr(0, dash)) && all_digits(numbers.substr(dash + 1));
+}
+
+void remove_litter(const std::filesystem::path& folder) noexcept {
+  DIR* const entries = ::opendir(folder.empty() ? "." : folder.c_str());
+  if (entries == nullptr) return;
+  while (const dirent* entry = ::readdir(entries))
+    if (is_litter_name(entry->d_name)) remove_if_dead(::dirfd(entries), entry->d_name);
+  ::closedir(entries);
+}
+
 namespace {
 
 /// Whether an error means that the file system cannot tell when data are on disk; then there is nothing to wait for.

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include <sys/types.h>
+
 namespace dmoscope {
 
 class GzipPacker;
@@ -76,5 +78,16 @@ class AtomicFiles {
 
 /// Writes bytes to a file, all or nothing. Throws OutputError.
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
+
+// Names of this program's temporary files, and removal of those that a killed process left.
+
+/// Name of a temporary file: ".dmoscope-PID-N.tmp".
+[[nodiscard]] std::string litter_name(pid_t process, unsigned number);
+/// Whether a file's name is one of these.
+[[nodiscard]] bool is_litter_name(std::string_view name) noexcept;
+
+/// Removes the temporary files in a folder (empty: the current one) that no process has locked. Never fails: files that cannot be removed
+/// stay.
+void remove_litter(const std::filesystem::path& folder) noexcept;
 
 }  // namespace dmoscope

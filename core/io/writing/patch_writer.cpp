@@ -14,10 +14,9 @@
 #include "core/base/error.h"
 #include "core/base/same_bits.h"
 #include "core/io/reading/binary.h"
-#include "core/io/reading/binary_scalar.h"
 #include "core/io/reading/source_file.h"
 #include "core/io/reading/tokenizer.h"
-#include "core/io/writing/field_number.h"
+#include "core/io/writing/text_writer.h"
 
 namespace dmoscope {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/reading/binary_scalar.h"
+#include "core/io/reading/binary.h"
 #include "core/io/reading/io_context.h"
 #include "core/io/writing/atomic_file.h"
 #include "core/io/writing/text_writer.h"

@@ -1,6 +1,7 @@
 #pragma once
 // Fast output of text and bytes into memory, and into a file with several threads.
 
+#include <algorithm>
 #include <charconv>
 #include <concepts>
 #include <cstddef>
@@ -95,5 +96,43 @@ class TextWriter {
   IoContext context_;
   TextBuffer buffer_;
 };
+
+// Foreign text within one line of a file.
+
+/// The text with blanks for control characters, line ends among them, so that a title ends with its line.
+[[nodiscard]] inline std::string one_line(std::string text) {
+  std::ranges::replace_if(
+      text, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }, ' ');
+  return text;
+}
+
+/// The text with blanks for line ends only.
+[[nodiscard]] inline std::string without_line_ends(std::string text) {
+  std::ranges::replace_if(
+      text, [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  return text;
+}
+
+/// The text for use between double quotes: a blank for each control character, single quotes for double ones.
+[[nodiscard]] inline std::string in_quotes(std::string text) {
+  std::ranges::replace_if(
+      text, [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
+  std::ranges::replace(text, '"', '\'');
+  return text;
+}
+
+// Numbers for formats whose fields have a fixed width.
+
+/// Notation of a power of ten: 1.5e-7, or in Nastran's, which saves a character: 1.5-7.
+enum class ExponentStyle { Letter, Sign };
+
+struct FieldNumber {
+  std::string text;
+  double value = 0.0;  // value that the text reads back as
+};
+
+/// A finite double in `width` characters at most (16 or more): exact if that fits, else rounded to as many digits as possible. Always with
+/// a point, by which some formats recognise a real number.
+[[nodiscard]] FieldNumber number_in_field(double value, std::size_t width, ExponentStyle style);
 
 }  // namespace dmoscope

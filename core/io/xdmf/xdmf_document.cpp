@@ -1,5 +1,3 @@
-#include "core/io/xdmf/xdmf_document.h"
-
 #include <algorithm>
 #include <new>
 
@@ -7,6 +5,7 @@
 
 #include "core/base/error.h"
 #include "core/io/reading/tokenizer.h"
+#include "core/io/xdmf/xdmf.h"
 
 namespace dmoscope {
 TextSyntax xdmf_text_syntax() { return {.comment = '<', .comma_is_blank = false, .backslash_joins_lines = false, .free_form = true}; }

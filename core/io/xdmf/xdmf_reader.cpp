@@ -10,13 +10,13 @@
 
 #include "core/io/reading/tokenizer.h"
 #include "core/io/xdmf/xdmf.h"
-#include "core/io/xdmf/xdmf_document.h"
 
 namespace dmoscope {
 namespace {
 
 constexpr std::string_view kLinear = "only elements without nodes beyond their corners are read";
 
+/// Reader, see FormatHandler. One uniform grid, unstructured, of first order. Throws InputError, Cancelled.
 class XdmfReader {
  public:
   XdmfReader(SourceFile& source, const IoContext& context) : source_(source), document_(source, context) {}
@@ -229,8 +229,7 @@ class XdmfReader {
     const bool of_points = equal_ignoring_case(type, "Node");
     if ((!of_points && !equal_ignoring_case(type, "Cell")) || (passed_over_ && !of_points)) return source_.add_only_in_file("further sets");
     const std::size_t things = of_points ? mesh_.positions.size() : cells_.size();
-    std::vector<Index> elements(of_points ? 0 : cells_.size(), kNoIndex);
-    for (Index e = 0; !of_points && e < mesh_.elements.size(); ++e) elements[rows_.empty() ? e : rows_[e]] = e;
+    const std::vector<Index> elements = elements_of_cells(cells_, mesh_, rows_);
     Group group{.name = node.attribute("Name").value(), .role = "set", .code = 0, .dimension = of_points ? 0 : 2};
     for (const std::int64_t number : document_.wholes(document_.item(node))) {
       if (number < 0 || static_cast<std::uint64_t>(number) >= things) {
@@ -270,24 +269,19 @@ std::vector<std::filesystem::path> files_elsewhere(const SourceFile& source, con
 
 }  // namespace
 
-Mesh read_xdmf(SourceFile& source, const IoContext& context) { return XdmfReader(source, context).read(); }
-
-const FormatHandler& xdmf_format() {
-  static const FormatHandler handler{
-      {"xdmf", "XDMF", ".xdmf .xmf",
-       "2D and 3D elements, attributes of nodes and cells, sets; numbers in the XML"
+constinit const FormatHandler kXdmfFormat{.info = {"xdmf", "XDMF", ".xdmf .xmf",
+                                                   "2D and 3D elements, attributes of nodes and cells, sets; numbers in the XML"
 #ifdef DMOSCOPE_HDF5
-       " or in an HDF5 file"
+                                                   " or in an HDF5 file"
 #endif
-      },
-      recognises_xdmf,
-      read_xdmf,
-      write_xdmf,
-      patch_xdmf,
-      nullptr,
-      files_elsewhere,
-      [](const std::filesystem::path& main, const std::filesystem::path& file) { return file.filename() == numbers_beside(main); }};
-  return handler;
-}
+                                          },
+                                          .recognises = recognises_xdmf,
+                                          .read = read_with<XdmfReader>,
+                                          .write = write_xdmf,
+                                          .patch = patch_xdmf,
+                                          .further = files_elsewhere,
+                                          .writes_beside = [](const std::filesystem::path& main, const std::filesystem::path& file) {
+                                            return file.filename() == numbers_beside(main);
+                                          }};
 
 }  // namespace dmoscope

@@ -11,8 +11,6 @@ namespace dmoscope {
 
 inline constexpr TextSyntax kObjSyntax{.comment = '#', .backslash_joins_lines = true};
 
-/// Reads three coordinates behind the word "v". `place` gets their offset; the rest of the line is left.
-[[nodiscard]] Vec3 read_obj_vertex(Tokenizer& tokens, std::size_t& place);
 /// Reads three or four corners behind the word "f", "v", "v/vt", "v//vn" or "v/vt/vn" each; returns their number. Their vertices count from
 /// 1, or back from the vertex read last (-1); none is 0.
 [[nodiscard]] std::size_t read_obj_face(Tokenizer& tokens, std::array<std::int64_t, 4>& corners);

@@ -1,6 +1,7 @@
-#include "core/io/boundary_strings.h"
+#include "core/io/mesh_writer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <set>
 
@@ -8,6 +9,7 @@
 #include <fmt/ranges.h>
 
 namespace dmoscope {
+
 namespace {
 
 /// Whether the type of this land boundary of a fort.14 is a closed island.
@@ -69,6 +71,16 @@ std::vector<Group> groups_with_edges(const Mesh& mesh, std::string_view written_
     group.code = 0;  // types repeat, so they cannot serve as numbers
   }
   return groups;
+}
+
+std::optional<std::vector<int>> whole_values(const Field& field, double least) {
+  std::vector<int> wholes;
+  wholes.reserve(field.values.size());
+  for (const double v : field.values) {
+    if (v != std::nearbyint(v) || v < least || v > 2147483647.0) return std::nullopt;
+    wholes.push_back(static_cast<int>(v));
+  }
+  return wholes;
 }
 
 }  // namespace dmoscope

@@ -1,4 +1,4 @@
-#include "core/io/reading/binary_scalar.h"
+#include "core/io/reading/binary.h"
 
 #include <algorithm>
 #include <array>
@@ -7,10 +7,10 @@
 #include <type_traits>
 #include <utility>
 
-#include "core/io/reading/binary.h"
 #include "core/io/reading/tokenizer.h"
 
 namespace dmoscope {
+
 namespace {
 
 struct Word {

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/inspect/element_changes.h"
 #include "core/inspect/recorder.h"
 #include "core/quality/metric_phrase.h"
 #include "core/reference/deviation_bound.h"

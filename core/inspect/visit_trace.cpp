@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/inspect/element_changes.h"
 #include "core/inspect/recorder.h"
 #include "core/inspect/require_star.h"
 #include "core/inspect/single_vertex_task.h"

@@ -14,7 +14,7 @@
 #include "core/run/ending.h"
 #include "core/run/sliding.h"
 #include "core/session/csv.h"
-#include "core/session/parameter_json.h"
+#include "core/session/json_values.h"
 #include "core/smooth/execution/method_table.h"
 
 namespace dmoscope::app {

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/base/xml_text.h"
-#include "core/session/position_text.h"
+#include "core/session/json_values.h"
 
 namespace dmoscope::app {
 

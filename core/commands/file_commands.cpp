@@ -10,7 +10,7 @@
 #include "core/io/reading/source_file.h"
 #include "core/io/writing/atomic_file.h"
 #include "core/session/csv.h"
-#include "core/session/original_copy.h"
+#include "core/session/read_files.h"
 #include "core/session/state_file.h"
 #include "core/transfer/moved_fields.h"
 #include "core/transfer/thin_places.h"

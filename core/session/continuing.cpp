@@ -7,8 +7,8 @@
 #include "core/base/error.h"
 #include "core/reference/domain.h"
 #include "core/run/ending.h"
-#include "core/session/recompute.h"
 #include "core/session/session.h"
+#include "core/session/session_standing.h"
 
 namespace dmoscope {
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/run/run.h"
@@ -17,6 +18,12 @@
 #include "core/session/undo.h"
 
 namespace dmoscope {
+
+// Names that the user gives to runs.
+
+/// Throws UsageError for a name that is too long for lists and titles, has several lines, or is no UTF-8. An empty one is valid: it removes
+/// the name.
+void require_run_name(std::string_view name);
 
 class Session {
  public:

@@ -1,6 +1,7 @@
 #pragma once
 // Snapshot of a session, to be written to a file while the session itself goes on.
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -9,10 +10,34 @@
 #include <string>
 #include <vector>
 
-#include "core/session/iteration_starts.h"
+#include "core/run/run.h"
 #include "core/session/session.h"
 
 namespace dmoscope {
+
+// Positions at the begin of the iterations that runs are in, for histories that are full and no longer keep them.
+
+/// Positions at the begin of iterations, at most one copy for each run, and none that its history keeps.
+class IterationStarts {
+ public:
+  using Positions = std::shared_ptr<const std::vector<Vec3>>;
+
+  /// Keeps the positions of a run that is at the end of an iteration, unless they are known. Throws DeviceError.
+  void note(const std::weak_ptr<const Run>& run);
+  /// The positions at the begin of the run's present iteration; null if they are not known here, or do not belong to its path any more.
+  [[nodiscard]] Positions of(const Run& run) const;
+
+ private:
+  struct Start {
+    std::weak_ptr<const Run> run;
+    std::uint64_t iteration = 0;
+    Backend backend = Backend::Cpu;  // backend at that moment: the last bits may differ after a device failed
+    std::vector<Edit> edits;         // all edits of its path up to then
+    Positions positions;
+    [[nodiscard]] bool is_of(const Run& run) const;
+  };
+  std::vector<Start> starts_;
+};
 
 /// Snapshot of a run: everything that a saved session holds of it.
 struct RunStanding {
@@ -53,5 +78,12 @@ struct SessionStanding {
 /// missing or returns false. Throws DeviceError.
 [[nodiscard]] std::optional<SessionStanding> standing_of(Session& session, const IterationStarts& starts,
                                                          const std::function<bool()>& go_on = {});
+
+// Recomputation of positions that a run's history no longer keeps.
+
+/// The positions at the end of a recorded iteration: those kept, or else the same bits recomputed from the nearest kept ones by another
+/// run, so that this one stays at its moment. Asks `go_on` every 100 ms or so; none once that returns false. Throws Error.
+[[nodiscard]] std::optional<std::vector<Vec3>> positions_at(const Session& session, const Run& run, std::uint64_t iteration,
+                                                            const std::function<bool()>& go_on);
 
 }  // namespace dmoscope

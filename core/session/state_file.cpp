@@ -14,13 +14,9 @@
 #include "core/io/mesh_io.h"
 #include "core/io/reading/source_file.h"
 #include "core/io/writing/atomic_file.h"
-#include "core/session/input_marks.h"
-#include "core/session/joint_json.h"
 #include "core/session/json_values.h"
-#include "core/session/parameter_json.h"
-#include "core/session/position_text.h"
-#include "core/session/run_name.h"
 #include "core/session/saved_inputs.h"
+#include "core/session/session.h"
 
 namespace dmoscope {
 

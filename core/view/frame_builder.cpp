@@ -7,7 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/base/memory.h"
-#include "core/session/recompute.h"
+#include "core/session/session_standing.h"
 
 namespace dmoscope {
 

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/same_bits.h"
-#include "core/session/position_text.h"
+#include "core/session/json_values.h"
 
 namespace dmoscope {
 namespace {

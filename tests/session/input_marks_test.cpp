@@ -1,10 +1,10 @@
 // Messages about groups and fields that changed since a session was saved.
 
-#include "core/session/input_marks.h"
-
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "core/session/saved_inputs.h"
 
 namespace dmoscope {
 namespace {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/io/mesh_io.h"
-#include "core/session/original_copy.h"
+#include "core/session/read_files.h"
 #include "tests/session/spoken_session.h"
 #include "tests/support/temporary_folder.h"
 

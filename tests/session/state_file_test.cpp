@@ -16,7 +16,7 @@
 #include "core/base/same_bits.h"
 #include "core/commands/session_commands.h"
 #include "core/engine/engine.h"
-#include "core/session/position_text.h"
+#include "core/session/json_values.h"
 #include "tests/support/meshes.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/temporary_folder.h"

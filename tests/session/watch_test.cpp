@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/engine/engine.h"
-#include "core/session/recompute.h"
+#include "core/session/session_standing.h"
 #include "core/view/frame_builder.h"
 #include "tests/support/fake_accelerator.h"
 #include "tests/support/meshes.h"

@@ -8,7 +8,7 @@
 #include "core/commands/commands.h"
 #include "core/io/mesh_io.h"
 #include "core/io/writing/atomic_file.h"
-#include "core/session/original_copy.h"
+#include "core/session/read_files.h"
 #include "ui/dialogs/save_rows.h"
 #include "ui/panels/panels.h"
 

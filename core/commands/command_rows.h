@@ -43,6 +43,9 @@ void tell_sliding(CommandContext& context);
 /// the active run's best state; that setting is then cleared.
 void change_run(CommandContext& context, const std::function<void(RunParameters&)>& edit);
 
+/// Parameters of a run like another one, with the method and metric of words such as "dmo:min-angle".
+[[nodiscard]] RunParameters run_like(RunParameters parameters, const std::string& words);
+
 /// The vertices that words such as "7" or "10-20" name, in their order. Throws WrongArguments, and UsageError for one that does not exist.
 [[nodiscard]] std::vector<Index> to_vertices(Arguments words, const Mesh& mesh);
 

@@ -13,6 +13,15 @@
 
 namespace dmoscope {
 
+// Lines of the session's log.
+
+struct Message {
+  enum class Kind { Info, Warning, Error };
+  Kind kind = Kind::Info;
+  std::string text;
+  int exit_code = 0;  // exit code of an Error
+};
+
 struct CommandInfo {
   std::string name;   // first word, "step"
   std::string usage;  // usage, such as "step vertex|class|iteration [COUNT]"

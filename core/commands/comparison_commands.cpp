@@ -122,20 +122,18 @@ void bring_to(CommandContext& context, std::uint64_t iteration) {
   }
 }
 
-/// Parameters of a run like another one by a method. Another method goes alone: phases after it would hide what it does.
-RunParameters by_method(RunParameters parameters, const MethodInfo& method) {
-  if (parameters.method == method.name) return parameters;
-  parameters.method = method.name;
-  if (parameters.combination && !can_combine(method, *parameters.combination)) parameters.combination.reset();
+/// Parameters of a run beside another one: another method goes alone, for phases after it would hide what it does.
+RunParameters beside(RunParameters parameters, const RunParameters& active) {
+  if (parameters.method == active.method) return parameters;
   parameters.then_joint.reset();
   parameters.then_mean.reset();
-  if (!method.joint) parameters.joint_gap = RunParameters{}.joint_gap;
+  if (!method_info(parameters.method).joint) parameters.joint_gap = RunParameters{}.joint_gap;
   return parameters;
 }
 
 std::vector<RunParameters> every_method(const RunParameters& like) {
   std::vector<RunParameters> wanted;
-  for (const MethodInfo& method : method_table()) wanted.push_back(by_method(like, method));
+  for (const MethodInfo& method : method_table()) wanted.push_back(beside(run_like(like, std::string(method.name)), like));
   return wanted;
 }
 
@@ -160,16 +158,6 @@ std::vector<RunParameters> orders(const RunParameters& like, std::uint64_t count
   return wanted;
 }
 
-/// Parameters of a run like another one, with the method and metric of words such as "dmo:min-angle".
-RunParameters run_like(RunParameters parameters, const std::string& words) {
-  const std::size_t colon = words.find(':');
-  parameters = by_method(std::move(parameters), method_info(words.substr(0, colon)));
-  if (colon == std::string::npos) return parameters;
-  parameters.combination.reset();
-  parameters.metric = parse_metric(words.substr(colon + 1));
-  return parameters;
-}
-
 /// Adds the runs that are named, and takes all to the same iteration, or until they converge.
 void compare_with(CommandContext& context, Arguments arguments) {
   const Run& active = context.session.active();
@@ -181,8 +169,8 @@ void compare_with(CommandContext& context, Arguments arguments) {
   std::vector<RunParameters> wanted;
   std::string added = "compare with";
   for (const std::string& words : names) {
-    wanted.push_back(run_like(like, words));
-    added += " " + quote_word(words);
+    wanted.push_back(beside(run_like(like, words), like));
+    added.append(" ").append(quote_word(words));
   }
   const std::uint64_t reached = active.moment().iteration;
   add_missing(context, wanted);

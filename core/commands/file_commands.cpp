@@ -19,12 +19,14 @@ namespace dmoscope {
 
 namespace {
 
-void tell_report(CommandContext& context) {
+/// Reports on the active mesh, and `note`, if there is one.
+void tell_report(CommandContext& context, const std::string& note = {}) {
   const InputMesh& input = *context.session.input();
   tell(context, fmt::format("{}: {}, {}", input.mesh.name, counted(input.mesh.vertex_count(), "vertex", "vertices"),
                             counted(input.mesh.elements.size(), "element", "elements")));
   for (std::string& sentence : input.report.sentences()) tell(context, std::move(sentence), Message::Kind::Warning);
   tell_interfaces(context);
+  if (!note.empty()) tell(context, note, Message::Kind::Warning);
 }
 
 void open(CommandContext& context, Arguments arguments) {
@@ -37,11 +39,7 @@ void open_beside(CommandContext& context, Arguments arguments) {
   tell_report(context);
 }
 
-void reload(CommandContext& context, Arguments) {
-  const std::string note = context.session.reload(context.progress);
-  tell_report(context);
-  if (!note.empty()) tell(context, note, Message::Kind::Warning);
-}
+void reload(CommandContext& context, Arguments) { tell_report(context, context.session.reload(context.progress)); }
 
 void surface(CommandContext& context, Arguments arguments) {
   const std::string note = context.session.slide_on_surface(arguments[0] == "own" ? "" : arguments[0], context.progress);
@@ -54,11 +52,7 @@ void surface(CommandContext& context, Arguments arguments) {
   if (!note.empty()) tell(context, note, Message::Kind::Warning);
 }
 
-void materials(CommandContext& context, Arguments arguments) {
-  const std::string note = context.session.name_materials(arguments);
-  tell_report(context);
-  if (!note.empty()) tell(context, note, Message::Kind::Warning);
-}
+void materials(CommandContext& context, Arguments arguments) { tell_report(context, context.session.name_materials(arguments)); }
 
 void generate(CommandContext& context, Arguments arguments) {
   std::string words = arguments[0];
@@ -154,9 +148,7 @@ void save_session(CommandContext& context, Arguments arguments) {
 }
 
 void open_saved(CommandContext& context, const std::string& file) {
-  const std::string note = open_state(file, context.session, context.progress);
-  tell_report(context);
-  if (!note.empty()) tell(context, note, Message::Kind::Warning);
+  tell_report(context, open_state(file, context.session, context.progress));
 }
 
 std::string runs_as_saved(const Session& session) {

@@ -16,13 +16,7 @@ namespace dmoscope {
 namespace {
 
 void add_run(CommandContext& context, Arguments arguments) {
-  RunParameters parameters = context.session.active().parameters();
-  const std::size_t colon = arguments[0].find(':');
-  parameters.method = arguments[0].substr(0, colon);
-  if (parameters.combination && (colon != std::string::npos || !can_combine(method_info(parameters.method), *parameters.combination)))
-    parameters.combination.reset();
-  if (colon != std::string::npos) parameters.metric = parse_metric(arguments[0].substr(colon + 1));
-  context.session.add_run(std::move(parameters));
+  context.session.add_run(run_like(context.session.active().parameters(), arguments[0]));
 }
 void select_run(CommandContext& context, Arguments arguments) { context.session.select(to_count(arguments[0], 1) - 1); }
 void remove_run(CommandContext& context, Arguments arguments) { context.session.remove_run(to_count(arguments[0], 1) - 1); }

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/commands/command_rows.h"
+#include "core/smooth/execution/method_table.h"
 
 namespace dmoscope {
 
@@ -96,6 +97,15 @@ void change_run(CommandContext& context, const std::function<void(RunParameters&
   if (from == "the input" && now.begin()) from = fmt::format("where run {} began", parent + 1);
   if (session.run_count() > before)
     tell(context, fmt::format("started run {}: {}, from {}; the run before is kept", session.active_index() + 1, now.title(), from));
+}
+
+RunParameters run_like(RunParameters parameters, const std::string& words) {
+  const std::size_t colon = words.find(':');
+  parameters.method = method_info(words.substr(0, colon)).name;
+  const bool cannot = parameters.combination && !can_combine(method_info(parameters.method), *parameters.combination);
+  if (cannot || colon != std::string::npos) parameters.combination.reset();
+  if (colon != std::string::npos) parameters.metric = parse_metric(words.substr(colon + 1));
+  return parameters;
 }
 
 std::vector<Index> to_vertices(Arguments words, const Mesh& mesh) {

@@ -10,7 +10,6 @@
 
 #include "core/base/progress.h"
 #include "core/commands/commands.h"
-#include "core/commands/message.h"
 #include "core/session/session.h"
 
 namespace dmoscope {

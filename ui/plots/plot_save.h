@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/commands/message.h"
+#include "core/commands/commands.h"
 #include "ui/plots/plot_series.h"
 
 namespace dmoscope::ui {

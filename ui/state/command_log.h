@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/commands/message.h"
+#include "core/commands/commands.h"
 #include "core/engine/command_end.h"
 
 namespace dmoscope::ui {

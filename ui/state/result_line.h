@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "core/commands/message.h"
+#include "core/commands/commands.h"
 #include "core/engine/command_end.h"
 
 namespace dmoscope::ui {

@@ -18,7 +18,7 @@
 #include "core/base/thread_pool.h"
 #include "mpi/smooth/shared_left_inverted.h"
 #include "mpi/smooth/shared_mesh.h"
-#include "mpi/smooth/shared_order.h"
+#include "mpi/smooth/shared_statistics.h"
 
 namespace dmoscope::app {
 namespace {

@@ -42,7 +42,7 @@ class ObjFile final : public TextMeshFile {
     each_statement(lines, [&](Tokenizer& tokens, std::string_view word) {
       if (word != "v") return;
       std::size_t place = 0;
-      found.positions.push_back(read_obj_vertex(tokens, place));
+      found.positions.push_back(tokens.read_point(3, place));
       found.places.push_back(place);
     });
   }
@@ -62,7 +62,7 @@ class ObjFile final : public TextMeshFile {
     each_statement(lines, [&](Tokenizer& tokens, std::string_view word) {
       if (word == "v") {
         std::size_t place = 0;
-        parsed.positions.push_back(read_obj_vertex(tokens, place));
+        parsed.positions.push_back(tokens.read_point(3, place));
       } else if (word == "f") {
         std::array<std::int64_t, 4> named{};
         const std::size_t count = read_obj_face(tokens, named);

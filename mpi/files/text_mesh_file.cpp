@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/io/writing/patch_writer.h"
-#include "mpi/files/shared_output.h"
+#include "mpi/files/shared_mesh_file.h"
 
 namespace dmoscope {
 

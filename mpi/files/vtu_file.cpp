@@ -10,7 +10,6 @@
 #include "core/io/vtk/vtk_cells.h"
 #include "core/io/vtu/vtu_document.h"
 #include "mpi/files/shared_mesh_file.h"
-#include "mpi/files/shared_output.h"
 #include "mpi/reading/byte_range.h"
 
 namespace dmoscope {

@@ -22,4 +22,10 @@ struct PartitionChoice {
 /// taken modulo the number of ranks. Throws InputError with file and line.
 [[nodiscard]] std::vector<int> partition(const World& world, const MeshBlock& block, const PartitionChoice& choice);
 
+// Choice of a block's fields that tell materials apart.
+
+/// Returns numbers of block.fields, by the rules of materials.h and interfaces.h over the whole mesh: those that name materials or, if
+/// there are none, parts of the geometry; of these only fields with different values.
+[[nodiscard]] std::vector<std::size_t> material_fields(const World& world, const MeshBlock& block);
+
 }  // namespace dmoscope

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/mesh/topology.h"
-#include "mpi/mesh/halo.h"
+#include "mpi/mesh/share.h"
 
 namespace dmoscope {
 

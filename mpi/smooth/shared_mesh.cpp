@@ -8,7 +8,7 @@
 #include "core/base/error.h"
 #include "core/mesh/plane.h"
 #include "core/mesh/seam.h"
-#include "mpi/mesh/material_fields.h"
+#include "mpi/mesh/partition.h"
 
 namespace dmoscope {
 namespace {

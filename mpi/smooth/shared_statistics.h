@@ -1,14 +1,22 @@
 #pragma once
 // Statistics of a mesh that ranks share, with the bits that one process finds.
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "core/base/thread_pool.h"
 #include "core/quality/quality.h"
 #include "mpi/mesh/share.h"
+#include "mpi/world/world.h"
 
 namespace dmoscope {
+
+// Order statistics of values that ranks share.
+
+/// Returns the values of these ranks, from 0, among all values. `here`: this rank's, ascending, none of them NaN; each of `ranks` is below
+/// the number of all. To be called by all ranks of the world together.
+[[nodiscard]] std::vector<double> values_of_ranks(const World& world, std::span<const double> here, std::span<const std::uint64_t> ranks);
 
 /// Adds in the order of the mesh's elements, in the stretches of core's Tally, since floating-point sums depend on their order: each rank
 /// adds stretches of the whole mesh, for which the others send it the qualities of their elements.

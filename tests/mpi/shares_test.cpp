@@ -8,7 +8,7 @@
 #include "core/quality/quality.h"
 #include "core/reference/standing.h"
 #include "mpi/smooth/rank_share.h"
-#include "mpi/smooth/shared_order.h"
+#include "mpi/smooth/shared_statistics.h"
 #include "tests/mpi/blocks.h"
 #include "tests/support/testing.h"
 

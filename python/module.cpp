@@ -41,6 +41,11 @@ py::array array_of(std::vector<T> values, const std::vector<py::ssize_t>& shape)
   const py::capsule owner(kept, [](void* memory) { delete static_cast<std::vector<T>*>(memory); });
   return py::array_t<T>(shape, kept->data(), owner);
 }
+template <class T>
+py::array array_of(std::vector<T> values) {
+  const auto count = static_cast<py::ssize_t>(values.size());
+  return array_of(std::move(values), {count});
+}
 
 py::ssize_t length(std::size_t n) { return static_cast<py::ssize_t>(n); }
 
@@ -165,7 +170,7 @@ py::dict history_of(const std::vector<dmo::Iteration>& iterations) {
   const auto column = [&](auto get) {
     std::vector<decltype(get(iterations.front()))> values;
     for (const dmo::Iteration& one : iterations) values.push_back(get(one));
-    return array_of(std::move(values), {length(iterations.size())});
+    return array_of(std::move(values));
   };
   py::dict columns;
   columns["iteration"] = column([](const dmo::Iteration& i) { return i.number; });
@@ -234,8 +239,8 @@ py::dict trace(const dmo::Mesh& mesh, dmo::Index vertex, const dmo::SmoothOption
     levels.append(std::move(one));
   }
   py::dict result;
-  result["start"] = array_of(std::vector<double>(traced.from, traced.from + 3), {3});
-  result["end"] = array_of(std::vector<double>(traced.to, traced.to + 3), {3});
+  result["start"] = array_of(std::vector(traced.from, traced.from + 3));
+  result["end"] = array_of(std::vector(traced.to, traced.to + 3));
   result["before"] = traced.before;
   result["after"] = traced.after;
   result["levels"] = std::move(levels);
@@ -290,37 +295,25 @@ void define_mesh(py::module_& module) {
       .def_property_readonly("cell_groups",
                              [](const dmo::Mesh& mesh) {
                                py::dict groups;
-                               for (dmo::CellGroup& group : mesh.cell_groups()) {
-                                 const py::ssize_t count = length(group.cells.size());
-                                 groups[py::str(group.name)] = array_of(std::move(group.cells), {count});
-                               }
+                               for (dmo::CellGroup& group : mesh.cell_groups())
+                                 groups[py::str(group.name)] = array_of(std::move(group.cells));
                                return groups;
                              })
       .def_property_readonly(
           "boundary_loops",
           [](const dmo::Mesh& mesh) {
             py::list loops;
-            for (dmo::BoundaryLoop& loop : mesh.boundary_loops()) {
-              const py::ssize_t count = length(loop.vertices.size());
-              loops.append(py::make_tuple(array_of(std::move(loop.vertices), {count}), loop.length, loop.area, loop.part, loop.outer));
-            }
+            for (dmo::BoundaryLoop& loop : mesh.boundary_loops())
+              loops.append(py::make_tuple(array_of(std::move(loop.vertices)), loop.length, loop.area, loop.part, loop.outer));
             return loops;
           })
       .def_property_readonly("parts",
                              [](const dmo::Mesh& mesh) {
                                py::list parts;
-                               for (std::vector<dmo::Index>& part : mesh.parts()) {
-                                 const py::ssize_t count = length(part.size());
-                                 parts.append(array_of(std::move(part), {count}));
-                               }
+                               for (std::vector<dmo::Index>& part : mesh.parts()) parts.append(array_of(std::move(part)));
                                return parts;
                              })
-      .def("ring",
-           [](const dmo::Mesh& mesh, std::size_t vertex) {
-             std::vector<dmo::Index> ring = mesh.ring(vertex);
-             const py::ssize_t count = length(ring.size());
-             return array_of(std::move(ring), {count});
-           })
+      .def("ring", [](const dmo::Mesh& mesh, std::size_t vertex) { return array_of(mesh.ring(vertex)); })
       .def("to_bytes", [](const dmo::Mesh& mesh) { return py::bytes(mesh.to_bytes()); })
       .def_static("from_bytes", [](const py::bytes& bytes) { return dmo::Mesh::from_bytes(std::string_view(bytes)); })
       .def_property_readonly("is_volume", &dmo::Mesh::is_volume)
@@ -376,8 +369,7 @@ PYBIND11_MODULE(_dmoscope, module) {
       const py::gil_scoped_release release;
       values = dmo::quality(mesh, metric, threads);
     }
-    const py::ssize_t count = length(values.size());
-    return array_of(std::move(values), {count});
+    return array_of(std::move(values));
   });
   module.def("statistics", [](const dmo::Mesh& mesh, const std::string& metric, unsigned threads) {
     dmo::Statistics s;

@@ -243,12 +243,7 @@ class Mesh:
         kinds = self._mesh.kinds
         offsets = self._mesh.offsets.astype(np.int64)
         counts = np.diff(offsets)
-        cells = np.empty(len(counts) + offsets[-1], dtype=np.int64)
-        heads = offsets[:-1] + np.arange(len(counts))
-        cells[heads] = counts
-        others = np.ones(len(cells), dtype=bool)
-        others[heads] = False
-        cells[others] = self._mesh.connectivity
+        cells = np.insert(self._mesh.connectivity.astype(np.int64), offsets[:-1], counts)
         types = np.array([number for _, number, _ in _KINDS], dtype=np.uint8)[kinds]
         grid = pyvista.UnstructuredGrid(cells, types, np.array(self.points))
         groups = list(self.cell_groups.values())

@@ -15,7 +15,6 @@
 #include "core/mesh/outline.h"
 #include "core/mesh/thin.h"
 #include "library/mesh_data.h"
-#include "library/translate.h"
 
 namespace dmo {
 

@@ -12,7 +12,6 @@
 #include "core/base/fnv1a.h"
 #include "core/io/reading/source_file.h"
 #include "library/mesh_data.h"
-#include "library/translate.h"
 
 namespace dmo {
 namespace {
@@ -24,19 +23,8 @@ using dmoscope::Group;
 using dmoscope::SourceFile;
 using dmoscope::Vec3;
 
-constexpr std::string_view kBegin = "dmoscope mesh " DMOSCOPE_VERSION "\n";
-constexpr std::size_t kHashSize = 16;  // hexadecimal digits, at the end
-
-struct SourceParts {
-  std::string path, bytes, format, beside, not_patchable;
-  std::uint64_t size_on_disk = 0, first_beside = 0;
-  CoordinateLayout layout;
-  std::vector<std::uint64_t> places;
-  std::vector<Index> place_vertices;
-  std::vector<std::string> only_in_file, notes;
-  std::vector<SourceFile::FieldPiece> field_pieces;
-  std::vector<SourceParts> companion;  // one, or none
-};
+constexpr std::string_view kBegin = "dmoscope mesh " DMOSCOPE_VERSION " b\n";  // b: the second form
+constexpr std::size_t kHashSize = 16;                                          // hexadecimal digits, at the end
 
 struct MeshParts {
   std::string name, title, path;
@@ -48,7 +36,7 @@ struct MeshParts {
   std::vector<Group> groups;
   std::vector<std::array<Index, 2>> periodic;
   bool single_precision = false, in_degrees = false, thin = false;
-  std::vector<SourceParts> source;  // one or none
+  std::shared_ptr<const SourceFile> source;  // may be null
 };
 
 template <class Archive>
@@ -69,11 +57,9 @@ void pass(Archive& archive, Group& g) {
   archive(g.name, g.role, g.code, g.dimension, g.members, g.faces);
 }
 template <class Archive>
-void pass(Archive& archive, SourceParts& s) {
-  CoordinateLayout& l = s.layout;
-  archive(s.path, s.bytes, s.format, s.beside, s.first_beside, s.not_patchable, s.size_on_disk, s.places, s.place_vertices, s.only_in_file,
-          s.notes, s.field_pieces, s.companion, l.binary, l.components, l.at, l.syntax.comment, l.syntax.comma_is_blank,
-          l.syntax.backslash_joins_lines, l.syntax.free_form, l.width, l.scalar, l.big_endian);
+void pass(Archive& archive, CoordinateLayout& l) {
+  archive(l.binary, l.components, l.at, l.syntax.comment, l.syntax.comma_is_blank, l.syntax.backslash_joins_lines, l.syntax.free_form,
+          l.width, l.scalar, l.big_endian);
 }
 template <class Archive>
 void pass(Archive& archive, MeshParts& m) {
@@ -85,155 +71,106 @@ template <class T>
 concept Plain = std::is_arithmetic_v<T> || std::is_enum_v<T> || std::same_as<T, Vec3> || std::same_as<T, std::array<std::uint32_t, 3>> ||
     std::same_as<T, std::array<dmoscope::CoordinateScalar, 3>> || std::same_as<T, SourceFile::FieldPiece>;
 
-class Saver {
- public:
-  template <class... Members>
-  void operator()(Members&... members) {
-    (put(members), ...);
-  }
-  [[nodiscard]] std::string& bytes() noexcept { return bytes_; }
-
- private:
-  template <class T>
-  void put(T& value) {
-    if constexpr (Plain<T>) {
-      put_all(&value, 1);
-    } else {
-      pass(*this, value);
-    }
-  }
-  template <Plain T>
-  void put_all(const T* values, std::size_t count) {
-    if (count > 0) bytes_.append(reinterpret_cast<const char*>(values), count * sizeof(T));
-  }
-  void put(std::string& text) {
-    put_count(text.size());
-    bytes_ += text;
-  }
-  template <class T>
-  void put(std::vector<T>& values) {
-    put_count(values.size());
-    if constexpr (Plain<T>) {
-      put_all(values.data(), values.size());
-    } else {
-      for (T& value : values) put(value);
-    }
-  }
-  void put(ElementTable& table) {
-    put_count(table.size());
-    for (Index e = 0; e < table.size(); ++e) {
-      const dmoscope::ElementKind kind = table.kind(e);
-      put_all(&kind, 1);
-      put_all(table.corners(e).data(), table.corners(e).size());
-    }
-  }
-  void put_count(std::uint64_t count) { put_all(&count, 1); }
-
-  std::string bytes_{kBegin};
-};
-
 [[noreturn]] void refuse() {
   throw dmoscope::InputError(kNoFile, 0, "these bytes are no mesh of dmoscope " DMOSCOPE_VERSION ", or they were damaged");
 }
 
-class Loader {
+/// Appends members to bytes or, with `kLoads`, takes them from the begin of bytes.
+template <bool kLoads>
+class Archive {
  public:
-  explicit Loader(std::string_view bytes) : left_(bytes) {}
+  using Bytes = std::conditional_t<kLoads, std::string_view, std::string>;
+  explicit Archive(Bytes bytes) : bytes_(std::move(bytes)) {}
   template <class... Members>
   void operator()(Members&... members) {
-    (get(members), ...);
+    (one(members), ...);
   }
+  [[nodiscard]] Bytes& bytes() noexcept { return bytes_; }
 
  private:
   template <class T>
-  void get(T& value) {
+  void one(T& value) {
     if constexpr (Plain<T>) {
-      get_all(&value, 1);
+      raw(&value, 1);
     } else {
       pass(*this, value);
     }
   }
   template <Plain T>
-  void get_all(T* values, std::size_t count) {
-    if (count > left_.size() / sizeof(T)) refuse();
-    if (count > 0) std::memcpy(values, left_.data(), count * sizeof(T));
-    left_.remove_prefix(count * sizeof(T));
+  void raw(T* values, std::size_t count) {
+    if constexpr (kLoads) {
+      if (count > bytes_.size() / sizeof(T)) refuse();
+      if (count > 0) std::memcpy(values, bytes_.data(), count * sizeof(T));
+      bytes_.remove_prefix(count * sizeof(T));
+    } else if (count > 0) {
+      bytes_.append(reinterpret_cast<const char*>(values), count * sizeof(T));
+    }
   }
-  void get(std::string& text) {
-    text = left_.substr(0, count_of(1));
-    left_.remove_prefix(text.size());
+  void one(std::string& text) {
+    text.resize(count(text.size(), 1));
+    raw(text.data(), text.size());
+  }
+  void one(std::filesystem::path& path) {
+    std::string text = path.string();
+    one(text);
+    path = text;
+  }
+  void one(dmoscope::FileBytes& bytes) {
+    const std::size_t size = count(bytes.view().size(), 1);
+    if constexpr (kLoads) {
+      bytes = dmoscope::FileBytes(bytes_.substr(0, size));
+      bytes_.remove_prefix(size);
+    } else {
+      bytes_ += bytes.view();
+    }
   }
   template <class T>
-  void get(std::vector<T>& values) {
-    values.resize(count_of(Plain<T> ? sizeof(T) : 1));
-    if constexpr (Plain<T>) {
-      get_all(values.data(), values.size());
+  void one(std::shared_ptr<const T>& shared) {
+    bool there = shared != nullptr;
+    raw(&there, 1);
+    if (!there) return;
+    if constexpr (kLoads) {
+      const auto loaded = std::make_shared<T>();
+      one(*loaded);
+      shared = loaded;
     } else {
-      for (T& value : values) get(value);
+      one(const_cast<T&>(*shared));  // unchanged by saving
     }
   }
-  void get(ElementTable& table) {
-    for (std::size_t left = count_of(1); left > 0; --left) {
+  template <class T>
+  void one(std::vector<T>& values) {
+    values.resize(count(values.size(), Plain<T> ? sizeof(T) : 1));
+    if constexpr (Plain<T>) {
+      raw(values.data(), values.size());
+    } else {
+      for (T& value : values) one(value);
+    }
+  }
+  void one(ElementTable& table) {
+    const std::size_t elements = count(table.size(), 1);
+    for (std::size_t e = 0; e < elements; ++e) {
       dmoscope::ElementKind kind{};
       std::array<Index, 8> corners{};
-      get_all(&kind, 1);
+      if constexpr (!kLoads) {
+        kind = table.kind(static_cast<Index>(e));
+        std::ranges::copy(table.corners(static_cast<Index>(e)), corners.begin());
+      }
+      raw(&kind, 1);
       if (static_cast<std::size_t>(kind) >= dmoscope::kElementKindCount) refuse();
-      get_all(corners.data(), info(kind).corners);
-      table.add(kind, std::span(corners).first(info(kind).corners));
+      raw(corners.data(), info(kind).corners);
+      if constexpr (kLoads) table.add(kind, std::span(corners).first(info(kind).corners));
     }
   }
-  /// Number of things of at least `size` bytes, which must be there.
-  std::size_t count_of(std::size_t size) {
-    std::uint64_t count = 0;
-    get_all(&count, 1);
-    if (count > left_.size() / size) refuse();
-    return count;
+  /// Number of things of at least `size` bytes, which must be there. `present`: their number if they are saved.
+  std::size_t count(std::size_t present, std::size_t size) {
+    std::uint64_t number = present;
+    raw(&number, 1);
+    if (kLoads && number > bytes_.size() / size) refuse();
+    return number;
   }
 
-  std::string_view left_;
+  Bytes bytes_;
 };
-
-SourceParts parts_of(const SourceFile& file) {
-  SourceParts parts{.path = file.path().string(),
-                    .bytes = std::string(file.bytes()),
-                    .format = std::string(file.format()),
-                    .beside = file.beside(),
-                    .not_patchable = file.not_patchable(),
-                    .size_on_disk = file.size_on_disk(),
-                    .first_beside = file.first_beside(),
-                    .layout = file.layout(),
-                    .places = {},
-                    .place_vertices = {},
-                    .only_in_file = file.only_in_file(),
-                    .notes = file.notes(),
-                    .field_pieces = file.field_pieces(),
-                    .companion = {}};
-  bool other_order = false;
-  for (std::size_t i = 0; i < file.place_count(); ++i) {
-    parts.places.push_back(file.place(i));
-    parts.place_vertices.push_back(static_cast<Index>(file.vertex_at(i)));
-    other_order = other_order || file.vertex_at(i) != i;
-  }
-  if (!other_order) parts.place_vertices.clear();
-  if (file.companion() != nullptr) parts.companion.push_back(parts_of(*file.companion()));
-  return parts;
-}
-
-std::shared_ptr<const SourceFile> source_of(SourceParts parts) {
-  auto file = std::make_shared<SourceFile>(parts.path, dmoscope::FileBytes(parts.bytes));
-  file->set_size_on_disk(parts.size_on_disk);
-  file->set_format(parts.format);
-  file->set_beside(parts.beside, parts.first_beside);
-  file->set_not_patchable(parts.not_patchable);
-  file->set_layout(parts.layout);
-  file->add_places(parts.places);
-  file->set_place_vertices(std::move(parts.place_vertices));
-  for (const std::string& thing : parts.only_in_file) file->add_only_in_file(thing);
-  for (std::string& note : parts.notes) file->add_note(std::move(note));
-  for (const SourceFile::FieldPiece& piece : parts.field_pieces) file->add_field_piece(piece);
-  if (!parts.companion.empty()) file->set_companion(source_of(std::move(parts.companion.front())));
-  return file;
-}
 
 std::string hash_of(std::string_view bytes) {
   dmoscope::Fnv1a hash;
@@ -263,9 +200,8 @@ std::string Mesh::to_bytes() const {
                   .single_precision = mesh.single_precision,
                   .in_degrees = data_->in_degrees,
                   .thin = data_->thin,
-                  .source = {}};
-  if (mesh.source) parts.source.push_back(parts_of(*mesh.source));
-  Saver saver;
+                  .source = mesh.source};
+  Archive<false> saver{std::string(kBegin)};
   pass(saver, parts);
   saver.bytes() += hash_of(saver.bytes());
   return std::move(saver.bytes());
@@ -277,7 +213,7 @@ Mesh Mesh::from_bytes(std::string_view bytes, const Progress& progress) {
     const std::string_view body = bytes.substr(0, bytes.size() - kHashSize);
     if (hash_of(body) != bytes.substr(body.size())) refuse();
     MeshParts parts;
-    Loader loader(body.substr(kBegin.size()));
+    Archive<true> loader(body.substr(kBegin.size()));
     pass(loader, parts);
     const std::size_t vertices = parts.positions.size();
     for (const std::vector<Vec3>* other : {&parts.moved, &parts.as_read})
@@ -288,7 +224,7 @@ Mesh Mesh::from_bytes(std::string_view bytes, const Progress& progress) {
     mesh.name = std::move(parts.name);
     mesh.title = std::move(parts.title);
     add_cells(mesh.elements, {parts.kinds.size(), parts.kinds.data(), parts.offsets.data(), parts.connectivity.data()}, vertices);
-    if (!parts.source.empty()) mesh.source = source_of(std::move(parts.source.front()));
+    mesh.source = std::move(parts.source);
     auto data = std::make_shared<Data>();
     if (!parts.as_read.empty()) {
       auto as_read = std::make_shared<dmoscope::Mesh>(mesh);

@@ -4,10 +4,13 @@
 #include <memory>
 #include <mutex>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "core/base/error.h"
 #include "core/input/input_mesh.h"
 #include "core/mesh/moved_mesh.h"
+#include "library/include/dmoscope/error.h"
 #include "library/include/dmoscope/mesh.h"
 
 namespace dmo {
@@ -63,5 +66,27 @@ void add_cells(dmoscope::ElementTable& elements, const Cells& cells, std::size_t
 
 /// Returns the mesh with other positions, and with these numbers in its fields.
 [[nodiscard]] Mesh moved_mesh(const Mesh& mesh, std::vector<dmoscope::Vec3> positions, std::vector<dmoscope::FieldValues> fields);
+
+// Translation of the program's errors to the library's.
+
+inline constexpr const char* kNoFile = "mesh";  // stands for the file of a mesh that has none
+
+/// Returns work(); its errors become errors of the library.
+template <class Work>
+decltype(auto) translated(const Work& work) {
+  try {
+    return work();
+  } catch (const dmoscope::InputError& error) {
+    throw InputError(error.what(), error.file() == kNoFile ? std::string() : error.file(), error.line());
+  } catch (const dmoscope::OutputError& error) {
+    throw OutputError(error.what());
+  } catch (const dmoscope::UsageError& error) {
+    throw UsageError(error.what());
+  } catch (const dmoscope::Cancelled& error) {
+    throw Cancelled(error.what());
+  } catch (const dmoscope::Error& error) {
+    throw Error(error.what());
+  }
+}
 
 }  // namespace dmo

@@ -1,0 +1,303 @@
+// Quality, smoothing and traces, and the runs that options describe.
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/base/thread_count.h"
+#include "core/base/thread_pool.h"
+#include "core/base/unknown_value.h"
+#include "core/base/words.h"
+#include "core/input/input_mesh.h"
+#include "core/inspect/visit_trace.h"
+#include "core/mesh/geographic.h"
+#include "core/mesh/vertex_words.h"
+#include "core/quality/defined_metric.h"
+#include "core/quality/metric.h"
+#include "core/quality/quality.h"
+#include "core/run/crossing_faces.h"
+#include "core/run/ending.h"
+#include "core/run/parameters.h"
+#include "core/run/recipe.h"
+#include "core/run/run.h"
+#include "core/run/sliding.h"
+#include "core/smooth/composite_objective.h"
+#include "core/target/target.h"
+#include "core/transfer/moved_fields.h"
+#include "core/transfer/thin_places.h"
+#include "library/include/dmoscope/quality.h"
+#include "library/include/dmoscope/smooth.h"
+#include "library/include/dmoscope/trace.h"
+#include "library/mesh_data.h"
+
+namespace dmo {
+
+namespace {
+
+struct RunRequest {
+  dmoscope::RunParameters parameters;
+  dmoscope::ConvergenceLimits limits;
+  bool until_converged = false;
+  std::vector<std::string> warnings;
+};
+
+using Words = std::map<std::string, std::string>;
+
+/// Removes an option and returns its value; empty if it is not given.
+std::string take(Words& words, const std::string& name) {
+  const auto node = words.extract(name);
+  return node.empty() ? std::string() : node.mapped();
+}
+
+template <class Work>
+auto naming(const std::string& option, const Work& work) {
+  try {
+    return work();
+  } catch (const dmoscope::UsageError& error) {
+    throw dmoscope::UsageError(fmt::format("{}: {}", option, error.what()));
+  }
+}
+
+[[noreturn]] void refuse_unknown(const std::string& name) {
+  std::vector<std::string_view> known{"combine", "fix",           "max-iterations", "method", "metric", "patience",
+                                      "recipe",  "size-function", "slide",          "target", "then"};
+  for (const dmoscope::ParameterInfo& row : dmoscope::parameter_table()) known.push_back(row.name);
+  std::sort(known.begin(), known.end());
+  throw dmoscope::UsageError(dmoscope::unknown_value("option", name, known));
+}
+
+void set_objective(dmoscope::RunParameters& parameters, Words& words) {
+  const std::string metric = take(words, "metric"), combination = take(words, "combine"), size = take(words, "size-function");
+  if (!metric.empty() && !combination.empty())
+    throw dmoscope::UsageError("metric and combine: only one of them, combine names both metrics");
+  if (combination.empty() && !size.empty()) throw dmoscope::UsageError("size-function is for combine with density");
+  if (!metric.empty()) parameters.metric = naming("metric", [&] { return dmoscope::parse_metric(metric); });
+  if (!combination.empty())
+    std::tie(parameters.metric, parameters.combination) = naming("combine", [&] { return dmoscope::parse_composite(combination, size); });
+  if (const std::string target = take(words, "target"); !target.empty())
+    naming("target", [&] { aim_at(parameters, dmoscope::parse_target(target)); });
+}
+
+/// Throws UsageError for options that exclude each other, by the rules of the program.
+void refuse_together(const Words& words, bool until_converged) {
+  const auto said = [&words](const char* name) { return words.count(name) > 0; };
+  for (const char* other : {"method", "combine", "then"})
+    if (said("recipe") && said(other)) throw dmoscope::UsageError(fmt::format("recipe and {}: only one of them", other));
+  for (const char* limit : {"patience", "max-iterations"})
+    if (said(limit) && !until_converged) throw dmoscope::UsageError(fmt::format("{} is for until_converged", limit));
+}
+
+/// Makes the run's request from the options. Throws dmoscope::UsageError that names the option.
+RunRequest request_of(const dmoscope::InputMesh& input, const SmoothOptions& options) {
+  RunRequest request;
+  dmoscope::RunParameters& parameters = request.parameters;
+  Words words = options.options;
+  const bool said_gap = words.count("joint-gap") > 0;
+  dmoscope::require_thread_count(options.threads);
+  request.until_converged = options.until_converged || (words.count("recipe") > 0 && !options.iterations);
+  refuse_together(words, request.until_converged);
+  if (const std::string method = take(words, "method"); !method.empty()) {
+    static_cast<void>(dmoscope::method_info(method));
+    parameters.method = method;
+  }
+  set_objective(parameters, words);
+  for (const dmoscope::ParameterInfo& row : dmoscope::parameter_table())
+    if (const auto node = words.extract(std::string(row.name)); !node.empty())
+      naming(node.key(), [&] { row.from_text(parameters, node.mapped()); });
+  if (const std::string then = take(words, "then"); !then.empty()) naming("then", [&] { set_then(parameters, then, {}); });
+  if (const std::string slide = take(words, "slide"); !slide.empty())
+    naming("slide", [&] { slide_only(parameters, input, dmoscope::vertices_named(input.mesh, slide)); });
+  if (const std::string fix = take(words, "fix"); !fix.empty())
+    for (const Index v : naming("fix", [&] { return dmoscope::vertices_named(input.mesh, fix); })) parameters.fixed.push_back(v);
+  if (const std::string recipe = take(words, "recipe"); !recipe.empty()) {
+    std::string without =
+        follow_recipe(dmoscope::recipe(recipe), input, parameters, said_gap ? std::optional(parameters.joint_gap) : std::nullopt);
+    if (!without.empty()) request.warnings.push_back(std::move(without));
+  }
+  if (const std::string patience = take(words, "patience"); !patience.empty())
+    request.limits.patience = naming("patience", [&] { return dmoscope::to_count(patience); });
+  if (const std::string most = take(words, "max-iterations"); !most.empty())
+    request.limits.max_iterations = naming("max-iterations", [&] { return dmoscope::to_count(most); });
+  if (!words.empty()) refuse_unknown(words.begin()->first);
+
+  for (const Index vertex : options.fixed)
+    if (vertex >= input.mesh.vertex_count())
+      throw dmoscope::UsageError(fmt::format("fixed: there is no vertex {}, the mesh has {}", vertex, input.mesh.vertex_count()));
+  parameters.fixed.insert(parameters.fixed.end(), options.fixed.begin(), options.fixed.end());
+  std::sort(parameters.fixed.begin(), parameters.fixed.end());
+  parameters.fixed.erase(std::unique(parameters.fixed.begin(), parameters.fixed.end()), parameters.fixed.end());
+  validate(parameters.search);
+  validate(parameters.options);
+  if (request.until_converged) be_patient(parameters, request.limits.patience);
+  return request;
+}
+
+Statistics statistics_of(const dmoscope::Statistics& s) {
+  return {s.minimum, s.mean, s.movable_minimum, s.inverted, s.worst_element == dmoscope::kNoIndex ? 0 : s.worst_element};
+}
+
+}  // namespace
+
+std::vector<Metric> metrics() {
+  std::vector<Metric> all;
+  const auto add = [&all](const dmoscope::MetricInfo& m, std::string_view title, std::string_view formula, std::string_view doc) {
+    all.push_back({std::string(m.name), std::string(title), m.lowest, m.highest, std::string(formula), std::string(doc)});
+  };
+  for (const dmoscope::MetricInfo& m : dmoscope::metric_table()) add(m, m.title, m.formula, m.doc);
+  for (const dmoscope::NamedFormula& m : dmoscope::named_formulas()) add(info(dmoscope::parse_metric(m.name)), m.title, m.formula, m.doc);
+  return all;
+}
+
+std::vector<double> quality(const Mesh& mesh, const std::string& metric, unsigned threads) {
+  return translated([&] {
+    dmoscope::require_thread_count(threads);
+    const dmoscope::Metric parsed = dmoscope::parse_metric(metric);
+    dmoscope::ThreadPool pool(threads);
+    std::vector<double> values(mesh.cell_count());
+    dmoscope::element_qualities(mesh.data()->judge()->quality_context(), mesh.data()->judged_positions(), parsed, &pool, values);
+    return values;
+  });
+}
+
+Statistics statistics(const Mesh& mesh, const std::string& metric, unsigned threads) {
+  return translated([&] {
+    dmoscope::require_thread_count(threads);
+    const auto judge = mesh.data()->judge();
+    const dmoscope::InputMesh& input = *judge;
+    const dmoscope::Metric parsed = dmoscope::parse_metric(metric);
+    require_defined(parsed, input);
+    dmoscope::ThreadPool pool(threads);
+    return statistics_of(
+        dmoscope::compute_statistics(input.quality_context(), mesh.data()->judged_positions(), parsed, input.topology.boundary(), &pool));
+  });
+}
+
+namespace {
+
+Iteration iteration_of(const dmoscope::IterationRecord& record) {
+  return {record.iteration, statistics_of(record.statistics), record.moved, record.seconds};
+}
+
+/// Steps the run to the end that the request gives, or until it is cancelled.
+void advance(dmoscope::Run& run, const RunRequest& request, const SmoothOptions& options, Smoothed& result) {
+  dmoscope::Progress& progress = options.progress.state().progress;
+  const auto after = [&](const dmoscope::Run& at) {
+    if (!options.after_iteration) return;
+    if (!options.after_iteration(iteration_of(at.history().records()[at.moment().iteration]))) throw dmoscope::Cancelled();
+  };
+  try {
+    constexpr std::uint64_t kUsual = 20;
+    const dmoscope::Outcome outcome = request.until_converged ? run.until_converged(request.limits, progress, after)
+                                                              : run.iterate(options.iterations.value_or(kUsual), progress, after);
+    const bool optimises = dmoscope::method_info(run.parameters().method).optimises;
+    if (request.until_converged || !optimises) run.end_at_best(progress);
+    for (std::string& sentence : missing_phases(run)) result.warnings.push_back(std::move(sentence));
+    result.converged = request.until_converged && outcome.reason != dmoscope::StopReason::IterationLimit;
+    result.sentence = run.last_outcome().value_or(outcome).sentence();
+  } catch (const dmoscope::Cancelled&) {
+    result.cancelled = true;
+    result.sentence = "cancelled";
+  }
+}
+
+}  // namespace
+
+Smoothed smooth(const Mesh& mesh, const SmoothOptions& options) {
+  return translated([&] {
+    dmoscope::Progress& progress = options.progress.state().progress;
+    std::shared_ptr<const dmoscope::InputMesh> input;
+    try {
+      input = mesh.data()->judged(progress);
+    } catch (const dmoscope::Cancelled&) {
+      return Smoothed{mesh, {}, 0, false, true, "cancelled", {}, {}};
+    }
+    RunRequest request = request_of(*input, options);
+    auto pool = std::make_shared<dmoscope::ThreadPool>(options.threads);
+    dmoscope::Run run(input, request.parameters, pool, 0);  // no past positions: none are returned
+    require_fields(request.parameters.fields, input->mesh);
+    Smoothed result{mesh, {}, 0, false, false, {}, std::move(request.warnings), {}};
+    if (std::string warning = run.take_warning(); !warning.empty()) result.warnings.push_back(std::move(warning));
+    if (run.size_field() && !run.size_field()->note().empty()) result.warnings.push_back(run.size_field()->note());
+    advance(run, request, options, result);
+    for (const dmoscope::IterationRecord& record : run.history().records()) result.history.push_back(iteration_of(record));
+    result.iteration = run.moment().iteration;
+    if (const auto left = find_left_inverted(run)) result.warnings.push_back(left->sentence());
+    if (const auto crossing = find_crossing_faces(run)) result.warnings.push_back(crossing->sentence());
+    std::vector<dmoscope::Vec3> positions = places_in_file(input->mesh, run.positions());
+    dmoscope::Progress unwatched;  // the result until a cancel is completed
+    if (input->mesh.thin) positions = places_with_back(*input, positions, pool.get(), unwatched);
+    dmoscope::MovedFields fields =
+        move_fields(input->mesh.thin ? *input : *mesh.data()->input, request.parameters.fields, positions, pool.get(), unwatched);
+    result.fields = fields.sentence();
+    result.mesh = moved_mesh(mesh, std::move(positions), std::move(fields.values));
+    return result;
+  });
+}
+
+namespace {
+
+void put(double (&to)[3], const dmoscope::Vec3& p) {
+  to[0] = p.x;
+  to[1] = p.y;
+  to[2] = p.z;
+}
+
+/// Converts a trace. `lift`: maps an offset from the vertex to space.
+template <class Traced, class Lift>
+Trace trace_of(const dmoscope::Mesh& mesh, const Traced& traced, const Lift& lift) {
+  Trace result;
+  put(result.from, in_file(mesh, traced.from));
+  put(result.to, in_file(mesh, traced.to));
+  result.before = quality_of(traced.before);
+  result.after = quality_of(traced.after);
+  result.value = traced.value_phrase;
+  result.sentence = traced.sentence();
+  for (const auto& level : traced.levels) {
+    TraceLevel out;
+    out.points = static_cast<std::size_t>(level.points);
+    out.values = level.values;
+    out.quality = level.quality;
+    out.best = level.best ? static_cast<long>(*level.best) : -1L;
+    for (const auto& offset : level.offsets) {
+      const dmoscope::Vec3 place = in_file(mesh, traced.from + lift(offset));
+      out.candidates.insert(out.candidates.end(), {place.x, place.y, place.z});
+    }
+    result.levels.push_back(std::move(out));
+  }
+  return result;
+}
+
+}  // namespace
+
+Trace trace(const Mesh& mesh, Index vertex, const SmoothOptions& options) {
+  return translated([&] {
+    const auto input = mesh.data()->judged(options.progress.state().progress);
+    if (input->is_surface()) throw dmoscope::UsageError("the search of a vertex on a curved surface is not traced here");
+    if (vertex >= input->mesh.vertex_count())
+      throw dmoscope::UsageError("there is no vertex " + std::to_string(vertex) + ", the mesh has " +
+                                 std::to_string(input->mesh.vertex_count()));
+    const RunRequest request = request_of(*input, options);
+    const dmoscope::Run run(input, request.parameters, nullptr, 0);
+    const dmoscope::Sweep sweep = run.sweep();
+    const auto composite =
+        composite_objective_of_visit(run.parameters().metric, run.parameters().combination, run.size_field(), sweep, run.guard());
+    const auto& positions = input->mesh.positions;
+    const auto look = [&](auto function) {
+      return function(*input, positions, run.fixed(), run.parameters().metric, run.parameters().search, vertex, composite, sweep.untangling,
+                      run.guard());
+    };
+    if (input->is_volume())
+      return trace_of(input->mesh, look(dmoscope::trace_volume_visit), [](const dmoscope::Vec3& offset) { return offset; });
+    const dmoscope::Plane plane = input->geometry.plane;
+    return trace_of(input->mesh, look(dmoscope::trace_visit), [plane](const dmoscope::Vec2<double>& offset) { return plane.lift(offset); });
+  });
+}
+
+}  // namespace dmo

@@ -8,16 +8,28 @@
 #include "core/base/error.h"
 #include "core/base/unknown_value.h"
 #include "core/joint/joint_clusters.h"
+#include "core/quality/quality.h"
 
 namespace dmoscope {
 
 namespace {
 const double kUsualGap = JointOptions{}.gap;
-const std::array<Recipe, 4> kRecipes{
+const std::array<Recipe, 5> kRecipes{
     {{"best", "a minimum within 0.3 % of what can be reached, then the best mean that keeps it", "dmo", "joint,mean", 3e-3},
+     {"hex", "for hexahedra: shapes a third better than the worst one's, then the best scaled Jacobian that keeps them, then the mean",
+      "dmo", "joint,mean", 3e-3, true},
      {"minimum", "the best minimum, whatever the mean", "dmo", "joint", kUsualGap},
      {"mean", "what single vertices reach, then the best mean that keeps it", "dmo", "mean", kUsualGap},
      {"paper", "the method of the paper alone", "dmo", "nothing", kUsualGap}}};
+
+/// Threshold of the mean ratio beyond which the scaled Jacobian is raised: what an element can give up for that without becoming as bad as
+/// the worst one was. That of a tangled mesh is a small one.
+double mean_ratio_to_reach(const InputMesh& input) {
+  constexpr double kAbove = 1.3, kMost = 0.3, kTangled = 0.05;
+  const auto least =
+      compute_statistics(input.quality_context(), input.mesh.positions, Metric::MeanRatio, std::span<const Index>(), nullptr).minimum;
+  return least > 0.0 ? std::min(kAbove * least, kMost) : kTangled;
+}
 }  // namespace
 
 std::span<const Recipe> recipe_table() { return kRecipes; }
@@ -31,9 +43,11 @@ const Recipe& recipe(std::string_view name) {
 std::string follow_recipe(const Recipe& recipe, const InputMesh& input, RunParameters& parameters, std::optional<double> said_gap) {
   parameters.method = recipe.method;
   parameters.combination.reset();
+  if (recipe.raises_scaled_jacobian && parameters.metric == RunParameters{}.metric)
+    parameters.combination = CompositeTerms{mean_ratio_to_reach(input), Metric::ScaledJacobian};
   parameters.joint_gap = said_gap.value_or(recipe.joint_gap);
   set_then(parameters, recipe.then, {});
-  const std::string why_not = parameters.then_joint ? why_not_joint(input, parameters.metric) : std::string();
+  const std::string why_not = parameters.then_joint ? why_not_joint(input, {parameters.metric, parameters.combination}) : std::string();
   if (why_not.empty()) return {};
   parameters.then_joint.reset();
   return fmt::format("the recipe \"{}\" goes without joint moves: {}", recipe.name, why_not);

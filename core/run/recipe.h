@@ -12,16 +12,17 @@ namespace dmoscope {
 
 struct Recipe {
   std::string_view name, doc;
-  std::string_view method, then;  // see set_then()
-  double joint_gap;               // see RunParameters
+  std::string_view method, then;        // see set_then()
+  double joint_gap;                     // see RunParameters
+  bool raises_scaled_jacobian = false;  // beyond a mean ratio a little above the input's least, unless another metric is said
 };
 /// Table of all recipes, the recommended one first.
 [[nodiscard]] std::span<const Recipe> recipe_table();
 /// Recipe of this name. Throws UsageError that lists the known ones.
 [[nodiscard]] const Recipe& recipe(std::string_view name);
 
-/// Sets method and phases, with a PhaseBegin of its own, and the gap of joint moves unless a person `said_gap`. Leaves out what this mesh
-/// and metric do not allow, and returns a sentence on it; usually empty.
+/// Sets method, aims and phases, with a PhaseBegin of its own, and the gap of joint moves unless a person `said_gap`. Leaves out what this
+/// mesh and metric do not allow, and returns a sentence on it; usually empty.
 [[nodiscard]] std::string follow_recipe(const Recipe& recipe, const InputMesh& input, RunParameters& parameters,
                                         std::optional<double> said_gap = {});
 

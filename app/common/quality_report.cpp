@@ -100,6 +100,11 @@ Json json_of_inverted(const InvertedCount& inverted) {
   return list;
 }
 
+Json json_of(const SurfaceDistance& distance) {
+  const auto one = [](const Distances& d) { return Json{{"mean", d.mean}, {"greatest", d.greatest}}; };
+  return {{"to", one(distance.to)}, {"back", one(distance.back)}, {"beside", distance.beside}};
+}
+
 std::string sentence_of(const InvertedCount& inverted) {
   constexpr std::size_t kMostSaid = 10;
   std::string text = fmt::format("{} inverted", grouped(inverted.all));

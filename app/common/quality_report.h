@@ -9,6 +9,7 @@
 #include "core/mesh/plane.h"
 #include "core/quality/metric.h"
 #include "core/quality/quality.h"
+#include "core/reference/surface_distance.h"
 
 namespace dmoscope::app {
 
@@ -37,5 +38,8 @@ struct MetricSummary {
 void print_counts(const std::string& mesh, std::uint64_t vertices, std::uint64_t elements, const InvertedCount& inverted);
 /// Prints the table of all metrics, then the worst elements of each.
 void print_summaries(const std::vector<MetricSummary>& summaries, const Geometry& geometry);
+
+/// {"to": {"mean": ..., "greatest": ...}, "back": ..., "beside": [...]}
+[[nodiscard]] Json json_of(const SurfaceDistance& distance);
 
 }  // namespace dmoscope::app

@@ -149,6 +149,8 @@ Json json_of(const SmoothReport& r) {
                                {"elements", json_of_inverted(r.left->all)}};
   object["crossing_faces"] = nullptr;
   if (r.crossing) object["crossing_faces"] = {{"before", r.crossing->before}, {"after", r.crossing->after}};
+  object["fit"] = nullptr;
+  if (r.fit) object["fit"] = {{"before", app::json_of((*r.fit)[0])}, {"after", app::json_of((*r.fit)[1])}};
   object["report_card"] = r.card ? card_json(*r.card) : Json(nullptr);
   object["held_by"] = r.held ? json_of(*r.held) : Json(nullptr);
   std::vector<std::string> carried = r.fields.whole;
@@ -172,6 +174,7 @@ void print_summary(const SmoothReport& r) {
   if (r.card) print("  {}\n", r.card->sentence(true));
   if (r.run.input().mesh.degrees) print("  in degrees of longitude and latitude: judged on the Earth\n");
   if (const std::string text = sliding_sentence(r.run); !text.empty()) print("  {}\n", text);
+  if (r.fit) print("  {}\n", fit_sentence(r.run.input(), (*r.fit)[0], (*r.fit)[1]));
   print("  {:<16} {:>10} -> {}\n", "minimum", brief(before.minimum), brief(after.minimum));
   print("  {:<16} {:>10} -> {}\n", "movable minimum", brief(before.movable_minimum), brief(after.movable_minimum));
   print("  {:<16} {:>10}    (elements whose corners are all fixed)\n", "ceiling", brief(after.ceiling));

@@ -1,6 +1,7 @@
 #pragma once
 // Report of a smoothing run, for the user and as JSON.
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -11,6 +12,7 @@
 #include "app/common/quality_report.h"
 #include "core/inspect/held_minimum.h"
 #include "core/inspect/joint_hold.h"
+#include "core/reference/surface_distance.h"
 #include "core/run/crossing_faces.h"
 #include "core/run/ending.h"
 #include "core/run/report_card.h"
@@ -30,12 +32,13 @@ struct SmoothReport {
   unsigned ranks = 0;               // 0: one process alone
   Outcome outcome{};
   double seconds = 0.0;
-  std::uint64_t inside_alone_before = 0;    // elements that are inverted inside alone
-  std::optional<LeftInverted> left{};       // in the positions that are written
-  std::optional<CrossingFaces> crossing{};  // in the positions that are written
-  std::optional<ReportCard> card{};         // about the positions that are written; none with many processes
-  std::optional<HeldMinimum> held{};        // at the positions that are written
-  MovedFields fields{};                     // nodal fields that are written
+  std::uint64_t inside_alone_before = 0;                // elements that are inverted inside alone
+  std::optional<LeftInverted> left{};                   // in the positions that are written
+  std::optional<CrossingFaces> crossing{};              // in the positions that are written
+  std::optional<std::array<SurfaceDistance, 2>> fit{};  // before and after; none where nothing is drawn to a surface
+  std::optional<ReportCard> card{};                     // about the positions that are written; none with many processes
+  std::optional<HeldMinimum> held{};                    // at the positions that are written
+  MovedFields fields{};                                 // nodal fields that are written
   std::vector<std::string> warnings{};
   std::optional<Provenance> provenance{};
 

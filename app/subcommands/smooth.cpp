@@ -121,6 +121,13 @@ std::optional<HeldMinimum> look_for_hints(const Run& run, bool inverted, Hints h
   return held;
 }
 
+/// Distances from the surface to which vertices were drawn, in the input and in the positions that are written.
+std::optional<std::array<SurfaceDistance, 2>> fit_of(const Run& run) {
+  if (!(run.parameters().fit > 0.0)) return std::nullopt;
+  const InputMesh& input = run.input();
+  return std::array{surface_distance(input, input.mesh.positions), surface_distance(input, run.positions())};
+}
+
 int smooth(const SmoothOptions& options) {
   refuse_early(options);
   const Hints hints = parse_hints(options.run.hints);
@@ -209,6 +216,7 @@ int smooth(const SmoothOptions& options) {
                             .inside_alone_before = count_inverted(input->quality_context(), input->mesh.positions).inside_alone,
                             .left = std::move(left),
                             .crossing = crossing,
+                            .fit = fit_of(run),
                             .card = report_card(run, pool.get()),
                             .held = std::move(held),
                             .fields = std::move(fields),

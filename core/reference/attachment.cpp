@@ -14,7 +14,7 @@ namespace {
 constexpr double kBeside = 1e-2;
 /// Greatest distance of a vertex from a corner or a line, as a share of the least height of its faces; also that of a line from the edge
 /// along it, as a share of the edge's length.
-constexpr double kReach = 0.25;
+constexpr double kReach = 0.25, kReachOfFit = 0.5;  // kReachOfFit: where vertices are drawn to it, halfway to the next row
 
 std::array<Index, 2> edge_of(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
 
@@ -29,11 +29,12 @@ FacetTree tree_of(std::vector<std::array<Vec3, 3>> triangles) {
 }  // namespace
 
 Attachment::Attachment(const InputMesh& input, const ElementTable& faces, const InputMesh& reference, std::shared_ptr<const Facets> facets,
-                       const CurveEnds& ends)
+                       const CurveEnds& ends, double fit)
     : input_(input),
       reference_(reference),
       facets_(std::move(facets)),
-      beside_(kBeside * reference.geometry.size),
+      fits_(fit > 0.0),
+      beside_(fits_ ? fit : kBeside * reference.geometry.size),
       reach_(input.mesh.vertex_count(), 0.0),
       longest_(input.mesh.vertex_count(), 0.0),
       corner_(input.mesh.vertex_count(), 0),
@@ -45,6 +46,8 @@ Attachment::Attachment(const InputMesh& input, const ElementTable& faces, const 
   find_standing();
   find_edges();
 }
+
+double Attachment::share() const { return fits_ ? kReachOfFit : kReach; }
 
 /// Finds the feature lines of the reference; lines between two vertices that do not slide are lines of one edge.
 void Attachment::find_lines(const CurveEnds& ends) {
@@ -77,7 +80,7 @@ void Attachment::measure_faces(const ElementTable& faces) {
   std::ranges::sort(edges_);
   edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
   for (Index v = 0; v < reach_.size(); ++v)
-    if (height[v] < std::numeric_limits<double>::infinity()) reach_[v] = std::clamp(kReach * height[v], 1e-7 * beside_, beside_);
+    if (height[v] < std::numeric_limits<double>::infinity()) reach_[v] = std::clamp(share() * height[v], 1e-7 * beside_, beside_);
 }
 
 void Attachment::find_corners(const CurveEnds& ends) {
@@ -95,7 +98,8 @@ void Attachment::find_corners(const CurveEnds& ends) {
   for (Index v = 0; v < reach_.size(); ++v) {
     if (reach_[v] == 0.0) continue;
     const auto found = tree.nearest(input_.mesh.positions[v], 0);
-    if (!(found.point.square <= reach_[v] * reach_[v])) continue;
+    const double reach = fits_ ? beside_ : reach_[v];
+    if (!(found.point.square <= reach * reach)) continue;
     const auto [at, is_new] = nearest.try_emplace(corners[found.triangle], found.point.square, v);
     if (!is_new) at->second = std::min(at->second, std::pair(found.point.square, v));
   }
@@ -140,7 +144,7 @@ void Attachment::find_standing() {
 /// Whether the line between two places is near enough to the straight edge between them.
 bool Attachment::runs_along(const FeatureLine& line, const Standing& from, const Standing& to) const {
   const Vec3 a = input_.mesh.positions[from.vertex], b = input_.mesh.positions[to.vertex];
-  const double most = kReach * length(b - a);
+  const double most = share() * length(b - a);
   const auto count = static_cast<double>(line.points.size());
   const double last = to.along > from.along ? to.along : to.along + count;
   for (double i = std::floor(from.along) + 1.0; i < last; i += 1.0)
@@ -193,6 +197,13 @@ FacetTree::Nearest Attachment::nearest_of(const FacetTree& all, Vec3 p, Index ne
   const FacetTree::Nearest nearest = all.nearest(p, near);
   const FacetTree::Nearest wanted = facets_->nearest(p, of_patch);
   return std::sqrt(wanted.point.square) <= std::sqrt(nearest.point.square) + most ? wanted : nearest;
+}
+
+OntoLines Attachment::take_lines() {
+  OntoLines onto{std::move(lines_), std::move(line_of_), beside_};
+  for (Index v = 0; v < corner_.size(); ++v)
+    if (corner_[v] != 0) onto.corners.emplace_back(v, reference_.mesh.positions[corner_points_[v]]);
+  return onto;
 }
 
 SlidingFaces Attachment::lay(ElementTable faces, const Facets& own, CurveEnds& ends) const {

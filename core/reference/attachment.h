@@ -18,9 +18,10 @@ namespace dmoscope {
 /// must outlive it.
 class Attachment {
  public:
-  /// Attaches a mesh. `faces`: its sliding faces. `facets`, `ends`: those of the reference, with its own feature edges.
+  /// Attaches a mesh. `faces`: its sliding faces. `facets`, `ends`: those of the reference, with its own feature edges. `fit`: see
+  /// StandingRule.
   Attachment(const InputMesh& input, const ElementTable& faces, const InputMesh& reference, std::shared_ptr<const Facets> facets,
-             const CurveEnds& ends);
+             const CurveEnds& ends, double fit);
 
   /// Whether a vertex of the mesh is the nearest one to a corner of the reference, and near it.
   [[nodiscard]] bool on_corner(Index vertex) const { return corner_[vertex] != 0; }
@@ -32,7 +33,7 @@ class Attachment {
   /// others off the edges are held.
   [[nodiscard]] SlidingFaces lay(ElementTable faces, const Facets& own, CurveEnds& ends) const;
   /// The feature lines, and the line near which each vertex stands.
-  [[nodiscard]] OntoLines take_lines() { return {std::move(lines_), std::move(line_of_), beside_}; }
+  [[nodiscard]] OntoLines take_lines();
 
  private:
   using Edge = std::array<Index, 2>;
@@ -41,6 +42,7 @@ class Attachment {
     Index vertex;
     friend auto operator<=>(const Standing&, const Standing&) = default;
   };
+  [[nodiscard]] double share() const;
   void find_lines(const CurveEnds& ends);
   void measure_faces(const ElementTable& faces);
   void find_corners(const CurveEnds& ends);
@@ -54,6 +56,7 @@ class Attachment {
   const InputMesh& input_;
   const InputMesh& reference_;
   std::shared_ptr<const Facets> facets_;
+  bool fits_;  // whether vertices are drawn to the reference
   double beside_;
   std::vector<FeatureLine> lines_;
   std::vector<Edge> edges_;                      // edges of the faces, ascending

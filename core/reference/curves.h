@@ -25,8 +25,9 @@ struct FeatureLine {
 /// Feature lines of another mesh, along which vertices slide instead of along edges of their own.
 struct OntoLines {
   std::vector<FeatureLine> lines;
-  std::vector<Index> line_of;  // by vertex of the mesh, the line that it slides along
-  double beside = 0.0;         // greatest distance of a vertex from its line, in mesh units
+  std::vector<Index> line_of;                     // by vertex of the mesh, the line that it slides along
+  double beside = 0.0;                            // greatest distance of a vertex from its line, in mesh units
+  std::vector<std::pair<Index, Vec3>> corners{};  // vertices of the mesh on corners of the other one, ascending, and these corners
 };
 
 /// Curves along which vertices slide. Places on a curve are lengths along it, in mesh units, from its first point; on a closed curve

@@ -39,7 +39,13 @@ Domain::Domain(const InputMesh& input, const StandingRule& rule, SurfaceEnds end
     inside_ += slides(v) && !on_boundary ? 1 : 0;
     corners_ += rule.boundary == BoundaryRule::Slide && on_boundary && !slides(v) ? 1 : 0;
   }
+  if (ends.onto) corner_points_ = std::move(ends.onto->corners);
   take_pairs(input);
+}
+
+std::optional<Vec3> Domain::corner(Index vertex) const {
+  const auto found = std::ranges::lower_bound(corner_points_, vertex, {}, &std::pair<Index, Vec3>::first);
+  return found != corner_points_.end() && found->first == vertex ? std::optional(found->second) : std::nullopt;
 }
 
 void Domain::take_pairs(const InputMesh& input) {

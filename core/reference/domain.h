@@ -2,9 +2,11 @@
 // Domain of the vertices that slide: the curves of the input and, of a volume mesh, its surfaces.
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/mesh/ties.h"
@@ -37,6 +39,8 @@ class Domain {
   [[nodiscard]] bool slides(Index vertex) const noexcept { return on_curve(vertex) || on_surface(vertex); }
   [[nodiscard]] bool on_curve(Index vertex) const noexcept { return curves_.slides(vertex); }
   [[nodiscard]] bool on_surface(Index vertex) const noexcept { return faces_.any() && faces_.carries(vertex); }
+  /// The corner of another mesh's surface that a vertex belongs to, where it slides on that.
+  [[nodiscard]] std::optional<Vec3> corner(Index vertex) const;
   [[nodiscard]] const Curves& curves() const noexcept { return curves_; }
   [[nodiscard]] const SlidingFaces& faces() const noexcept { return faces_; }  // faces of the surface; none in a plane
 
@@ -86,10 +90,11 @@ class Domain {
   std::vector<Segment> segments_;  // segments of all curves, ascending
   std::vector<EdgeEnds> feature_edges_;
   std::vector<Partners> pairs_;
-  std::vector<Index> pair_at_, followers_;  // by vertex; empty: no pairs
-  std::vector<HeldOn> held_;                // by vertex
-  std::string surface_;                     // the name of the mesh on whose surface it slides; empty: its own
-  bool said_in_plane_ = false;              // whether a person names feature edges of a planar mesh
+  std::vector<Index> pair_at_, followers_;             // by vertex; empty: no pairs
+  std::vector<HeldOn> held_;                           // by vertex
+  std::vector<std::pair<Index, Vec3>> corner_points_;  // see corner()
+  std::string surface_;                                // the name of the mesh on whose surface it slides; empty: its own
+  bool said_in_plane_ = false;                         // whether a person names feature edges of a planar mesh
   bool is_surface_, single_precision_;
   Index sliding_ = 0, inside_ = 0, on_curves_ = 0, corners_ = 0;
 };

@@ -46,6 +46,8 @@ class SlidingFaces {
   /// Lets a vertex slide on the surface. `home`: a facet of the patch that it never leaves.
   void carry(Index vertex, Index home) { home_[vertex] = home; }
   [[nodiscard]] bool carries(Index vertex) const noexcept { return home_[vertex] != kNoIndex; }
+  /// The place on the surface that is nearest to a position of a vertex that slides, however far away.
+  [[nodiscard]] FacetTree::Nearest nearest(Vec3 position, Index vertex) const { return facets_->nearest(position, home_[vertex]); }
   /// Place on the surface of a vertex that slides; none for one that was put beside its patch. It is on the nearest facet, of several the
   /// first, so it follows from the position alone. `near`: a facet of the patch to begin with; a near one makes it faster.
   [[nodiscard]] std::optional<FacetPlace> place(Index vertex, Vec3 position, Index near = kNoIndex) const;

@@ -31,6 +31,7 @@ struct StandingRule {
   double feature_angle = 40.0;  // degrees; an edge is a feature edge if the surface of a volume mesh folds there by more
   Kinds kinds{};                // kinds by hand, which override angles
   LayerRule layers = LayerRule::Free;
+  double fit = 0.0;  // mesh units; vertices so near the surface of another mesh belong to it and are drawn to it; 0: not drawn
   [[nodiscard]] bool slides() const noexcept { return boundary == BoundaryRule::Slide || interfaces == InterfaceRule::Slide; }
   friend bool operator==(const StandingRule&, const StandingRule&) = default;
 };

@@ -18,8 +18,9 @@ namespace {
 /// Collects the faces, parts them at feature edges, and finds the vertices that are held.
 class SurfaceFinder {
  public:
-  SurfaceFinder(const InputMesh& input, const StandingRule& rule)
-      : input_(input), rule_(rule), ends_(input.mesh.vertex_count()), names_(input.mesh, input.topology) {}
+  /// `is_reference`: whether another mesh slides on the surface, so that creases that end in it are none.
+  SurfaceFinder(const InputMesh& input, const StandingRule& rule, bool is_reference)
+      : input_(input), rule_(rule), is_reference_(is_reference), ends_(input.mesh.vertex_count()), names_(input.mesh, input.topology) {}
 
   SurfaceEnds find() {
     collect_faces();
@@ -41,8 +42,8 @@ class SurfaceFinder {
   /// Finds feature edges and corners by the surface of another mesh; edges that the file names along none of these stay.
   SurfaceEnds find_on_another() {
     const StandingRule of_reference{InterfaceRule::Slide, BoundaryRule::Slide, rule_.corner_angle, rule_.feature_angle};
-    SurfaceEnds reference = surface_ends(*input_.surface, of_reference);
-    Attachment attachment(input_, faces_, *input_.surface, reference.faces.shared_facets(), reference.curves);
+    SurfaceEnds reference = SurfaceFinder(*input_.surface, of_reference, true).find();
+    Attachment attachment(input_, faces_, *input_.surface, reference.faces.shared_facets(), reference.curves, rule_.fit);
     attachment_ = &attachment;
     for (Index v = 0; v < ends_.size(); ++v)
       if (attachment.on_corner(v)) ends_.hold(v, HeldOn::Corner);
@@ -145,13 +146,13 @@ class SurfaceFinder {
     std::ranges::sort(named_edges_);
   }
 
-  /// Joins feature edges, and returns the links across all other edges; see Facets.
-  std::vector<Index> part() {
-    struct Side {
-      Edge edge;
-      Index face, corner;  // the corner: index among all corners
-      bool forwards;
-    };
+  struct Side {
+    Edge edge;
+    Index face, corner;  // the corner: index among all corners
+    bool forwards;
+  };
+  /// Sides of all faces, by edge.
+  [[nodiscard]] std::vector<Side> sides_of_faces() const {
     std::vector<Side> sides;
     for (Index f = 0; f < faces_.size(); ++f) {
       const auto c = faces_.corners(f);
@@ -162,6 +163,13 @@ class SurfaceFinder {
       }
     }
     std::ranges::sort(sides, {}, [](const Side& s) { return std::pair(s.edge, s.corner); });
+    return sides;
+  }
+
+  /// Joins feature edges, and returns the links across all other edges; see Facets.
+  std::vector<Index> part() {
+    const std::vector<Side> sides = sides_of_faces();
+    if (is_reference_) find_dead_ends(sides);
     std::vector<Index> links(faces_.all_corners().size(), kNoIndex);
     for (std::size_t first = 0, last = 0; first < sides.size(); first = last) {
       while (last < sides.size() && sides[last].edge == sides[first].edge) ++last;
@@ -183,9 +191,42 @@ class SurfaceFinder {
     return links;
   }
 
+  /// Finds the creases of a line that ends inside the surface, as those of a coarse or noisy surface do: no shape has an edge there.
+  void find_dead_ends(std::span<const Side> sides) {
+    std::map<Index, std::vector<std::pair<Index, bool>>>
+        edges_at;  // by vertex, the other ends of feature edges, and whether they fold alone
+    for (std::size_t first = 0, last = 0; first < sides.size(); first = last) {
+      while (last < sides.size() && sides[last].edge == sides[first].edge) ++last;
+      const auto [a, b] = sides[first].edge;
+      const bool between_two = last - first == 2 && sides[first].forwards != sides[first + 1].forwards;
+      if (between_two && !is_feature(sides[first].edge, sides[first].face, sides[first + 1].face)) continue;
+      edges_at[a].emplace_back(b, between_two && !is_named(sides[first].edge, sides[first].face, sides[first + 1].face));
+      edges_at[b].emplace_back(a, edges_at[a].back().second);
+    }
+    std::vector<Index> ends;
+    for (const auto& [v, edges] : edges_at) ends.push_back(v);
+    while (!ends.empty()) {
+      const Index v = ends.back();
+      ends.pop_back();
+      auto& edges = edges_at[v];
+      if (edges.size() != 1 || !edges.front().second) continue;
+      const Index other = edges.front().first;
+      dead_ends_.push_back(edge_of(v, other));
+      edges.clear();
+      std::erase_if(edges_at[other], [v](const auto& edge) { return edge.first == v; });
+      ends.push_back(other);
+    }
+    std::ranges::sort(dead_ends_);
+  }
+
+  /// Whether the file makes an edge a feature.
+  [[nodiscard]] bool is_named(const Edge& edge, Index face, Index other) const {
+    const bool interfaces = input_.is_surface() && rule_.interfaces != InterfaceRule::Free && input_.interfaces.between(face, other);
+    return interfaces || name_of_[face] != name_of_[other] || std::ranges::binary_search(named_edges_, edge);
+  }
   [[nodiscard]] bool is_feature(const Edge& edge, Index face, Index other) const {
-    if (input_.is_surface() && rule_.interfaces != InterfaceRule::Free && input_.interfaces.between(face, other)) return true;
-    if (name_of_[face] != name_of_[other] || std::ranges::binary_search(named_edges_, edge)) return true;
+    if (is_named(edge, face, other)) return true;
+    if (std::ranges::binary_search(dead_ends_, edge)) return false;
     if (attachment_ != nullptr) return attachment_->is_along(edge[0], edge[1]);
     const Vec3 a = normal(face), b = normal(other);
     if (a == Vec3{} || b == Vec3{} || rule_.kinds.has_feature(edge)) return true;
@@ -251,6 +292,7 @@ class SurfaceFinder {
 
   const InputMesh& input_;
   const StandingRule& rule_;
+  bool is_reference_;
   const Attachment* attachment_ = nullptr;  // attachment to the surface of another mesh
   CurveEnds ends_;
   NamedEdges names_;
@@ -258,10 +300,11 @@ class SurfaceFinder {
   Index boundary_faces_ = 0;  // number of boundary faces, which come first; the others are those of interfaces
   std::vector<Index> name_of_;
   std::vector<Edge> named_edges_;  // edges in ascending order
+  std::vector<Edge> dead_ends_;    // of a reference; edges in ascending order
 };
 
 }  // namespace
 
-SurfaceEnds surface_ends(const InputMesh& input, const StandingRule& rule) { return SurfaceFinder(input, rule).find(); }
+SurfaceEnds surface_ends(const InputMesh& input, const StandingRule& rule) { return SurfaceFinder(input, rule, false).find(); }
 
 }  // namespace dmoscope

@@ -15,9 +15,11 @@ BestState::BestState(const RunParameters& parameters, For use)
                                                        : Rule::Values),
       may_cost_mean_(parameters.mean != MeanKind::Arithmetic),
       least_rise_(parameters.then_mean || parameters.then_joint ? std::numeric_limits<double>::denorm_min() : kLeastRise),
-      use_(use) {}
+      use_(use),
+      fits_(parameters.fit > 0.0) {}
 
 void BestState::take(const IterationRecord& record) {
+  if (fits_ && record.iteration == 0) return;
   if (!first_ && !is_better(record)) return;
   if (first_) {
     input_ = record.statistics;

@@ -17,6 +17,7 @@ inline constexpr double kLeastRise = 1e-6;
 ///   moves raised what they can change. The minimum does not rise noticeably any more there, but goes on to cost the mean. Where another
 ///   phase follows, any rise counts: it begins with the best state, and must not lower the minimum.
 /// - For any other method: fewest inverted elements, then greatest minimum, then greatest movable minimum, then greatest mean.
+/// - For a run that draws vertices to a surface: none before it has done so.
 /// - For a run with two aims, which gives up some of the first for the second: the last.
 /// For a run by one metric, never one that is worse than the input by fewest inverted elements, then greatest minimum (a rise of less than
 /// kLeastRise, or a thousandth where that is less, is none), then greatest mean. Among equals the last.
@@ -40,7 +41,7 @@ class BestState {
   bool may_cost_mean_;  // whether the phase that raises another mean than the statistics' may cost some of that
   double least_rise_;   // Rule::MinimumThenMean
   For use_;
-  bool first_ = true;
+  bool first_ = true, fits_;  // fits_: the input lies beside the surface to which it is drawn, and does not count
   std::uint64_t best_ = 0;
   Statistics input_, statistics_;         // statistics of the input and of the best iteration
   double minimum_ = 0.0, movable_ = 0.0;  // Rule::MinimumThenMean: at the last rise

@@ -213,6 +213,20 @@ const std::array kTable{
                   .from_text = [](P& p, Word word) { p.max_deviation = to_positive(word, 1.0, "greatest deviation"); },
                   .in_title = [](const P& p) { return fmt::format("max deviation {:g}", p.max_deviation); },
                   .before = "0.001"},
+    ParameterInfo{.name = "fit",
+                  .title = "fit",
+                  .type = "DISTANCE|off",
+                  .doc = "Vertices within this distance of another mesh's surface are drawn to their nearest place on it first, as far "
+                         "as all elements stay sound and the guard holds. The boundary slides then",
+                  .sliding_only = true,
+                  .to_text = [](const P& p) { return p.fit > 0.0 ? fmt::format("{}", p.fit) : std::string("off"); },
+                  .from_text =
+                      [](P& p, Word word) {
+                        p.fit = word == "off" ? 0.0 : to_positive(word, std::numeric_limits<double>::max(), "distance of a fit");
+                        if (p.fit > 0.0) p.boundary = BoundaryRule::Slide;
+                      },
+                  .in_title = [](const P& p) { return fmt::format("fit {:g}", p.fit); },
+                  .before = "off"},
     ParameterInfo{.name = "joint-gap",
                   .title = "joint gap",
                   .type = "X",
@@ -282,7 +296,7 @@ const ParameterInfo& parameter_info(std::string_view name) {
 
 StandingRule RunParameters::standing() const {
   const bool kept = target_of(metric).is_ideal() && layers == LayerRule::Keep;
-  return {interfaces, boundary, corner_angle, feature_angle, kinds, kept ? LayerRule::Keep : LayerRule::Free};
+  return {interfaces, boundary, corner_angle, feature_angle, kinds, kept ? LayerRule::Keep : LayerRule::Free, fit};
 }
 
 void aim_at(RunParameters& parameters, const Target& target) {

@@ -53,7 +53,8 @@ struct RunParameters {
   Kinds kinds{};                                        // kinds of vertices and edges that the user sets against the angles
   double joint_gap = JointOptions{}.gap;                // gap of joint moves, see JointOptions::gap
   double max_deviation = 1e-3;                          // limit for the boundary, as a share of the diagonal of the mesh's box
-  FieldRules fields{};                                  // treatment of nodal fields when the mesh is written
+  double fit = 0.0;     // mesh units; vertices so near the surface of another mesh are drawn to it first; 0: none
+  FieldRules fields{};  // treatment of nodal fields when the mesh is written
   Backend backend = Backend::Auto;
   friend bool operator==(const RunParameters&, const RunParameters&) = default;
   [[nodiscard]] StandingRule standing() const;

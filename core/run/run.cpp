@@ -89,12 +89,19 @@ std::optional<Guard> find_guard(const InputMesh& input, const RunParameters& p, 
   return Guard{p.guard->metric, floor};
 }
 
-void require_fixed_in_place(const InputMesh& input, std::span<const std::uint8_t> fixed, const BeginPositions& begin) {
+void require_fit(const InputMesh& input, const RunParameters& parameters) {
+  if (parameters.fit > 0.0 && !input.surface)
+    throw UsageError(
+        fmt::format("a fit takes the surface of another mesh, on which the vertices of {} slide: --surface FILE", input.mesh.name));
+}
+
+void require_fixed_in_place(const InputMesh& input, std::span<const std::uint8_t> fixed, const Domain* domain,
+                            const BeginPositions& begin) {
   if (!begin) return;
   const std::vector<Vec3>& places = input.mesh.positions;
   if (begin->size() != places.size()) throw UsageError(fmt::format("a run begins with {} vertices, not {}", begin->size(), places.size()));
   for (Index v = 0; v < places.size(); ++v)
-    if (fixed[v] != 0 && std::memcmp(&(*begin)[v], &places[v], sizeof(Vec3)) != 0)
+    if (fixed[v] != 0 && !(domain != nullptr && domain->corner(v)) && std::memcmp(&(*begin)[v], &places[v], sizeof(Vec3)) != 0)
       throw UsageError(fmt::format("vertex {} is fixed, but has moved", v));
 }
 
@@ -125,7 +132,8 @@ Run::Run(std::shared_ptr<const InputMesh> input, RunParameters parameters, std::
       blocks_(block_plan()),
       history_(history_bytes),
       first_phase_(parameters_) {
-  require_fixed_in_place(*input_, fixed(), begin_);
+  require_fit(*input_, parameters_);
+  require_fixed_in_place(*input_, fixed(), domain_.get(), begin_);
   if (begin_ && executor_.smoother) executor_.smoother->positions_replaced();  // the smoother has taken the input's positions
   history_.record_input({.statistics = statistics(), .second = second_minimum()},
                         begin_ ? begin_ : BeginPositions(input_, &input_->mesh.positions));

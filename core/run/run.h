@@ -262,6 +262,9 @@ class Run {
   [[nodiscard]] JointClusters& joint_clusters();
   void move_jointly(Progress& progress);
   void untangle_jointly(Progress& progress);
+  /// Whether the next iteration draws vertices to the surface of another mesh.
+  [[nodiscard]] bool fit_follows(std::uint64_t iteration) const { return parameters_.fit > 0.0 && iteration == 0; }
+  void fit(Progress& progress);
   void end_joint_iteration(std::span<const Vec3> positions, const JointIteration& done, double seconds);
   [[nodiscard]] bool copy_unkept(std::vector<Vec3>& copy) const;
   [[nodiscard]] bool attempts_to_untangle(std::uint64_t iteration) const;

@@ -12,6 +12,7 @@
 #include "core/inspect/joint_hold.h"
 #include "core/reference/domain.h"
 #include "core/run/run.h"
+#include "core/run/surface_fit.h"
 #include "core/run/sweep_after.h"
 #include "core/smooth/execution/method_table.h"
 
@@ -67,6 +68,22 @@ void Run::untangle_jointly(Progress& progress) {
       if (const Index v = find_vertex(*input_, region->vertices[i]); v != kNoIndex) positions[v] = places[i];
   }
   last_moved_ = found ? found->moved.size() : 0;
+  put(positions, {{iteration}});
+  record({.moment = {iteration}, .moved = last_moved_, .seconds = watch.seconds()});
+}
+
+/// Makes the iteration that draws vertices to the surface of another mesh.
+void Run::fit(Progress& progress) {
+  constexpr double kTangled = 0.05;  // floor of the guard's metric where the input is tangled
+  const Stopwatch watch;
+  std::vector<Vec3> positions(positions_.host().begin(), positions_.host().end());
+  SmoothingTask task = this->task();
+  if (const auto& rule = parameters_.guard; rule && !task.guard) {
+    const double least = compute_statistics(input_->quality_context(), positions, rule->metric, immovable_, pool_.get()).movable_minimum;
+    task.guard = Guard{rule->metric, rule->floor.value_or(least > 0.0 ? least : kTangled)};
+  }
+  last_moved_ = fit_to_surface(task, fixed(), parameters_.fit, positions, progress);
+  const std::uint64_t iteration = at_.moment.iteration + 1;
   put(positions, {{iteration}});
   record({.moment = {iteration}, .moved = last_moved_, .seconds = watch.seconds()});
 }

@@ -87,6 +87,9 @@ void Run::walk_to(const Moment& target, Progress& progress) {
     progress.check();
     if (const Edit* edit = edits_.at(now)) {
       recovering([&] { do_edit(edit->vertices); });
+    } else if (now.visits == 0 && fit_follows(now.iteration)) {
+      fit(progress);
+      begin_next_phase(progress);
     } else if (now.visits == 0 && joint_untangling_follows(now.iteration)) {
       untangle_jointly(progress);
       begin_next_phase(progress);
@@ -127,7 +130,7 @@ std::uint64_t Run::step(StepUnit unit, Progress& progress) {
 
 /// Returns whether the next iteration is a joint move, which is one step.
 bool Run::is_joint(std::uint64_t iteration) const {
-  return joint_follows(iteration) || joint_untangling_follows(iteration) || raise_of_worst_follows(iteration);
+  return fit_follows(iteration) || joint_follows(iteration) || joint_untangling_follows(iteration) || raise_of_worst_follows(iteration);
 }
 
 Moment Run::moment_before(StepUnit unit) const {

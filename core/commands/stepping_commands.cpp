@@ -166,7 +166,8 @@ std::span<const CommandRow> stepping_commands() {
         "Then mean and until-converged in one: as a new run beside the active one, where that has moved without a second phase."},
        {0, 2, raise_mean}},
       {{"make-good", "make-good [RECIPE]",
-        "Follows a recipe until it has converged: best (recommended), hex, minimum, mean or paper. As a new run beside the active one, where "
+        "Follows a recipe until it has converged: best (recommended), hex, minimum, mean or paper. As a new run beside the active one, "
+        "where "
         "that has moved otherwise."},
        {0, 1, make_good}},
       {{"continue-with", "continue-with COMMAND...",

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/same_bits.h"
 #include "core/io/array_patch.h"
 #include "core/io/arrays/hdf5_file.h"
 #include "core/io/cell_table.h"
@@ -245,7 +246,7 @@ Mesh read_med(SourceFile& source, const IoContext& context) {
 
 Notes patch_med(AtomicFile& file, const Mesh& mesh, const MovedMesh& moved, const IoContext& context) {
   Notes notes;
-  if (same_positions(mesh.positions, moved.positions) && moved.fields.empty()) {
+  if (same_bits(mesh.positions, moved.positions) && moved.fields.empty()) {
     file.write(mesh.source->bytes());
     return notes;
   }

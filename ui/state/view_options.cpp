@@ -9,21 +9,13 @@
 namespace dmoscope::ui {
 namespace {
 
-std::vector<ViewOption> all_options() {
-  std::vector<ViewOption> all;
-  for (auto* const part : {&mark_options, &inside_options, &colour_options, &stepping_options, &inspection_options, &plot_options,
-                           &panel_options, &desktop_options})
-    for (ViewOption& option : part()) all.push_back(std::move(option));
-  return all;
-}
-
 /// Value of a number from a file: one below `least` means none, as in older files.
 double from_file(const OptionNumber& number, double value) { return value < number.least && value >= number.rest ? number.rest : value; }
 
 }  // namespace
 
 const std::vector<ViewOption>& view_options() {
-  static const std::vector<ViewOption> table = all_options();
+  static const std::vector<ViewOption> table = all_view_options();
   return table;
 }
 

@@ -124,14 +124,7 @@ struct ViewOption {
 /// Hash that changes when an option does: what is drawn by options must then be drawn again.
 [[nodiscard]] std::uint64_t options_key(const ViewState& state);
 
-// Rows by theme.
-[[nodiscard]] std::vector<ViewOption> mark_options();
-[[nodiscard]] std::vector<ViewOption> inside_options();
-[[nodiscard]] std::vector<ViewOption> colour_options();
-[[nodiscard]] std::vector<ViewOption> stepping_options();
-[[nodiscard]] std::vector<ViewOption> inspection_options();
-[[nodiscard]] std::vector<ViewOption> plot_options();
-[[nodiscard]] std::vector<ViewOption> panel_options();
-[[nodiscard]] std::vector<ViewOption> desktop_options();
+/// Rows of the table, for view_options().
+[[nodiscard]] std::vector<ViewOption> all_view_options();
 
 }  // namespace dmoscope::ui

@@ -9,7 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/base/same_bits.h"
-#include "render/draw_state.h"
+#include "render/framebuffer.h"
 #include "render/mark_painter.h"
 #include "render/planar_scene_impl.h"
 

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "render/draw_state.h"
 #include "render/fill.h"
+#include "render/framebuffer.h"
 #include "render/mark_painter.h"
 
 namespace dmoscope::render {

@@ -6,7 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/mesh/faces.h"
-#include "render/draw_state.h"
+#include "render/framebuffer.h"
 #include "render/mark_painter.h"
 #include "render/scene.h"
 #include "render/triad.h"

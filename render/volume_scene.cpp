@@ -8,10 +8,9 @@
 #include "core/base/error.h"
 #include "core/input/input_mesh.h"
 #include "core/run/summary.h"
-#include "render/depth_map.h"
-#include "render/draw_state.h"
 #include "render/element_painter.h"
 #include "render/face_painter.h"
+#include "render/framebuffer.h"
 #include "render/occlusion.h"
 #include "render/volume_pick.h"
 

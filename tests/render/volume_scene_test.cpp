@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/input/input_mesh.h"
-#include "render/face_records.h"
+#include "render/face_painter.h"
 #include "render/live_picture.h"
 #include "render/screenshot.h"
 #include "tests/render/volume_picture.h"

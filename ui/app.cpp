@@ -13,12 +13,12 @@
 #include "ui/analysis/scene_points.h"
 #include "ui/commands/inspection_commands.h"
 #include "ui/commands/tour_commands.h"
-#include "ui/commands/view_to_commands.h"
+#include "ui/commands/view_json.h"
 #include "ui/plots/plot_save.h"
-#include "ui/state/home_of_item.h"
-#include "ui/state/situation.h"
+#include "ui/state/actions.h"
 #include "ui/state/view_geometry.h"
-#include "ui/toolkit/tooltips.h"
+#include "ui/state/view_state.h"
+#include "ui/toolkit/items.h"
 
 namespace dmoscope::ui {
 namespace {

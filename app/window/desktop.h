@@ -17,7 +17,7 @@
 #include "app/window/simulated_input.h"
 #include "app/window/window.h"
 #include "ui/app.h"
-#include "ui/commands/settings_keeper.h"
+#include "ui/commands/settings.h"
 
 namespace dmoscope::app {
 

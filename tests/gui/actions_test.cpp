@@ -8,7 +8,6 @@
 #include "core/commands/commands.h"
 #include "core/commands/session_commands.h"
 #include "ui/commands/view_commands.h"
-#include "ui/state/palette_entries.h"
 #include "ui/toolkit/layout.h"
 #include "ui/toolkit/theme.h"
 

@@ -6,7 +6,6 @@
 #include "tests/support/temporary_folder.h"
 #include "ui/commands/settings.h"
 #include "ui/commands/view_json.h"
-#include "ui/commands/view_to_commands.h"
 
 namespace dmoscope::ui {
 namespace {

@@ -12,7 +12,7 @@
 #include "core/view/judgements.h"
 #include "tests/gui/headless_test.h"
 #include "tests/support/temporary_folder.h"
-#include "ui/plots/plot_series.h"
+#include "ui/plots/plot_builder.h"
 
 namespace dmoscope::app {
 namespace {

@@ -13,7 +13,6 @@
 #include "tests/support/temporary_folder.h"
 #include "ui/commands/notice.h"
 #include "ui/state/actions.h"
-#include "ui/state/situation.h"
 
 namespace dmoscope::app {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "ui/toolkit/recent_files.h"
+#include "ui/toolkit/file_browser.h"
 
 namespace dmoscope::ui {
 namespace {

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/gui/headless_test.h"
-#include "ui/analysis/group_list.h"
+#include "ui/analysis/mesh_parts.h"
 
 namespace dmoscope::app {
 namespace {

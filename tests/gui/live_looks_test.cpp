@@ -7,7 +7,7 @@
 #include "core/base/stopwatch.h"
 #include "tests/gui/headless_test.h"
 #include "tests/support/nice_values.h"
-#include "ui/plots/plot_series.h"
+#include "ui/plots/plot_builder.h"
 
 namespace dmoscope::app {
 namespace {

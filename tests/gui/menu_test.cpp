@@ -11,8 +11,6 @@
 #include "ui/commands/view_commands.h"
 #include "ui/commands/view_json.h"
 #include "ui/state/actions.h"
-#include "ui/state/palette_entries.h"
-#include "ui/state/situation.h"
 #include "ui/state/view_options.h"
 
 namespace dmoscope::app {

@@ -7,8 +7,8 @@
 #include "render/volume_scene.h"
 #include "tests/support/meshes.h"
 #include "tests/support/picture_difference.h"
-#include "ui/overlays/marks.h"
 #include "ui/overlays/moves.h"
+#include "ui/overlays/overlay.h"
 
 namespace dmoscope::ui {
 namespace {

@@ -10,7 +10,6 @@
 #include "tests/support/temporary_folder.h"
 #include "ui/analysis/element_colours.h"
 #include "ui/commands/view_json.h"
-#include "ui/commands/view_to_commands.h"
 
 namespace dmoscope::app {
 namespace {

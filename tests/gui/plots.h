@@ -9,7 +9,7 @@
 
 #include "core/engine/engine.h"
 #include "ui/analysis/derived.h"
-#include "ui/plots/plot_series.h"
+#include "ui/plots/plot_builder.h"
 
 namespace dmoscope::ui {
 

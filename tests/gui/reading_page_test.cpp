@@ -8,7 +8,7 @@
 
 #include "app/window/headless.h"
 #include "tests/support/temporary_folder.h"
-#include "ui/toolkit/reading.h"
+#include "ui/toolkit/file_browser.h"
 
 namespace dmoscope::app {
 namespace {

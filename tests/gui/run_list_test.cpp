@@ -9,7 +9,7 @@
 
 #include "tests/gui/headless_test.h"
 #include "tests/support/temporary_folder.h"
-#include "ui/plots/plot_series.h"
+#include "ui/plots/plot_builder.h"
 #include "ui/plots/run_rows.h"
 #include "ui/state/run_names.h"
 #include "ui/viewports/viewports.h"

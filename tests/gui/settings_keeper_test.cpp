@@ -1,5 +1,3 @@
-#include "ui/commands/settings_keeper.h"
-
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -9,7 +7,7 @@
 
 #include "tests/support/temporary_folder.h"
 #include "ui/commands/settings.h"
-#include "ui/state/recent_labels.h"
+#include "ui/state/format.h"
 
 namespace dmoscope::ui {
 namespace {

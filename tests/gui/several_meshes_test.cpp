@@ -11,7 +11,7 @@
 #include "core/quality/quality.h"
 #include "tests/gui/headless_test.h"
 #include "tests/support/temporary_folder.h"
-#include "ui/analysis/comparable.h"
+#include "ui/analysis/colour_worker.h"
 #include "ui/plots/run_rows.h"
 #include "ui/state/run_names.h"
 

@@ -11,7 +11,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/volume_grids.h"
 #include "ui/analysis/counting_elements.h"
-#include "ui/analysis/freedom.h"
+#include "ui/analysis/run_colours.h"
 
 namespace dmoscope::ui {
 namespace {

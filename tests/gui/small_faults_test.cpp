@@ -8,8 +8,7 @@
 
 #include "tests/gui/headless_test.h"
 #include "tests/support/picture_difference.h"
-#include "ui/state/palette_entries.h"
-#include "ui/state/situation.h"
+#include "ui/state/actions.h"
 
 namespace dmoscope::app {
 namespace {

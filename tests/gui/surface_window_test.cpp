@@ -11,7 +11,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/volume_grids.h"
 #include "ui/analysis/inspection.h"
-#include "ui/overlays/marks.h"
+#include "ui/overlays/overlay.h"
 
 namespace dmoscope::app {
 namespace {

@@ -9,7 +9,7 @@
 #include "core/run/parameters.h"
 #include "tests/support/meshes.h"
 #include "tests/support/volume_grids.h"
-#include "ui/overlays/marks.h"
+#include "ui/overlays/overlay.h"
 
 namespace dmoscope::app {
 namespace {

@@ -10,7 +10,6 @@
 #include "render/image.h"
 #include "tests/gui/headless_test.h"
 #include "tests/support/picture_difference.h"
-#include "ui/state/sequence.h"
 
 namespace dmoscope::app {
 namespace {

@@ -10,7 +10,6 @@
 #include "ui/commands/settings.h"
 #include "ui/commands/view_commands.h"
 #include "ui/commands/view_json.h"
-#include "ui/commands/view_to_commands.h"
 
 namespace dmoscope::ui {
 namespace {

@@ -10,7 +10,7 @@
 #include "tests/gui/headless_test.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/volume_grids.h"
-#include "ui/overlays/marks.h"
+#include "ui/overlays/overlay.h"
 #include "ui/state/actions.h"
 
 namespace dmoscope::app {

@@ -9,7 +9,7 @@
 
 #include "core/io/mesh_io.h"
 #include "core/io/reading/source_file.h"
-#include "core/mesh/volume.h"
+#include "core/mesh/orientation.h"
 #include "tests/fuzz/array_samples.h"
 #include "tests/io/files.h"
 

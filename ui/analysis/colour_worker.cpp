@@ -1,5 +1,6 @@
 #include "ui/analysis/colour_worker.h"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -8,6 +9,13 @@ namespace {
 
 constexpr Index kBigMesh = 100'000;   // elements; the colours of larger meshes take long enough to be felt
 constexpr Index kBigSurface = 1'000;  // elements, for colours that take long
+
+/// Whether both meshes have the same elements with the same corners, wherever their vertices are.
+bool same_elements(const InputMesh& a, const InputMesh& b) {
+  if (&a == &b) return true;
+  return a.mesh.vertex_count() == b.mesh.vertex_count() && std::ranges::equal(a.mesh.elements.kinds(), b.mesh.elements.kinds()) &&
+         std::ranges::equal(a.mesh.elements.all_corners(), b.mesh.elements.all_corners());
+}
 
 }  // namespace
 
@@ -64,6 +72,14 @@ void ColourWorker::update(const ViewState& state, const SessionView& session, st
   } else {
     pending_ = std::async(std::launch::async, work);
   }
+}
+
+bool Comparable::operator()(const std::shared_ptr<const InputMesh>& a, const std::shared_ptr<const InputMesh>& b) {
+  if (a == b) return true;
+  if (a_.lock() == a && b_.lock() == b) return same_;
+  a_ = a;
+  b_ = b;
+  return same_ = same_elements(*a, *b);
 }
 
 }  // namespace dmoscope::ui

@@ -7,12 +7,22 @@
 #include <optional>
 #include <tuple>
 
+#include "core/input/input_mesh.h"
 #include "core/view/view.h"
-#include "ui/analysis/comparable.h"
 #include "ui/analysis/element_colours.h"
 #include "ui/state/view_state.h"
 
 namespace dmoscope::ui {
+
+/// Remembers the answer for the latest two meshes.
+class Comparable {
+ public:
+  [[nodiscard]] bool operator()(const std::shared_ptr<const InputMesh>& a, const std::shared_ptr<const InputMesh>& b);
+
+ private:
+  std::weak_ptr<const InputMesh> a_, b_;
+  bool same_ = false;
+};
 
 class ColourWorker {
  public:

@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "ui/analysis/freedom.h"
-#include "ui/analysis/group_list.h"
+#include "ui/analysis/mesh_parts.h"
+#include "ui/analysis/run_colours.h"
 
 namespace dmoscope::ui {
 namespace {

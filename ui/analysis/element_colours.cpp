@@ -11,9 +11,8 @@
 #include "core/mesh/faces.h"
 #include "core/mesh/orientation.h"
 #include "core/smooth/size_field.h"
-#include "ui/analysis/group_list.h"
-#include "ui/analysis/holding_colours.h"
-#include "ui/analysis/sliding_colours.h"
+#include "ui/analysis/mesh_parts.h"
+#include "ui/analysis/run_colours.h"
 
 namespace dmoscope::ui {
 namespace {

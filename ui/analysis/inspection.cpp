@@ -217,6 +217,16 @@ void forget(InspectionState& state) {
   state = closed;
 }
 
+/// The plane of a volume in which the quality is shown: that of the shown level's slice; without a level through the vertex's old place, or
+/// after its move through the new one.
+StarSlice field_plane(const InspectionState& state, const Inspection& inspection) {
+  const int axis = state.slice_axis;
+  if (state.applied) return {axis, along(axis, inspection.solid->step)};
+  if (state.level < 1 || inspection.solid->levels.empty()) return {axis, 0.0};
+  const VolumeLevel& level = inspection.solid->levels[static_cast<std::size_t>(state.level - 1)];
+  return {axis, along(axis, level.at(shown_slice(state, inspection, state.level).index(0, 0)))};
+}
+
 }  // namespace
 
 std::string no_inspection(const SessionView& session) {
@@ -372,14 +382,6 @@ GridSlice shown_slice(const InspectionState& state, const Inspection& inspection
   if (values.best) slice.number = slice.along(*values.best);
   if (state.slice) slice.number = std::clamp(*state.slice, 0, values.points - 1);
   return slice;
-}
-
-StarSlice field_plane(const InspectionState& state, const Inspection& inspection) {
-  const int axis = state.slice_axis;
-  if (state.applied) return {axis, along(axis, inspection.solid->step)};
-  if (state.level < 1 || inspection.solid->levels.empty()) return {axis, 0.0};
-  const VolumeLevel& level = inspection.solid->levels[static_cast<std::size_t>(state.level - 1)];
-  return {axis, along(axis, level.at(shown_slice(state, inspection, state.level).index(0, 0)))};
 }
 
 bool is_valid(double quality) { return quality > 0.0; }

@@ -103,26 +103,8 @@ double fade(SteppingState& stepping, double now) {
   return std::max(0.01, each - std::fmod(age, each));
 }
 
-}  // namespace
-
-bool has_converged(const RunView& run) { return run.last_outcome.starts_with("converged"); }
-
-std::string end_sentence(const RunView& run) {
-  const std::string why = capitalised(run.last_outcome.substr(0, run.last_outcome.find_first_of(":;")));
-  const IterationRecord *first = nullptr, *now = nullptr;
-  double seconds = 0.0;
-  std::uint64_t done = 0;
-  for (const IterationRecord& record : run.records) {
-    if (first == nullptr) first = &record;
-    if (record.iteration == run.moment.iteration) now = &record;
-    seconds += record.seconds;
-    done = record.iteration;
-  }
-  if (now == nullptr) return why;
-  return fmt::format("{}: {}, {}, {}", why, course("minimum", first->statistics.minimum, now->statistics.minimum),
-                     counted(done, "iteration", "iterations"), duration(seconds));
-}
-
+/// Report on the step from one moment of a run to a later one, both whole frames of one input by one metric; none if they are not. `run`:
+/// its state at the later one.
 std::optional<StepNews> report_step(const Frame& before, const Frame& after, const RunView& run) {
   const bool comparable = !before.device && !after.device && before.input == after.input && before.shown == after.shown &&
                           before.positions.size() == after.positions.size() && before.quality.size() == after.quality.size();
@@ -142,6 +124,26 @@ std::optional<StepNews> report_step(const Frame& before, const Frame& after, con
                                 course("mean", was, is), count(news.moved.size()), counted(run.free_vertices, "vertex", "vertices"));
   }
   return news;
+}
+
+}  // namespace
+
+bool has_converged(const RunView& run) { return run.last_outcome.starts_with("converged"); }
+
+std::string end_sentence(const RunView& run) {
+  const std::string why = capitalised(run.last_outcome.substr(0, run.last_outcome.find_first_of(":;")));
+  const IterationRecord *first = nullptr, *now = nullptr;
+  double seconds = 0.0;
+  std::uint64_t done = 0;
+  for (const IterationRecord& record : run.records) {
+    if (first == nullptr) first = &record;
+    if (record.iteration == run.moment.iteration) now = &record;
+    seconds += record.seconds;
+    done = record.iteration;
+  }
+  if (now == nullptr) return why;
+  return fmt::format("{}: {}, {}, {}", why, course("minimum", first->statistics.minimum, now->statistics.minimum),
+                     counted(done, "iteration", "iterations"), duration(seconds));
 }
 
 double StepWatch::follow(ViewState& state, const SessionView& session, bool busy, double now) {

@@ -10,10 +10,6 @@
 
 namespace dmoscope::ui {
 
-/// Report on the step from one moment of a run to a later one, both whole frames of one input by one metric; none if they are not. `run`:
-/// its state at the later one.
-[[nodiscard]] std::optional<StepNews> report_step(const Frame& before, const Frame& after, const RunView& run);
-
 /// Whether a run has converged, rather than reached a number of iterations.
 [[nodiscard]] bool has_converged(const RunView& run);
 /// Sentence on the end of the active run: "Converged: minimum 0.312 → 0.498, 21 iterations, 0.4 s". The minimum is by the run's own metric.

@@ -1,9 +1,9 @@
 #include <algorithm>
+#include <tuple>
 
 #include "core/io/writing/atomic_file.h"
 #include "ui/commands/command_words.h"
 #include "ui/commands/view_json.h"
-#include "ui/commands/view_to_commands.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -23,6 +23,37 @@ void add_session_file_commands(CommandTable& table, ViewState& state, const Comm
             [&host](Arguments words) { host.post("open-state " + quote_word(words[0])); });
 }
 
+SequenceOptions parse_sequence(Arguments words) {
+  SequenceOptions options;
+  for (std::size_t k = 0; k < words.size(); ++k) {
+    const std::string& word = words[k];
+    const auto value = [&]() -> const std::string& {
+      if (++k >= words.size()) throw UsageError(word + ": a value is missing");
+      return words[k];
+    };
+    if (word == "--from") {
+      options.from = to_count(value());
+    } else if (word == "--to") {
+      options.to = to_count(value());
+    } else if (word == "--every") {
+      options.every = to_count(value(), 1);
+    } else if (word == "--size") {
+      std::tie(options.width, options.height) = parse_size(value());
+    } else if (word == "--window") {
+      options.window = true;
+    } else if (word == "--overwrite") {
+      options.overwrite = true;
+    } else if (options.folder.empty() && !word.starts_with("--")) {
+      options.folder = word;
+    } else {
+      unexpected(word, "one folder and options");
+    }
+  }
+  if (options.folder.empty()) throw UsageError("a folder is missing");
+  if (options.window && options.width > 0) throw UsageError("--size is of the mesh; the window has its own: size W H");
+  return options;
+}
+
 }  // namespace
 
 void add_desktop_commands(CommandTable& table, ViewState& state, const CommandHost& host) {
@@ -37,6 +68,20 @@ void add_desktop_commands(CommandTable& table, ViewState& state, const CommandHo
               const auto view = host.session();
               write_file_atomically(words[0], state.commands.script(view_lines(state, view && view->frame)));
               add_message(state, {Message::Kind::Info, "wrote " + words[0], 0});
+            });
+}
+
+void add_file_commands(CommandTable& table, ViewState& state, const CommandHost& host) {
+  table.add({"sequence", "sequence FOLDER [--from I] [--to J] [--every K] [--size WxH] [--window] [--overwrite]",
+             "a picture of every iteration, for a video"},
+            [&state, &host](Arguments words) {
+              const SequenceOptions options = parse_sequence(words);
+              if (host.busy() || state.sequence) throw UsageError("something runs: wait until it is done, or cancel it");
+              const auto view = host.session();
+              if (!view) throw UsageError("no mesh is open");
+              state.sequence = plan_sequence(options, *view);
+              state.timeline.shown = Shown::Now;
+              state.timeline.play.kind = Playback::Kind::Off;
             });
 }
 

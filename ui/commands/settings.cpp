@@ -1,8 +1,10 @@
 #include "ui/commands/settings.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -108,6 +110,16 @@ std::string save_text(const std::filesystem::path& path, const std::string& text
   }
 }
 
+std::string save_recent(const std::filesystem::path& path, const ViewState& state) {
+  ViewState merged;
+  merged.recent_files = state.recent_files;
+  if (const auto text = read_text(path)) {
+    const json there = json::parse(*text, nullptr, false);
+    if (there.is_array()) take_recent(there, merged.recent_files);
+  }
+  return save_text(path, recent_text(merged), "recent files");
+}
+
 }  // namespace
 
 std::filesystem::path settings_path() { return xdg_path("XDG_CONFIG_HOME", ".config", "settings.json"); }
@@ -179,14 +191,43 @@ void load_recent(const std::filesystem::path& path, ViewState& state) {
     add_message(state, {Message::Kind::Warning, "recent files ignored, not a JSON array: " + path.string(), 0});
 }
 
-std::string save_recent(const std::filesystem::path& path, const ViewState& state) {
-  ViewState merged;
-  merged.recent_files = state.recent_files;
-  if (const auto text = read_text(path)) {
-    const json there = json::parse(*text, nullptr, false);
-    if (there.is_array()) take_recent(there, merged.recent_files);
+void SettingsKeeper::begin(std::filesystem::path settings, std::filesystem::path recent, ViewState& state) {
+  settings_ = std::move(settings);
+  recent_ = std::move(recent);
+  load_settings(settings_, state);
+  load_recent(recent_, state);
+  written_ = seen_ = settings_text(state);
+  written_recent_ = state.recent_files;
+}
+
+double SettingsKeeper::look(ViewState& state, double now) {
+  const std::string text = settings_text(state);
+  if (text != seen_) {
+    seen_ = text;
+    since_ = now;
   }
-  return save_text(path, recent_text(merged), "recent files");
+  const bool waits = text != written_, still = now - since_ >= kStill;
+  if ((waits && still) || state.recent_files != written_recent_) {
+    for (const std::string& trouble : write(state)) {
+      if (std::exchange(said_, trouble) != trouble) add_message(state, {Message::Kind::Warning, trouble, 0});
+    }
+    return INFINITY;
+  }
+  return waits ? kStill - (now - since_) : INFINITY;
+}
+
+std::vector<std::string> SettingsKeeper::write(const ViewState& state) {
+  std::vector<std::string> troubles;
+  // After a failure, writing is not tried again until something changes.
+  if (std::string text = settings_text(state); text != written_) {
+    if (std::string trouble = save_settings(settings_, state); !trouble.empty()) troubles.push_back(std::move(trouble));
+    written_ = seen_ = std::move(text);
+  }
+  if (state.recent_files != written_recent_) {
+    if (std::string trouble = save_recent(recent_, state); !trouble.empty()) troubles.push_back(std::move(trouble));
+    written_recent_ = state.recent_files;
+  }
+  return troubles;
 }
 
 }  // namespace dmoscope::ui

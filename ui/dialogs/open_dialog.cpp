@@ -8,7 +8,7 @@
 #include "core/commands/commands.h"
 #include "ui/dialogs/save_rows.h"
 #include "ui/panels/panels.h"
-#include "ui/state/recent_labels.h"
+#include "ui/state/format.h"
 
 namespace dmoscope::ui {
 namespace {

@@ -6,7 +6,7 @@
 #include <imgui_stdlib.h>
 
 #include "ui/panels/panels.h"
-#include "ui/state/palette_entries.h"
+#include "ui/state/actions.h"
 
 namespace dmoscope::ui {
 namespace {

@@ -1,9 +1,11 @@
-// Dialogs for export of the mesh and its numbers, and for screenshots.
+// Dialogs for export of the mesh and its numbers, of a plot, and of pictures: one, or one for each iteration.
 #include <algorithm>
+#include <array>
 #include <filesystem>
 
 #include <fmt/format.h>
 #include <imgui.h>
+#include <imgui_stdlib.h>
 
 #include "core/commands/commands.h"
 #include "core/io/mesh_io.h"
@@ -11,6 +13,8 @@
 #include "core/session/read_files.h"
 #include "ui/dialogs/save_rows.h"
 #include "ui/panels/panels.h"
+#include "ui/panels/widgets.h"
+#include "ui/state/format.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -75,6 +79,58 @@ void ask_over_input(PanelContext& context) {
   if (!go) return;
   context.state.dialog = Dialog::None;
   context.send("export-over " + quote_word(dialog.save.target.path().string()));
+}
+
+/// Formats of the plot: the table of runs has only numbers, a comparison also a page.
+SaveEndings plot_endings(const PanelContext& context) {
+  if (context.state.plot == PlotTab::Compare) return {"a comparison", {".html", ".svg", ".png", ".csv"}};
+  if (context.state.plot == PlotTab::Runs) return {"the table of runs", {".csv"}};
+  return {"a plot", {".svg", ".png", ".csv"}};
+}
+
+std::uint64_t last_iteration(const PanelContext& context) {
+  const RunView* run = context.run();
+  return run == nullptr || run->records.empty() ? 0 : run->records.back().iteration;
+}
+
+std::string command_of(const SequenceDialog& widgets) {
+  std::string line =
+      fmt::format("sequence {} --from {} --to {} --every {}", quote_word(widgets.folder), widgets.from, widgets.to, widgets.every);
+  if (widgets.window) {
+    line += " --window";
+  } else {
+    line += fmt::format(" --size {}x{}", widgets.width, widgets.height);
+  }
+  return line + (widgets.overwrite ? " --overwrite" : "");
+}
+
+void draw_choices(PanelContext& context, SequenceDialog& widgets) {
+  const int last = static_cast<int>(std::min<std::uint64_t>(last_iteration(context), 1'000'000'000));
+  int range[2] = {widgets.from, widgets.to};
+  row_label(context, "iterations", 9);
+  if (ImGui::InputInt2("##range", range)) {
+    widgets.from = std::clamp(range[0], 0, last);
+    widgets.to = std::clamp(range[1], 0, last);
+  }
+  next_item_tooltip(fmt::format("first and last iteration, from 0 to {}", last));
+  row_label(context, "every", 9);
+  if (ImGui::InputInt("##every", &widgets.every)) widgets.every = std::max(1, widgets.every);
+  next_item_tooltip("a picture of every iteration, every second one, ...; always one of the last");
+  row_label(context, "what", 9);
+  if (ImGui::RadioButton("the mesh", !widgets.window)) widgets.window = false;
+  ImGui::SameLine();
+  if (ImGui::RadioButton("the whole window", widgets.window)) widgets.window = true;
+  if (!widgets.window) {
+    int size[2] = {widgets.width, widgets.height};
+    row_label(context, "size, pixels", 9);
+    if (ImGui::InputInt2("##size", size)) {
+      widgets.width = std::clamp(size[0], 1, 32768);
+      widgets.height = std::clamp(size[1], 1, 32768);
+    }
+  }
+  row_label(context, "old frames", 9);
+  ImGui::Checkbox("replace those in the folder", &widgets.overwrite);
+  context.items.record_last("sequence:overwrite");
 }
 
 }  // namespace
@@ -177,6 +233,85 @@ void draw_screenshot_dialog(PanelContext& context) {
   const bool entered = draw_save_rows(context, form);
   draw_picture_choices(context, dialog);
   if (draw_save_buttons(context, form, "Save", entered)) context.send(command_of(dialog));
+  end_dialog();
+}
+
+void draw_plot_dialog(PanelContext& context) {
+  const bool compares = context.state.plot == PlotTab::Compare;
+  if (!begin_dialog(context, compares ? "Save the comparison" : "Save the plot", 44)) return;
+  PlotDialog& dialog = context.widgets.plot_dialog;
+  const auto label = [&](const char* text) { row_label(context, text, 8); };
+  const SaveForm form{dialog.save, plot_endings(context), Dialog::Plot, "plot", 8};
+  if (context.widgets.dialog_opened)
+    begin_save(context, dialog.save, name_beside(context, compares ? "-compared" : "-plot", form.endings.endings.front()));
+  const bool entered = draw_save_rows(context, form);
+  std::string& name = dialog.save.target.name;
+  label("as");
+  const std::string extension = std::filesystem::path(name).extension().string();
+  static constexpr std::array<std::pair<const char*, const char*>, 4> kKinds{
+      {{".html", "report (HTML)"}, {".svg", "drawing (SVG)"}, {".png", "picture (PNG)"}, {".csv", "numbers (CSV)"}}};
+  for (const auto& [kind, title] : kKinds) {
+    if (!compares && kind == kKinds[0].first) continue;
+    if (kind != kKinds[compares ? 0 : 1].first) beside_or_below(title, context.px(16));
+    if (ImGui::RadioButton(title, extension == kind)) name = std::filesystem::path(name).replace_extension(kind).string();
+    context.items.record_last(fmt::format("plot:{}", kind + 1));
+  }
+  const bool is_drawn = extension != ".csv" && extension != ".html";
+  if (is_drawn) {
+    int size[2] = {dialog.width, dialog.height};
+    label("size");
+    if (ImGui::InputInt2("##size", size)) {
+      dialog.width = std::clamp(size[0], 200, 4096);
+      dialog.height = std::clamp(size[1], 120, 4096);
+    }
+    next_item_tooltip("width and height in pixels; text is 12 high");
+  }
+  if (extension == ".png") {
+    label("pixels");
+    ImGui::SliderInt("##scale", &dialog.scale, 1, 4,
+                     fmt::format("{} x {}", dialog.width * dialog.scale, dialog.height * dialog.scale).c_str(),
+                     ImGuiSliderFlags_AlwaysClamp);
+  }
+  dim_text(context, extension == ".html"
+                        ? "One HTML page with the table, the courses, sorted qualities, the effect of each run on the mesh, and pictures, "
+                          "as dmoscope compare --report writes it."
+                        : "The plot as it is shown: tab, ranges, axes and visible curves. Pictures have a white background.");
+  if (draw_save_buttons(context, form, "Save", entered)) {
+    std::string line =
+        fmt::format("{} {}", extension == ".html" ? "save-report" : "plot-save", quote_word(dialog.save.target.path().string()));
+    const int scale = extension == ".png" ? dialog.scale : 1;
+    if (is_drawn) line += fmt::format(" --size {}x{}", dialog.width * scale, dialog.height * scale);
+    if (extension == ".png") line += fmt::format(" --scale {}", scale);
+    context.send(line);
+  }
+  end_dialog();
+}
+
+void draw_sequence_dialog(PanelContext& context) {
+  if (!begin_dialog(context, "Pictures of a run", 40)) return;
+  SequenceDialog& widgets = context.widgets.sequence;
+  if (context.widgets.dialog_opened) {
+    widgets.from = 0;
+    widgets.to = static_cast<int>(std::min<std::uint64_t>(last_iteration(context), 1'000'000'000));
+    widgets.width = static_cast<int>(context.state.viewport.x) / 2 * 2;  // videos need even numbers
+    widgets.height = static_cast<int>(context.state.viewport.y) / 2 * 2;
+  }
+  dim_text(context, "Shows one iteration after another and saves a picture of each: frame-0000.png, frame-0001.png, ...");
+  ImGui::Spacing();
+  row_label(context, "folder", 9);
+  const bool entered = ImGui::InputText("##folder", &widgets.folder, ImGuiInputTextFlags_EnterReturnsTrue);
+  context.items.record_last("sequence:folder");
+  draw_choices(context, widgets);
+  ImGui::Spacing();
+  const auto pictures = widgets.to < widgets.from ? 0 : (widgets.to - widgets.from + widgets.every - 1) / widgets.every + 1;
+  const bool go = ImGui::Button(fmt::format("Save {} picture{}###go", pictures, pictures == 1 ? "" : "s").c_str());
+  context.items.record_last("sequence:go");
+  ImGui::SameLine();
+  close_button(context, "Cancel");
+  if ((go || entered) && !widgets.folder.empty()) {
+    context.state.dialog = Dialog::None;
+    context.send(command_of(widgets));
+  }
   end_dialog();
 }
 

@@ -6,8 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/inspect/joint_hold.h"
-#include "ui/analysis/holding_colours.h"
-#include "ui/overlays/marks.h"
+#include "ui/analysis/run_colours.h"
 #include "ui/overlays/moves.h"
 #include "ui/overlays/overlay.h"
 

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "core/mesh/colouring.h"
-#include "ui/overlays/cased_lines.h"
 #include "ui/overlays/mark_view.h"
 
 namespace dmoscope::ui {

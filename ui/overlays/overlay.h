@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "core/joint/joint_clusters.h"
 #include "core/reference/domain.h"
@@ -12,7 +13,6 @@
 #include "render/marks.h"
 #include "ui/analysis/derived.h"
 #include "ui/analysis/inspection.h"
-#include "ui/overlays/cased_lines.h"
 #include "ui/overlays/mark_view.h"
 #include "ui/state/view_state.h"
 
@@ -64,7 +64,7 @@ using OverlayPointer = std::unique_ptr<Overlay>;
 
 [[nodiscard]] inline render::Rgba solid(render::Rgb c, int alpha = 255) { return {c.r, c.g, c.b, static_cast<std::uint8_t>(alpha)}; }
 
-// All overlays, each in a source of its own.
+// All overlays.
 [[nodiscard]] OverlayPointer picked_overlay();      // the picked element or vertex, and its elements
 [[nodiscard]] OverlayPointer worst_overlay();       // the worst element, and those that are inverted only inside
 [[nodiscard]] OverlayPointer inverted_overlay();    // inverted elements that are too small to be seen
@@ -78,5 +78,27 @@ using OverlayPointer = std::unique_ptr<Overlay>;
 [[nodiscard]] OverlayPointer inspection_overlay();  // the search of a vertex
 [[nodiscard]] OverlayPointer target_overlay();      // targets of picked elements
 [[nodiscard]] OverlayPointer size_point_overlay();  // the point of a size function
+
+/// Adds curves and feature edges along which vertices slide as lines, and held vertices as squares, as far as they are seen.
+void add_features(render::Marks& marks, const MarkView& view, const Domain& domain, std::span<const Vec3> positions, Inks inks);
+
+/// The joint move that holds the minimum of the frame on show; null: not known, or not wanted.
+[[nodiscard]] std::shared_ptr<const JointCluster> hold_of(const OverlayInput& in);
+
+/// Inverted elements, ascending; if they are too many for marks, an even choice of them. None of a frame that is on a device.
+[[nodiscard]] std::vector<Index> inverted_elements(const Frame& frame);
+/// Adds diamonds for those of `elements` that are smaller in the picture, no two in one place, so that the surroundings stay visible.
+void add_inverted(render::Marks& marks, const MarkView& view, const Frame& frame, std::span<const Index> elements);
+/// Adds a diamond at a point of the scene.
+void add_diamond(render::Marks& marks, Vec3 at, float diameter, const render::Style& style);
+/// Adds marks for those of the frame's worst elements that are inverted only inside, at the place of the least Jacobian.
+void add_inverted_inside(render::Marks& marks, const MarkView& view, const Frame& frame, const render::Style& style);
+
+/// The picked element, or those around the picked vertex.
+[[nodiscard]] std::vector<Index> picked_elements(const OverlayInput& in);
+/// Adds for each element that has a target by `metric` an ellipse of the target's shape and direction, as large as the element, with its
+/// longer axis (in space the three ellipses of an ellipsoid); and, thinner, the ellipse of the element itself. None for curved surfaces, or
+/// if the frame is not on the host.
+void add_targets(render::Marks& marks, const ScenePoints& points, const Frame& frame, Metric metric, std::span<const Index> elements);
 
 }  // namespace dmoscope::ui

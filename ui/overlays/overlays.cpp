@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "ui/overlays/marks.h"
+#include "ui/overlays/overlay.h"
 #include "ui/state/view_options.h"
 #include "ui/toolkit/theme.h"
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "ui/commands/size_point.h"
-#include "ui/overlays/marks.h"
 #include "ui/overlays/moves.h"
 #include "ui/overlays/overlay.h"
 #include "ui/state/format.h"

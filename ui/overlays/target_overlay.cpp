@@ -6,7 +6,6 @@
 
 #include "core/base/error.h"
 #include "core/inspect/target_shape.h"
-#include "ui/overlays/marks.h"
 #include "ui/overlays/overlay.h"
 
 namespace dmoscope::ui {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "ui/commands/clipping_text.h"
+#include "ui/commands/clipping_commands.h"
 #include "ui/panels/panels.h"
 
 namespace dmoscope::ui {

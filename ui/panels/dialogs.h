@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "ui/analysis/formula_check.h"
 #include "ui/analysis/metric_choices.h"
 #include "ui/state/save_target.h"
 #include "ui/state/view_state.h"

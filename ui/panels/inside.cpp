@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/quality/quality.h"
-#include "ui/commands/clipping_text.h"
+#include "ui/commands/clipping_commands.h"
 #include "ui/panels/panels.h"
 #include "ui/state/format.h"
 

@@ -4,6 +4,8 @@
 #include "core/reference/kinds.h"
 #include "ui/panels/panel_context.h"
 #include "ui/panels/widgets.h"
+#include "ui/plots/plot.h"
+#include "ui/toolkit/file_browser.h"
 
 namespace dmoscope::ui {
 
@@ -13,8 +15,6 @@ void draw_menu(PanelContext& context, const Rect& rect);
 void draw_toolbar(PanelContext& context, const Rect& rect);
 void draw_runs(PanelContext& context);
 void draw_parameters(PanelContext& context);
-/// Draws the active run's second phase and second aim, as part of its parameters.
-void draw_composite(PanelContext& context, const RunView& run);
 void draw_colours(PanelContext& context);
 /// Draws the mesh's groups; nothing for a mesh without any.
 void draw_groups(PanelContext& context);
@@ -76,7 +76,12 @@ struct TimelineRoom {
   bool below_plot = false;
 };
 [[nodiscard]] TimelineRoom timeline_room(const PanelContext& context, const Layout& layout);
+/// Draws the plots, or in their place the tables of runs: by the shown metric, and by every metric that one of them optimises.
 void draw_plots(PanelContext& context, const Layout& layout);
+void draw_run_table(PanelContext& context);
+void draw_comparison(PanelContext& context);
+/// Draws the plot in the remaining space; a click in it shows that iteration. `inside`: see PlotArea.
+void draw_plot_area(PanelContext& context, std::optional<Range> inside = {});
 void draw_timeline(PanelContext& context, const Layout& layout);
 void draw_status(PanelContext& context, const Rect& rect);
 /// Draws a message over the mesh that the status bar has no room for.
@@ -95,5 +100,10 @@ struct SplitterEdge {
 };
 /// Handles and draws such an edge within a window that is being drawn.
 void splitter_grip(PanelContext& context, const SplitterEdge& edge);
+
+/// Draws the page in the start page's place while the first file is read: its name, progress, and Cancel.
+void draw_reading_page(PanelContext& context, const Rect& rect, const BeingRead& reading);
+/// Draws a note in place of a mesh that is made ready for drawing.
+void draw_preparing(const PanelContext& context, const PaneFacts& pane);
 
 }  // namespace dmoscope::ui

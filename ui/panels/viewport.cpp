@@ -10,7 +10,6 @@
 #include "ui/commands/size_point.h"
 #include "ui/overlays/inspection_marks.h"
 #include "ui/panels/panels.h"
-#include "ui/panels/reading_page.h"
 #include "ui/state/format.h"
 #include "ui/state/run_names.h"
 

@@ -5,8 +5,8 @@
 
 #include "ui/panels/icons.h"
 #include "ui/panels/panels.h"
+#include "ui/state/actions.h"
 #include "ui/state/format.h"
-#include "ui/state/situation.h"
 #include "ui/state/view_options.h"
 
 namespace dmoscope::ui {

@@ -44,6 +44,20 @@ void save_table(const PlotSave& save, ViewState& state, const SessionView& sessi
   said.push_back({Message::Kind::Info, "table of runs saved as " + save.path.string(), 0});
 }
 
+/// Writes a plot, all or nothing. Throws Error.
+void save_plot(const PlotSave& save, const Plot& plot, const PlotView& view) {
+  const std::string extension = save.path.extension().string();
+  if (extension == ".csv") {
+    write_file_atomically(save.path, plot_csv(plot, view));
+  } else if (extension == ".svg") {
+    write_file_atomically(save.path, svg_of(drawing_of(save, plot, view, 1.0)));
+  } else if (extension == ".png") {
+    render::write_png(save.path, render::picture_of(drawing_of(save, plot, view, save.scale), save.scale));
+  } else {
+    throw UsageError("a plot is saved as .csv, .svg or .png");
+  }
+}
+
 }  // namespace
 
 std::string plot_csv(const Plot& plot, const PlotView& view) {
@@ -61,19 +75,6 @@ std::string plot_csv(const Plot& plot, const PlotView& view) {
     }
   }
   return text;
-}
-
-void save_plot(const PlotSave& save, const Plot& plot, const PlotView& view) {
-  const std::string extension = save.path.extension().string();
-  if (extension == ".csv") {
-    write_file_atomically(save.path, plot_csv(plot, view));
-  } else if (extension == ".svg") {
-    write_file_atomically(save.path, svg_of(drawing_of(save, plot, view, 1.0)));
-  } else if (extension == ".png") {
-    render::write_png(save.path, render::picture_of(drawing_of(save, plot, view, save.scale), save.scale));
-  } else {
-    throw UsageError("a plot is saved as .csv, .svg or .png");
-  }
 }
 
 std::vector<Message> serve_plot_requests(ViewState& state, const SessionView& session, const SortedQualities& sorted) {

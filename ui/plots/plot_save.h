@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/commands/commands.h"
-#include "ui/plots/plot_series.h"
+#include "ui/plots/plot_builder.h"
 
 namespace dmoscope::ui {
 
@@ -14,9 +14,6 @@ namespace dmoscope::ui {
 /// range; missing values (NaN) are empty. Numbers are the shortest that read back as the same double; times are in seconds whatever the
 /// axes say.
 [[nodiscard]] std::string plot_csv(const Plot& plot, const PlotView& view);
-
-/// Writes a plot, all or nothing. Throws Error.
-void save_plot(const PlotSave& save, const Plot& plot, const PlotView& view);
 
 /// Serves requests of commands (state.requests.plots): files in the colours for paper, or the clipboard. Returns messages, errors included.
 [[nodiscard]] std::vector<Message> serve_plot_requests(ViewState& state, const SessionView& session, const SortedQualities& sorted);

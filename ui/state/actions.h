@@ -1,12 +1,15 @@
 #pragma once
-// One table of everything that a person can do by menu, key, tool bar or palette.
+// Actions of the window: their names, keys and menus, whether they are possible now, and how the palette finds them.
 
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/commands/commands.h"
+#include "core/view/view.h"
 #include "ui/state/keys.h"
+#include "ui/state/view_state.h"
 
 namespace dmoscope::ui {
 
@@ -53,5 +56,20 @@ struct Situation {
 /// The words of a search, in small letters, and whether a text holds all of them (case-insensitive).
 [[nodiscard]] std::vector<std::string> search_words(std::string_view query);
 [[nodiscard]] bool holds_all(std::string_view text, std::span<const std::string> words);
+
+[[nodiscard]] Situation situation_of(const SessionView& session, const ViewState& state, bool busy);
+
+struct PaletteEntry {
+  std::string title, detail, command;
+  bool possible = true;
+  bool complete = true;  // false: the command still needs words; choosing it puts it into the line
+  std::string name{};    // name of an action, without its menu
+};
+
+/// Actions, then commands of the window (`window_commands`) and of the session, that hold all words of `text`; all of them for an empty
+/// one. A command with words after it is run as it stands, and comes first, except after an action with exactly that name. Entries that are
+/// impossible now come last.
+[[nodiscard]] std::vector<PaletteEntry> palette_entries(std::string_view text, const Situation& situation,
+                                                        std::span<const CommandInfo> window_commands);
 
 }  // namespace dmoscope::ui

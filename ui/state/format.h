@@ -2,8 +2,10 @@
 // Numbers and names as texts for the screen.
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/base/number_text.h"
 #include "core/quality/metric_phrase.h"
@@ -35,5 +37,8 @@ namespace dmoscope::ui {
 [[nodiscard]] std::string capitalised(std::string text);
 /// A text with arrows in place of "->", which is for terminals.
 [[nodiscard]] std::string with_arrows(std::string text);
+
+/// Last part of each path; if several share it, it is followed by as many folders as tell them apart: "east.14   results/a".
+[[nodiscard]] std::vector<std::string> short_names(std::span<const std::string> files);
 
 }  // namespace dmoscope::ui

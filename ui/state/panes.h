@@ -12,9 +12,14 @@
 
 #include "core/view/view.h"
 #include "render/camera.h"
-#include "ui/state/layout_rect.h"
 
 namespace dmoscope::ui {
+
+/// Rectangle in pixels of the window.
+struct Rect {
+  float x = 0, y = 0, w = 0, h = 0;
+  [[nodiscard]] bool empty() const noexcept { return w <= 0 || h <= 0; }
+};
 
 /// Arrangement of the viewports. Split: two over each other under one camera, divided by a handle.
 enum class PaneLayout { One, Two, Four, Split };

@@ -1,9 +1,12 @@
 #pragma once
-// Two marked moments to flip between, and the history (or the stepping) played by itself. Plain state.
+// Moments on the timeline: marks, playing, and pictures of a run one after another.
 
+#include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/view/view.h"
 
@@ -47,5 +50,35 @@ void drop_stale_marks(Timeline& timeline, const SessionView& session);
 /// The command that is due at `now` (seconds), if any; the session must be idle. Stops at the last iteration of the history. The next
 /// command is due 1 / speed later.
 [[nodiscard]] std::optional<std::string> next_command(Playback& play, const SessionView& session, double now);
+
+struct SequenceOptions {
+  std::filesystem::path folder;
+  std::uint64_t from = 0;
+  std::optional<std::uint64_t> to;  // none: the last iteration of the history
+  std::uint64_t every = 1;
+  int width = 0, height = 0;  // pixels; 0: as on screen
+  bool window = false;        // the whole interface instead of the mesh
+  bool overwrite = false;
+};
+
+/// A sequence that is being taken.
+struct Sequence {
+  enum class Phase { Seek, Wait, Clean, Shot };  // Clean: the next frame shows no progress
+  SequenceOptions options;
+  std::vector<std::uint64_t> iterations;
+  std::size_t done = 0;
+  Phase phase = Phase::Seek;
+  Moment before;  // moment of the run before the sequence, to return to
+
+  [[nodiscard]] double progress() const noexcept { return static_cast<double>(done) / static_cast<double>(iterations.size()); }
+  /// Path of the next picture, "frame-0012.png" in the folder.
+  [[nodiscard]] std::filesystem::path next_file() const;
+};
+
+/// Plans a sequence and makes its folder. Throws UsageError (no mesh, no such iterations, frames exist already) and OutputError.
+[[nodiscard]] Sequence plan_sequence(const SequenceOptions& options, const SessionView& session);
+
+/// A command line (ffmpeg) that makes a video of the pictures.
+[[nodiscard]] std::string video_line(const std::filesystem::path& folder, double frames_per_second);
 
 }  // namespace dmoscope::ui

@@ -65,6 +65,11 @@ double share_of_base(const InputMesh& input, double Vec3::*axis) {
   return all > 0.0 ? base / all : 0.0;
 }
 
+/// Position of a vertex in coordinates of the mesh's plane. Throws DeviceError.
+Vec2<double> plane_point(const Frame& frame, Index vertex) {
+  return frame.input->geometry.plane.place(positions_of(frame, {&vertex, 1}).front());
+}
+
 }  // namespace
 
 render::UpAxis guessed_up(const InputMesh& input) {
@@ -72,10 +77,6 @@ render::UpAxis guessed_up(const InputMesh& input) {
   if (!input.in_space() || input.mesh.positions.empty() || share_of_base(input, &Vec3::z) >= kBase) return render::UpAxis::Z;
   const bool is_obj = lower_case(input.path.extension().string()) == ".obj";
   return is_obj || share_of_base(input, &Vec3::y) >= kBase ? render::UpAxis::Y : render::UpAxis::Z;
-}
-
-Vec2<double> plane_point(const Frame& frame, Index vertex) {
-  return frame.input->geometry.plane.place(positions_of(frame, {&vertex, 1}).front());
 }
 
 render::Bounds2 element_box(const Frame& frame, Index element) { return box_of(frame, frame.input->mesh.elements.corners(element)); }

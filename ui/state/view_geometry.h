@@ -9,8 +9,6 @@
 
 namespace dmoscope::ui {
 
-/// Position of a vertex in coordinates of the mesh's plane. Throws DeviceError.
-[[nodiscard]] Vec2<double> plane_point(const Frame& frame, Index vertex);
 /// Box of an element, or of the star of a vertex. Throw DeviceError.
 [[nodiscard]] render::Bounds2 element_box(const Frame& frame, Index element);
 [[nodiscard]] render::Bounds2 star_box(const Frame& frame, Index vertex);

@@ -2,35 +2,106 @@
 // State of the window, as plain data: no ImGui, no OpenGL. Commands change it, panels draw it, tests read it.
 
 #include <array>
+#include <cstdint>
 #include <deque>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
+#include "core/base/vec.h"
 #include "core/clipping/clipped_view.h"
 #include "core/engine/engine.h"
 #include "core/engine/safe_copy.h"
+#include "core/run/moment.h"
 #include "core/view/view.h"
 #include "render/camera.h"
 #include "render/colour_map.h"
 #include "render/orbit_camera.h"
 #include "ui/state/colouring_state.h"
 #include "ui/state/command_log.h"
-#include "ui/state/inspection_state.h"
 #include "ui/state/keys.h"
 #include "ui/state/panes.h"
 #include "ui/state/plot_state.h"
 #include "ui/state/result_line.h"
 #include "ui/state/run_names.h"
 #include "ui/state/selection.h"
-#include "ui/state/sequence.h"
-#include "ui/state/stepping_state.h"
 #include "ui/state/timeline.h"
 #include "ui/state/tour.h"
 #include "ui/state/unsaved.h"
 
 namespace dmoscope::ui {
+
+/// State that arrows and ghosts compare the mesh with.
+enum class Reference {
+  None,
+  Input,
+  Previous,  // before the last command that moved something
+  A,
+  B  // moments marked on the timeline
+};
+
+/// Whether vertices that a step moved are tinted: for a moment after it, or until the next one.
+enum class Flash { Off, On, Hold };
+
+/// Effect of the last step.
+struct StepNews {
+  std::string sentence;                 // empty: nothing to say
+  std::vector<Index> moved;             // vertices
+  Index vertex = kNoIndex;              // vertex that was visited and stayed
+  std::shared_ptr<const Frame> before;  // positions before the step
+  std::uint64_t messages = 0;           // number of messages before it: a later one replaces the sentence
+  std::uint64_t serial = 0;             // serial of the frame that it is about
+  double since = 0.0;                   // time of the step, in seconds of a steady clock
+};
+
+struct SteppingState {
+  Flash flash = Flash::Off;
+  int flash_level = 0;  // present strength of the tint, 0 to kFlashLevels
+  StepNews news;
+  bool next_class = false;             // dots on the vertices of the colour class that moves next
+  Reference arrows = Reference::None;  // start of the arrows, which end at the present positions
+  double arrow_scale = 0.0;            // factor of the arrows' length; 0: chosen so that the longest in view can be seen
+  Reference ghost = Reference::None;   // state whose edges are drawn
+  bool click_smooths = false;          // a click on a free vertex moves it to its best candidate
+};
+
+inline constexpr int kFlashLevels = 8;
+
+/// A candidate of the grid of a level (from 1).
+struct CandidateName {
+  int level = 0, index = 0;
+  friend bool operator==(const CandidateName&, const CandidateName&) = default;
+};
+
+struct InspectionState {
+  bool open = false;
+  Index vertex = kNoIndex;  // vertex under inspection; none: `note` says why
+  std::string note;         // reason why there is no vertex to inspect
+  int level = 1;            // level whose grid is shown; 0: none
+  bool all_levels = false;  // the grids of all levels at once
+  bool applied = false;     // the vertex has been moved to where its visit takes it
+  std::string take_back;    // command that undoes the applied move; empty: nothing moved
+  Moment applied_from;      // moment of the run before that
+  bool in_order = false;    // whether the run visits this vertex next, so that applying is the run's own step
+  bool zoom = true;         // whether the view goes as close as a level's grid needs
+  bool field = true;        // whether the inspector shows the quality around the vertex
+  bool field_in_view = false;
+  bool own_range = false;  // whether the inspector's heat maps span each level's own qualities instead of the view's range
+  bool playing = false;
+  double level_since = -1.0;  // time when playing came to this level, in seconds of the window; < 0: not drawn yet
+  // Camera before a level was shown closer than the star, and the close camera. A camera that a person moved stays.
+  std::optional<std::pair<render::Camera2D, render::Camera2D>> close_up;
+  std::optional<std::pair<render::OrbitCamera, render::OrbitCamera>> space_close_up;  // cameras of close_up for a volume mesh
+  // Slice of a volume's grid that the maps show.
+  int slice_axis = 2;                    // axis at right angles to the slice: 0 x, 1 y, 2 z
+  std::optional<int> slice;              // number of the slice, from 0; none: for each level the one with its chosen candidate
+  bool alone = true;                     // whether the rest of the mesh is drawn faintly meanwhile
+  std::optional<CandidateName> hovered;  // candidate under the mouse in the inspector
+};
 
 enum class Theme { Dark, Light, Contrast };
 /// Role of a file that is opened.
@@ -257,5 +328,8 @@ void add_message(ViewState& state, Message message);
 
 /// Puts a file at the front of the recent ones, by its whole path.
 void remember_file(ViewState& state, const std::string& file);
+
+/// Opens the tab or fold that a control belongs to, by its name; does nothing for a control that is always there or not known.
+void open_home_of(std::string_view item, Panels& panels);
 
 }  // namespace dmoscope::ui

@@ -2,14 +2,28 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
+#include <system_error>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "core/base/words.h"
 #include "core/commands/commands.h"
 #include "core/io/mesh_io.h"
 #include "ui/state/format.h"
 
 namespace dmoscope::ui {
+namespace {
+
+BeingRead of_file(const std::filesystem::path& path) {
+  std::error_code unknown;
+  const auto bytes = std::filesystem::file_size(path, unknown);
+  const std::filesystem::path folder = std::filesystem::absolute(path, unknown).parent_path();
+  return {path.filename().string(), unknown ? folder.string() : fmt::format("{} in {}", byte_size(bytes), folder.string())};
+}
+
+/// Whether a name has the extension of a format that can be read.
 bool is_mesh_name(std::string_view name) {
   const std::string small = lower_case(name);
   for (const FormatInfo& format : format_table()) {
@@ -28,12 +42,15 @@ bool is_session_name(std::string_view name) {
   return name.size() > kSessionExtension.size() && lower_case(name).ends_with(kSessionExtension);
 }
 
-std::string open_command(const std::string& file) {
-  return fmt::format("{} {}", is_session_name(file) ? "open-session" : "open", quote_word(file));
-}
-
+/// The command that opens a mesh beside those that are open; a session in their place.
 std::string open_beside_command(const std::string& file) {
   return is_session_name(file) ? open_command(file) : "open-beside " + quote_word(file);
+}
+
+}  // namespace
+
+std::string open_command(const std::string& file) {
+  return fmt::format("{} {}", is_session_name(file) ? "open-session" : "open", quote_word(file));
 }
 
 std::vector<std::string> commands_to_open(OpenFor open_for, const std::vector<std::filesystem::path>& files) {
@@ -95,6 +112,29 @@ std::string parent_folder(const std::string& folder) {
   std::filesystem::path path(folder);
   if (!path.has_filename()) path = path.parent_path();  // the path ended with a slash
   return path.has_parent_path() ? path.parent_path().string() : folder;
+}
+
+const std::vector<RecentFile>& RecentFiles::list(const std::vector<std::string>& files, double now) {
+  const bool same = std::ranges::equal(files, files_, {}, {}, &RecentFile::path);
+  if (same && now - asked_ < kSeconds) return files_;
+  asked_ = now;
+  files_.clear();
+  for (const std::string& file : files) {
+    std::error_code ignored;
+    files_.push_back({file, !std::filesystem::exists(file, ignored)});
+  }
+  return files_;
+}
+
+std::optional<BeingRead> being_read(std::string_view command) {
+  try {
+    const std::vector<std::string> words = split_words(command);
+    if (words.size() < 2) return std::nullopt;
+    if (words[0] == "open" || words[0] == "open-state") return of_file(words[1]);
+    if (words[0] == "generate") return BeingRead{"sample " + words[1], {}};
+  } catch (const UsageError&) {  // a quote is not closed: the session reports it
+  }
+  return std::nullopt;
 }
 
 }  // namespace dmoscope::ui

@@ -1,7 +1,8 @@
 #pragma once
-// Files and folders for the open dialog.
+// Files and folders for the open dialog; recent files; and the file that is being read.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,16 +17,10 @@ struct FolderEntry {
   std::uintmax_t bytes = 0;
 };
 
-/// Whether a name has the extension of a format that can be read.
-[[nodiscard]] bool is_mesh_name(std::string_view name);
-
 /// Extension of saved sessions.
 inline constexpr std::string_view kSessionExtension = ".dmoscope";
-[[nodiscard]] bool is_session_name(std::string_view name);
 /// The command that opens a mesh or a session, by its name.
 [[nodiscard]] std::string open_command(const std::string& file);
-/// The command that opens a mesh beside those that are open; a session in their place.
-[[nodiscard]] std::string open_beside_command(const std::string& file);
 /// Commands, and title of the dialog, for the role of opened files: a mesh after another is opened beside it.
 [[nodiscard]] std::vector<std::string> commands_to_open(OpenFor open_for, const std::vector<std::filesystem::path>& files);
 [[nodiscard]] const char* title_to_open(OpenFor open_for);
@@ -41,5 +36,32 @@ inline constexpr std::string_view kSessionExtension = ".dmoscope";
 
 /// Path of a folder's parent; the folder itself at the root.
 [[nodiscard]] std::string parent_folder(const std::string& folder);
+
+struct RecentFile {
+  std::string path;
+  bool missing = false;
+  /// Reason why it cannot be opened; empty when it can.
+  [[nodiscard]] std::string reason() const { return missing ? path + ": this file is not there any more" : std::string(); }
+};
+
+/// Recent files that ask the file system now and then, not at every frame.
+class RecentFiles {
+ public:
+  static constexpr double kSeconds = 2.0;
+  /// The files with the facts known at `now` (seconds).
+  [[nodiscard]] const std::vector<RecentFile>& list(const std::vector<std::string>& files, double now);
+
+ private:
+  std::vector<RecentFile> files_;
+  double asked_ = -1e9;
+};
+
+struct BeingRead {
+  std::string name;   // "east.14"; "sample coast"
+  std::string where;  // "184.2 MB in /home/me/meshes"; empty if there is no file
+};
+
+/// Mesh that a command of the session brings; none: it opens nothing. Reads the file's size.
+[[nodiscard]] std::optional<BeingRead> being_read(std::string_view command);
 
 }  // namespace dmoscope::ui

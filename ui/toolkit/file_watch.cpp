@@ -4,7 +4,9 @@
 #include <utility>
 
 namespace dmoscope::ui {
+namespace {
 
+/// Stamp of a file; none if it does not exist or cannot be read.
 std::optional<FileStamp> stamp_of(const std::filesystem::path& file) {
   std::error_code error;
   FileStamp stamp;
@@ -14,6 +16,8 @@ std::optional<FileStamp> stamp_of(const std::filesystem::path& file) {
   if (error) return std::nullopt;
   return stamp;
 }
+
+}  // namespace
 
 void ChangeJudge::start(std::optional<FileStamp> known) {
   known_ = known;

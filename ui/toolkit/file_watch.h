@@ -19,8 +19,6 @@ struct FileStamp {
   std::uintmax_t size = 0;
   friend bool operator==(const FileStamp&, const FileStamp&) = default;
 };
-/// Stamp of a file; none if it does not exist or cannot be read.
-[[nodiscard]] std::optional<FileStamp> stamp_of(const std::filesystem::path& file);
 
 /// Judges stamps over time: a file counts as written anew once it differs from before and has not changed for kStable seconds, so that a
 /// file is left alone while it is being written.

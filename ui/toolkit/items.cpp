@@ -1,6 +1,7 @@
 #include "ui/toolkit/items.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <iterator>
 
@@ -10,7 +11,6 @@
 #include "core/base/error.h"
 
 namespace dmoscope::ui {
-
 namespace {
 
 /// Least size of areas that only the mouse uses: the mesh, a plot.
@@ -92,6 +92,17 @@ const Items::Box& Items::find(const std::string& name) const {
     names += known;
   }
   throw UsageError("there is no item \"" + name + "\" on screen; there are " + names);
+}
+
+bool tooltip_unsettled() {
+  const ImVector<ImGuiWindow*>& windows = ImGui::GetCurrentContext()->Windows;
+  return std::any_of(windows.begin(), windows.end(), [](ImGuiWindow* window) {
+    if (!window->Active || (window->Flags & ImGuiWindowFlags_Tooltip) == 0) return false;
+    if (window->Hidden) return true;  // ImGui measures it before it shows it
+    const ImVec2 wanted = ImGui::CalcWindowNextAutoFitSize(window);
+    constexpr float kHalfPixel = 0.5F;
+    return std::abs(wanted.x - window->Size.x) > kHalfPixel || std::abs(wanted.y - window->Size.y) > kHalfPixel;
+  });
 }
 
 }  // namespace dmoscope::ui

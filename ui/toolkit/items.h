@@ -52,4 +52,8 @@ class Items {
   std::string scroll_to_;
 };
 
+/// Whether a tooltip of this frame has another size than its content needs, so that it takes one more frame. To be called once all is
+/// drawn, before ImGui::Render.
+[[nodiscard]] bool tooltip_unsettled();
+
 }  // namespace dmoscope::ui

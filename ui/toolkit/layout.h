@@ -1,7 +1,7 @@
 #pragma once
 // Division of the window into panels.
 
-#include "ui/state/layout_rect.h"
+#include "ui/state/panes.h"
 #include "ui/state/view_state.h"
 
 namespace dmoscope::ui {

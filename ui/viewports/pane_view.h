@@ -10,7 +10,6 @@
 #include "render/live_picture.h"
 #include "render/planar_scene.h"
 #include "render/volume_scene.h"
-#include "ui/analysis/colour_facts.h"
 #include "ui/analysis/colour_worker.h"
 #include "ui/analysis/derived.h"
 #include "ui/analysis/inspection.h"

@@ -27,8 +27,6 @@ struct AxisPlane {
 
 /// Command for a plane, which must be on: "clip -x:0.42" to four digits if that is enough, else by numbers.
 [[nodiscard]] std::string clip_command(const ClipPlane& plane, const render::Bounds3& box);
-/// Command for the same plane to the last digit, wherever the mesh lies: "clip -1,0,0:0.25"; "clip off".
-[[nodiscard]] std::string exact_clip_command(const ClipPlane& plane);
 
 /// Commands that restore the view of a volume mesh: its visible part and, `with_camera`, the camera.
 [[nodiscard]] std::vector<std::string> inside_lines(const ViewState& state, bool with_camera);

@@ -1,4 +1,4 @@
-#include "ui/analysis/sliding_colours.h"
+#include "ui/analysis/run_colours.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 
 #include "core/base/thread_pool.h"
 #include "core/inspect/element_fit.h"
-#include "ui/analysis/freedom.h"
+#include "core/inspect/joint_hold.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -79,11 +79,60 @@ void by_fit(const ColourRequest& request, ElementColours& colours, render::Shadi
 
 }  // namespace
 
+std::vector<std::uint8_t> freedom_of_elements(const Mesh& mesh, std::span<const std::uint8_t> fixed, const Domain* domain) {
+  const auto of_vertex = [&](Index v) -> std::uint8_t {
+    if (fixed[v] != 0) return 1;
+    if (domain == nullptr || !domain->slides(v)) return 4;
+    return domain->on_curve(v) ? 2 : 3;
+  };
+  std::vector<std::uint8_t> freedom(mesh.elements.size());
+  for (Index e = 0; e < freedom.size(); ++e) {
+    std::uint8_t least = 4;
+    bool any_moves = false;
+    for (const Index v : mesh.elements.corners(e)) {
+      least = std::min(least, of_vertex(v));
+      any_moves = any_moves || fixed[v] == 0;
+    }
+    freedom[e] = any_moves ? least : 0;
+  }
+  return freedom;
+}
+
 void colour_by_sliding(const ColourRequest& request, ElementColours& colours, render::Shading& shading) {
   if (request.by == ColourBy::Freedom)
     by_freedom(request, colours, shading);
   else
     by_fit(request, colours, shading);
+}
+
+std::vector<Index> elements_of(const JointCluster& cluster, const InputMesh& input) {
+  std::vector<Index> elements;
+  for (const Index v : cluster.vertices)
+    for (const Incidence& incidence : input.topology.star(v)) elements.push_back(incidence.element);
+  std::sort(elements.begin(), elements.end());
+  elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
+  return elements;
+}
+
+void colour_by_multiplier(const ColourRequest& request, ElementColours& colours, render::Shading& shading) {
+  colours.title = colours.common_title = "multiplier";
+  shading.values.assign(request.frame->element_count(), std::numeric_limits<float>::quiet_NaN());
+  if (!request.hold) {
+    colours.note = "what holds the minimum is not known yet (the command held-by finds out)";
+    colours.has_values = false;
+    return;
+  }
+  const std::vector<Index> cluster = elements_of(*request.hold, *request.frame->input);
+  for (const Index e : cluster) shading.values[e] = 0.0F;
+  double most = 0.0;
+  for (const JointCluster::Active& one : request.hold->active) {
+    shading.values[one.element] = static_cast<float>(one.multiplier);
+    most = std::max(most, one.multiplier);
+  }
+  const std::size_t outside = shading.values.size() - cluster.size();
+  if (outside > 0) colours.beside.push_back({"outside of the cluster", render::kUndefinedColour, outside});
+  colours.range = {0.0, most > 0.0 ? most : 1.0};
+  colours.title = fmt::format("multiplier: {} elements hold one another", holders(*request.hold).size());
 }
 
 }  // namespace dmoscope::ui

@@ -1,12 +1,16 @@
 #pragma once
-// Groups of a mesh in the form that the window lists them.
+// Parts of a mesh in the form that the window lists them: groups and boundary loops.
 
 #include <cstddef>
+#include <future>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/input/input_mesh.h"
 #include "core/mesh/group_facts.h"
+#include "core/mesh/outline.h"
 #include "render/colour_map.h"
 
 namespace dmoscope::ui {
@@ -24,5 +28,18 @@ struct GroupLine {
 };
 /// One line for each of the mesh's groups, in their order.
 [[nodiscard]] std::vector<GroupLine> group_lines(const Mesh& mesh);
+
+class OutlineSource {
+ public:
+  /// Outline of a mesh; null while it is being found.
+  [[nodiscard]] const Outline* of(const std::shared_ptr<const InputMesh>& input);
+  /// Whether nothing is being found.
+  [[nodiscard]] bool settled() const noexcept { return !pending_.valid(); }
+
+ private:
+  std::shared_ptr<const InputMesh> input_;  // mesh that they belong to
+  std::shared_ptr<const Outline> outline_;
+  std::future<std::shared_ptr<const Outline>> pending_;
+};
 
 }  // namespace dmoscope::ui

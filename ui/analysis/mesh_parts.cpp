@@ -1,6 +1,7 @@
-#include "ui/analysis/group_list.h"
+#include "ui/analysis/mesh_parts.h"
 
 #include <algorithm>
+#include <chrono>
 
 #include <fmt/format.h>
 
@@ -31,6 +32,25 @@ std::vector<GroupLine> group_lines(const Mesh& mesh) {
     lines.push_back(std::move(line));
   }
   return lines;
+}
+
+const Outline* OutlineSource::of(const std::shared_ptr<const InputMesh>& input) {
+  constexpr Index kBig = 50'000;  // elements; half-edges of larger meshes take long enough to be felt
+  if (pending_.valid()) {
+    if (pending_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return nullptr;
+    outline_ = pending_.get();
+  }
+  if (input_ != input) {
+    input_ = input;
+    outline_.reset();
+    const auto work = [input] { return std::make_shared<const Outline>(outline_of(input->mesh)); };
+    if (input->mesh.elements.size() < kBig) {
+      outline_ = work();
+    } else {
+      pending_ = std::async(std::launch::async, work);
+    }
+  }
+  return outline_.get();
 }
 
 }  // namespace dmoscope::ui

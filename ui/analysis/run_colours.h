@@ -1,5 +1,5 @@
 #pragma once
-// Freedom of elements' vertices to move, for the colours and the filter by freedom. No ImGui, no OpenGL.
+// Colours of elements that depend on the run: freedom to move, distance of the boundary from the input's, and what holds the minimum.
 
 #include <array>
 #include <cstdint>
@@ -9,6 +9,7 @@
 
 #include "core/mesh/mesh.h"
 #include "core/reference/domain.h"
+#include "ui/analysis/element_colours.h"
 
 namespace dmoscope::ui {
 
@@ -18,5 +19,14 @@ inline constexpr std::array<std::string_view, 5> kFreedoms{"all fixed", "some fi
 
 /// Index into kFreedoms for every element. `fixed`: see Run::fixed; `domain`: null if nothing slides.
 [[nodiscard]] std::vector<std::uint8_t> freedom_of_elements(const Mesh& mesh, std::span<const std::uint8_t> fixed, const Domain* domain);
+
+/// Colours elements for ColourBy::Deviation, Tilt and Freedom.
+void colour_by_sliding(const ColourRequest& request, ElementColours& colours, render::Shading& shading);
+
+/// Colours elements for ColourBy::Multiplier.
+void colour_by_multiplier(const ColourRequest& request, ElementColours& colours, render::Shading& shading);
+
+/// Elements at the vertices of a cluster, ascending.
+[[nodiscard]] std::vector<Index> elements_of(const JointCluster& cluster, const InputMesh& input);
 
 }  // namespace dmoscope::ui

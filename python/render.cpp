@@ -11,7 +11,6 @@
 #include <pybind11/stl.h>
 
 #include "app/window/picture.h"
-#include "app/window/volume_picture.h"
 #include "core/base/error.h"
 #include "core/clipping/clip_to_text.h"
 #include "core/quality/metric.h"

@@ -10,6 +10,7 @@
 
 #include "app/common/provenance.h"
 #include "app/common/quality_report.h"
+#include "app/common/text.h"
 #include "core/inspect/held_minimum.h"
 #include "core/inspect/joint_hold.h"
 #include "core/reference/surface_distance.h"

@@ -66,8 +66,8 @@ CompareOptions options_like(const Run& run) {
   return options;
 }
 
-}  // namespace
-
+/// Makes the page about the runs on the active run's mesh, judged by the metric that is shown. Curves of runs by other metrics contain the
+/// iterations known by it: the present one and those whose positions are kept.
 std::string report_of_session(Session& session, Progress& progress) {
   const Run& active = session.active();
   ThreadPool* const pool = session.pool().get();
@@ -98,6 +98,8 @@ std::string report_of_session(Session& session, Progress& progress) {
   const CompareOptions options = options_like(active);
   return html_of(comparison, {options, "runs as they stand in a session", pool->size(), {}, std::move(warnings)}, progress);
 }
+
+}  // namespace
 
 void write_report_of_session(Session& session, const std::filesystem::path& file, Progress& progress) {
   const std::string page = report_of_session(session, progress);

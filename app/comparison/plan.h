@@ -8,8 +8,8 @@
 
 #include "app/common/judged_run.h"
 #include "app/common/memory_limit.h"
-#include "app/common/reading_options.h"
 #include "app/common/run_options.h"
+#include "app/common/shared_options.h"
 
 namespace dmoscope::app {
 

@@ -11,9 +11,9 @@
 #include <fmt/format.h>
 
 #include "app/common/console.h"
-#include "app/common/goal_options.h"
 #include "app/common/output_checks.h"
 #include "app/common/run_options.h"
+#include "app/common/shared_options.h"
 #include "app/common/smooth_report.h"
 #include "app/common/text.h"
 #include "app/mpi/verbs.h"

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/pictures/mesh_picture.h"
+#include "app/pictures/pictures.h"
 #include "core/drawing/drawing.h"
 
 namespace dmoscope::app {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/paper/figure.h"
+#include "app/paper/lab.h"
 
 namespace dmoscope::app {
 

@@ -9,7 +9,7 @@
 #include "app/common/option_checks.h"
 #include "app/common/output_checks.h"
 #include "app/common/text.h"
-#include "app/pictures/plot_file.h"
+#include "app/pictures/pictures.h"
 #include "app/subcommands/bench_measure.h"
 #include "app/subcommands/bench_pictures.h"
 #include "app/subcommands/bench_plan.h"

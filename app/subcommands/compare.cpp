@@ -8,13 +8,12 @@
 #include <fmt/format.h>
 
 #include "app/common/console.h"
-#include "app/common/goal_options.h"
 #include "app/common/option_checks.h"
 #include "app/common/output_checks.h"
 #include "app/common/provenance.h"
-#include "app/common/surface_option.h"
+#include "app/common/shared_options.h"
 #include "app/comparison/report.h"
-#include "app/pictures/plot_file.h"
+#include "app/pictures/pictures.h"
 #include "app/subcommands/input_report.h"
 #include "app/subcommands/subcommands.h"
 #include "core/base/error.h"

@@ -16,7 +16,7 @@
 #include "app/common/memory_limit.h"
 #include "app/common/option_checks.h"
 #include "app/common/output_checks.h"
-#include "app/common/reading_options.h"
+#include "app/common/shared_options.h"
 #include "app/common/text.h"
 #include "app/subcommands/subcommands.h"
 #include "core/base/error.h"
@@ -27,7 +27,6 @@
 #ifdef DMOSCOPE_HAVE_GUI
 #include "app/common/console.h"
 #include "app/window/picture.h"
-#include "app/window/volume_picture.h"
 #endif
 
 namespace dmoscope::app {

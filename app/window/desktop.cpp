@@ -12,6 +12,7 @@
 
 #include "app/common/acceleration.h"
 #include "app/common/console.h"
+#include "app/window/window.h"
 #include "core/commands/commands.h"
 #include "ui/commands/settings.h"
 #include "ui/toolkit/file_browser.h"
@@ -260,6 +261,15 @@ std::optional<Message> Desktop::run(std::string_view line) {
     failure_ = Message{Message::Kind::Error, "the window cannot have this size on this screen; script --headless draws any size", 1};
   }
   return failure_;
+}
+
+int run_window(const WindowOptions& options) {
+  require_display();
+  block_interrupts();  // before other threads start
+  Desktop window(options);
+  const Watch watch([&window] { window.end_soon(); });  // a second signal ends the process at once
+  window.run_until_closed();
+  return 0;
 }
 
 }  // namespace dmoscope::app

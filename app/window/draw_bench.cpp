@@ -1,16 +1,58 @@
 #include "app/window/draw_bench.h"
 
 #include <chrono>
+#include <memory>
+#include <thread>
 
-#include "app/window/bench_stage.h"
+#include <fmt/format.h>
+
+#include "app/window/interop.h"
+#include "core/base/stopwatch.h"
+#include "core/mesh/random.h"
 #include "core/view/frame_builder.h"
+#include "render/planar_scene.h"
 
 namespace dmoscope::app {
 namespace {
 
+/// A scene with its framebuffer, on an OpenGL context of its own.
+class BenchStage {
+ public:
+  BenchStage(const Acceleration& acceleration, int width, int height)
+      : context_(headless_context_for(acceleration)), picture_(width, height) {
+    scene_.draw_through_host(no_interop(acceleration, *context_));
+  }
+  void show(const std::shared_ptr<const Frame>& frame) {
+    scene_.show(frame);
+    if (first_) {
+      const Vec2<double> viewport{static_cast<double>(picture_.width()), static_cast<double>(picture_.height())};
+      camera_ = render::Camera2D::fit(scene_.bounds(), viewport);
+      first_ = false;
+    }
+    scene_.draw(picture_, camera_, render::Style::dark());
+    context_->finish();
+  }
+  [[nodiscard]] const render::Context& context() const { return *context_; }
+  [[nodiscard]] const render::PlanarScene& scene() const { return scene_; }
+
+ private:
+  std::unique_ptr<render::Context> context_;
+  render::Framebuffer picture_;
+  render::PlanarScene scene_;
+  render::Camera2D camera_;
+  bool first_ = true;
+};
+
 using Clock = std::chrono::steady_clock;
 
 double seconds_between(Clock::time_point a, Clock::time_point b) { return std::chrono::duration<double>(b - a).count(); }
+
+/// Posts a seek, waits for the engine as a window would, and returns the view that shows it.
+std::shared_ptr<const SessionView> seek(Engine& engine, std::uint64_t iteration) {
+  engine.post(fmt::format("seek {}", iteration));
+  while (engine.busy()) std::this_thread::sleep_for(std::chrono::microseconds(20));
+  return engine.view();
+}
 
 }  // namespace
 
@@ -48,6 +90,33 @@ DrawFigure measure_drawing(const DrawSubject& subject, Progress& progress) {
   figure.renderer = stage.context().description();
   figure.path = drawing_path(run.backend(), run.backend_reason(),
                              frame->device_trouble.empty() ? stage.scene().device_trouble() : frame->device_trouble);
+  return figure;
+}
+
+SeekFigure measure_seeks(Engine& engine, const Acceleration& acceleration, std::uint64_t iterations, std::uint64_t seeks,
+                         Progress& progress) {
+  constexpr int kWidth = 1280, kHeight = 800;
+  SeekFigure figure;
+  Random random(1);
+  const auto anywhere = [&] { return random.below(iterations + 1); };
+  for (std::uint64_t i = 0; i < seeks; ++i) {
+    progress.check();
+    const Stopwatch watch;
+    (void)seek(engine, anywhere());
+    figure.seeks.push_back(watch.seconds());
+  }
+  BenchStage stage(acceleration, kWidth, kHeight);
+  stage.show(engine.view()->frame);
+  for (std::uint64_t i = 0; i < seeks; ++i) {
+    progress.check();
+    const Stopwatch watch;
+    const auto view = seek(engine, anywhere());
+    const Stopwatch drawing;
+    stage.show(view->frame);
+    figure.full_frames.push_back(drawing.seconds());
+    figure.drawn.push_back(watch.seconds());
+  }
+  figure.renderer = stage.context().description();
   return figure;
 }
 

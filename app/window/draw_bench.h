@@ -1,10 +1,12 @@
 #pragma once
-// Measurement of the speed of stepping and drawing a run, without a window.
+// Measurements without a window: the speed of stepping and drawing a run, and of seeks through the engine, as by scrubbing the timeline.
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "core/base/progress.h"
+#include "core/engine/engine.h"
 #include "core/session/session.h"
 #include "core/view/drawing_path.h"
 
@@ -34,5 +36,18 @@ struct DrawFigure {
 
 /// Repeats an iteration, a frame and a picture at full detail. Throws Error (no OpenGL) and Cancelled.
 [[nodiscard]] DrawFigure measure_drawing(const DrawSubject& subject, Progress& progress);
+
+/// Seconds of each seek or frame.
+struct SeekFigure {
+  std::vector<double> seeks;        // from the command to the view that shows it
+  std::vector<double> drawn;        // times until the picture is drawn, too
+  std::vector<double> full_frames;  // drawing of any whole frame of the mesh
+  std::string renderer;
+};
+
+/// Measures `seeks` seeks to random iterations without, and as many with drawing a picture of 1280 x 800 pixels. `engine`: has an open mesh
+/// and a run with so many `iterations`. Throws Error (no OpenGL) and Cancelled.
+[[nodiscard]] SeekFigure measure_seeks(Engine& engine, const Acceleration& acceleration, std::uint64_t iterations, std::uint64_t seeks,
+                                       Progress& progress);
 
 }  // namespace dmoscope::app

@@ -6,9 +6,8 @@
 #include <fmt/format.h>
 
 #include "app/common/console.h"
-#include "app/window/picture_parts.h"
-#include "app/window/volume_picture.h"
 #include "core/base/error.h"
+#include "core/clipping/clip_to_text.h"
 #include "core/io/mesh_io.h"
 #include "core/io/writing/atomic_file.h"
 #include "core/mesh/seam.h"
@@ -16,10 +15,28 @@
 #include "core/view/input_spread.h"
 #include "render/context.h"
 #include "render/planar_scene.h"
+#include "render/screenshot.h"
+#include "render/volume_scene.h"
 #include "ui/state/format.h"
 
 namespace dmoscope::app {
+namespace {
 
+/// Share of visible elements: "120 of 5,000 elements"; empty if all are visible.
+std::string share_seen(std::size_t seen, std::size_t all) {
+  if (seen == all) return {};
+  return fmt::format("{} of {}", ui::count(seen), counted(all, "element", "elements"));
+}
+
+/// Qualities of a mesh's elements.
+struct JudgedElements {
+  std::vector<float> quality;  // NaN: not defined
+  std::vector<std::uint8_t> inverted;
+  std::size_t inverted_count;
+  double minimum;  // infinity if no quality is defined
+};
+
+/// Judges the mesh with its vertices at `positions`. Throws UsageError for a metric that is not defined for its elements, and Cancelled.
 JudgedElements judge(const InputMesh& input, std::span<const Vec3> positions, Metric metric, const Progress& progress) {
   require_defined(metric, input);
   progress.check();
@@ -37,8 +54,6 @@ JudgedElements judge(const InputMesh& input, std::span<const Vec3> positions, Me
   return judged;
 }
 
-namespace {
-
 std::pair<double, double> range_of(const PictureLook& look, const JudgedElements& judged) {
   if (look.range) return *look.range;
   InputSpread spread;
@@ -50,8 +65,6 @@ std::pair<double, double> range_of(const PictureLook& look, const JudgedElements
   if (look.spans != PictureLook::Spans::Own) return tidy_range(*range);
   return range->second > range->first ? *range : std::pair{0.0, 1.0};
 }
-
-}  // namespace
 
 render::Style style_of(const PictureLook& look, const JudgedElements& judged) {
   render::Style style = look.transparent ? render::Style::light() : render::Style::dark();
@@ -79,6 +92,37 @@ render::Shot shot_of(const InputMesh& input, const JudgedElements& judged, const
   shot.legend = legend;
   return shot;
 }
+
+/// Draws a mesh in space: see picture_of().
+render::Image volume_picture(const InputMesh& input, std::span<const Vec3> positions, const PictureLook& look, const InsideLook& inside,
+                             const Progress& progress) {
+  const JudgedElements judged = judge(input, positions, look.metric, progress);
+  const auto context = render::create_headless_context();
+  ThreadPool pool;
+  render::VolumeScene scene;
+  scene.set_pool(&pool);
+  scene.set_mesh(input.mesh.elements, input.faces);
+  scene.update({positions, judged.quality, judged.inverted, 1});
+  ClippingView view = inside.view;
+  if (!inside.clip.empty()) {
+    view.clip = parse_clip(inside.clip, scene.bounds().low, scene.bounds().high);
+    view.clip.mode = inside.view.clip.mode;
+  }
+  scene.set_view(view);
+  render::Shot shot = shot_of(input, judged, look);
+  if (shot.legend) shot.legend->selection = share_seen(scene.faces().visible_cells, judged.quality.size());
+  render::OrbitCamera camera;
+  camera.perspective = inside.perspective;
+  camera.look_from(render::view_preset_from_name(inside.from));
+  const Vec2<double> viewport = render::mesh_viewport(shot);
+  constexpr double kMargin = 24.0;  // pixels
+  scene.fit(camera, viewport, {{kMargin, kMargin}, {viewport.x - kMargin, viewport.y - kMargin}});
+  if (look.at) camera.orbit_about(*look.at);
+  camera.height /= look.zoom;
+  return render::render_image(scene, camera, style_of(look, judged), {}, shot).image;
+}
+
+}  // namespace
 
 render::Image picture_of(const InputMesh& input, std::span<const Vec3> positions, const PictureLook& look, const InsideLook& inside,
                          const Progress& progress) {
@@ -121,6 +165,11 @@ int render_picture(const std::filesystem::path& input, const std::filesystem::pa
     complain(fmt::format("{}: {}", mesh->mesh.name, left_out));
   write_file_atomically(output, render::encode_png(picture_of(*mesh, mesh->mesh.positions, look, inside, progress)));
   return 0;
+}
+
+void require_sense(const InsideLook& inside) {
+  if (!inside.clip.empty()) static_cast<void>(parse_clip(inside.clip, {}, {1, 1, 1}));
+  static_cast<void>(render::view_preset_from_name(inside.from));
 }
 
 }  // namespace dmoscope::app

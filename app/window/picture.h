@@ -9,13 +9,10 @@
 #include <utility>
 
 #include "core/base/progress.h"
+#include "core/clipping/clipped_view.h"
 #include "core/input/input_mesh.h"
 #include "core/io/reading/io_context.h"
 
-namespace dmoscope::app {
-
-struct InsideLook;
-}  // namespace dmoscope::app
 namespace dmoscope::render {
 struct Image;
 }
@@ -40,6 +37,19 @@ struct PictureLook {
   bool colour_bar = true;
   int supersample = 2;  // 1 to 8: the factor by which it is drawn larger and then averaged
 };
+
+/// The visible part of a volume mesh, and the view's direction.
+struct InsideLook {
+  std::string clip;          // see parse_clip; empty: no plane
+  ClippingView view{};       // the mode alone; the plane is that of `clip`
+  std::string from = "iso";  // see view_preset_table
+  bool perspective = false;
+  /// Whether any member differs from its default.
+  [[nodiscard]] bool asked_for() const { return !clip.empty() || view != ClippingView{} || from != "iso" || perspective; }
+};
+
+/// Throws UsageError for words without meaning, before anything is read.
+void require_sense(const InsideLook& inside);
 
 /// Draws the mesh with its vertices at `positions`. Throws Error (no usable EGL, an unknown metric or colour map, an inside of a mesh that
 /// has none) and Cancelled.

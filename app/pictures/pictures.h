@@ -1,9 +1,11 @@
 #pragma once
-// Pictures of meshes for pages, if this program and this machine can draw.
+// Pictures for pages and files: of meshes, if this program and this machine can draw; and plots.
 
+#include <filesystem>
 #include <span>
 #include <string>
 
+#include "core/drawing/drawing.h"
 #include "core/input/input_mesh.h"
 
 namespace dmoscope::app {
@@ -20,5 +22,14 @@ struct MeshPicture {
 /// x 600 pixels. Throws UsageError if the metric is not defined for the mesh, Cancelled.
 [[nodiscard]] MeshPicture picture_of_mesh(const InputMesh& input, std::span<const Vec3> positions, Metric metric, const Progress& progress,
                                           double low = 0.0);
+
+/// Throws UsageError if write_plot() does not know this kind of file, OutputError if the file cannot be written.
+void require_plot_target(const std::filesystem::path& path);
+
+/// Returns the bytes that write_plot() writes.
+[[nodiscard]] std::string plot_bytes(const std::filesystem::path& path, const Drawing& drawing);
+
+/// Writes an .svg, or a .png if the program was built with its window; all or nothing. Throws OutputError.
+void write_plot(const std::filesystem::path& path, const Drawing& drawing);
 
 }  // namespace dmoscope::app

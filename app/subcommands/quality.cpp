@@ -177,7 +177,7 @@ int quality(const QualityOptions& options) {
       object["surface"] = {{"file", options.surface.string()},
                            {"deviation", near->deviation},
                            {"share_of_size", share},
-                           {"distance", json_of(surface_distance(*input, mesh.positions))},
+                           {"distance", app::json_of(surface_distance(*input, mesh.positions))},
                            {"tilt", near->tilt},
                            {"not_over_it", near->not_over_it}};
     print_json(object);

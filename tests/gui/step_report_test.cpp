@@ -27,7 +27,7 @@ class StepWindow : public app::HeadlessTest {
   }
   [[nodiscard]] static std::string course(const char* what, double a, double b) {
     const std::string from = short_number(a), to = short_number(b);
-    return from == to ? fmt::format("{} unchanged {}", what, to) : fmt::format("{} {} → {}", what, from, to);
+    return from == to ? fmt::format("{} {} (unchanged)", what, to) : fmt::format("{} {} → {}", what, from, to);
   }
 };
 
@@ -51,7 +51,7 @@ TEST_F(StepWindow, AVertexSaysHowFarItMovedAndWhatThatGained) {
     moved = true;
     EXPECT_EQ(news().moved, std::vector<Index>{visited});
     EXPECT_TRUE(news().sentence.starts_with(fmt::format("vertex {} moved by ", visited))) << news().sentence;
-    EXPECT_NE(news().sentence.find(" % of its edges; "), std::string::npos) << news().sentence;
+    EXPECT_NE(news().sentence.find(" % of its mean edge; "), std::string::npos) << news().sentence;
     const std::string own = course("its worst element", static_cast<double>(worst_around(*before, visited)),
                                    static_cast<double>(worst_around(*after, visited)));
     EXPECT_TRUE(news().sentence.ends_with(own + "; " + minimum)) << news().sentence << "\n" << own << "\n" << minimum;
@@ -106,10 +106,10 @@ TEST_F(StepWindow, TheStatusBarShowsItWhole) {
 
 TEST_F(StepWindow, ANarrowStatusBarEndsWithAWholeClause) {
   const auto width = [](const char* text) { return ImGui::CalcTextSize(text).x; };
-  constexpr const char* kSaid = "iteration 1: minimum 0.07 → 0.5925; mean unchanged 0.9, 4,075 of 4,080 vertices moved";
+  constexpr const char* kSaid = "iteration 1: minimum 0.07 → 0.5925; mean 0.9 (unchanged), 4,075 of 4,080 vertices moved";
   EXPECT_EQ(fit_clauses(kSaid, 1e4F), kSaid);
-  EXPECT_EQ(fit_clauses(kSaid, width("iteration 1: minimum 0.07 → 0.5925; mean unchanged 0.9, 4,0")),
-            "iteration 1: minimum 0.07 → 0.5925; mean unchanged 0.9");
+  EXPECT_EQ(fit_clauses(kSaid, width("iteration 1: minimum 0.07 → 0.5925; mean 0.9 (unchanged), 4,0")),
+            "iteration 1: minimum 0.07 → 0.5925; mean 0.9 (unchanged)");
   EXPECT_EQ(fit_clauses(kSaid, width("iteration 1: minimum 0.07 → 0.5925; mean")), "iteration 1: minimum 0.07 → 0.5925");
   EXPECT_EQ(fit_clauses(kSaid, width("iteration 1: min")), "iteration 1");
   EXPECT_TRUE(fit_clauses(kSaid, width("iterat")).ends_with("…")) << "no clause fits";

@@ -35,10 +35,10 @@ float worst_around(const Frame& frame, Index vertex) {
   return worst;
 }
 
-/// Change of a value: "minimum 0.312 → 0.498", "minimum unchanged 0.312".
+/// Change of a value: "minimum 0.312 → 0.498", "minimum 0.312 (unchanged)".
 std::string course(const char* what, double before, double after) {
   const std::string from = short_number(before), to = short_number(after);
-  return from == to ? fmt::format("{} unchanged {}", what, to) : fmt::format("{} {} → {}", what, from, to);
+  return from == to ? fmt::format("{} {} (unchanged)", what, to) : fmt::format("{} {} → {}", what, from, to);
 }
 
 std::string gains(const Frame& before, const Frame& after) {
@@ -51,7 +51,7 @@ std::string gains(const Frame& before, const Frame& after) {
 std::string way_of(const Frame& before, const Frame& after, Index vertex) {
   const double way = length(after.input->geometry.plane.difference(after.positions[vertex], before.positions[vertex]));
   const double edge = edge_of(before, vertex);
-  return edge > 0.0 ? fmt::format("{:.2g} % of its edges", 100.0 * way / edge) : short_number(way);
+  return edge > 0.0 ? fmt::format("{:.2g} % of its mean edge", 100.0 * way / edge) : short_number(way);
 }
 
 std::string of_one(const Frame& before, const Frame& after, Index vertex) {

@@ -172,6 +172,7 @@ void draw_open_dialog(PanelContext& context) {
   note_item(context, "open:up", "the folder above   Backspace");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-1);
+  if (widgets.dialog_opened) ImGui::SetKeyboardFocusHere();  // a name can be typed at once
   const bool entered = path_field(context, "##path", widgets.open.text);
   context.items.record_last("open:path");
   if (!widgets.open.error.empty()) {

@@ -63,6 +63,10 @@ void draw_mesh(PanelContext& context, const Frame& frame) {
   if (!facts.empty()) dim_text(context, "Found in the input:");
   for (const std::string& fact : facts) wrapped_text(context.shown(fact), context.palette.warning);
   const RunView* active = context.run();
+  if (active != nullptr && active->parameters.standing().layers == LayerRule::Keep) {
+    const std::string layers = frame.input->layers_sentence("layers: free");
+    if (!layers.empty()) dim_text(context, layers);
+  }
   const bool fixed = active != nullptr && active->parameters.interfaces != InterfaceRule::Free;
   const std::string& interfaces = fixed ? context.derived.interfaces : context.derived.free_interfaces;
   if (!interfaces.empty()) dim_text(context, interfaces);
@@ -77,13 +81,14 @@ void empty_lines(const PanelContext& context, int count) {
 
 /// Words for a command's effect: "Let the boundary slide".
 std::string words_of(const std::string& command) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kWords{{{"boundary slide", "Let the boundary slide"},
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kWords{{{"boundary slide", "Let the boundary slide"},
                                                                                  {"interfaces slide", "Let interfaces slide"},
                                                                                  {"then joint", "Move several vertices at once"},
                                                                                  {"then mean", "Raise the mean"},
                                                                                  {"layers free", "Let boundary layers go"},
                                                                                  {"max-deviation ", "Let the boundary deviate more: "},
                                                                                  {"corner-angle ", "Corners only from a turn of "},
+                                                                                 {"feature-angle ", "Features only from a fold of "},
                                                                                  {"unfix ", "Free vertices fixed by hand: "}}};
   for (const auto& [begins, words] : kWords)
     if (command.starts_with(begins)) return std::string(words) + command.substr(begins.size());
@@ -293,6 +298,8 @@ void draw_vertex(PanelContext& context, const Frame& frame, Index vertex) {
   const bool fixed = run != nullptr && vertex < run->fixed.size() && run->fixed[vertex] != 0;
   const bool slides = !fixed && run != nullptr && run->domain != nullptr && run->domain->slides(vertex);
   const Interfaces& interfaces = frame.input->interfaces;
+  const bool layer =
+      fixed && run->parameters.standing().layers == LayerRule::Keep && std::ranges::binary_search(frame.input->layers, vertex);
   const bool interface = fixed && run->parameters.interfaces != InterfaceRule::Free && interfaces.holds(vertex);
   const bool on_surface = slides && run->domain->on_surface(vertex), in_space = frame.input->in_space();
   const std::string_view held = fixed && run->domain != nullptr ? run->domain->why_held(vertex) : std::string_view();
@@ -302,11 +309,14 @@ void draw_vertex(PanelContext& context, const Frame& frame, Index vertex) {
             : slides                        ? boundary ? "along the boundary" : "along the interface"
             : !fixed                        ? "free"
             : topology.star(vertex).empty() ? "fixed: unused"
+            : layer                         ? "fixed: boundary layer"
             : interface                     ? "fixed: interface"
             : !held.empty()                 ? held_word(run->domain->held_on(vertex))
             : boundary                      ? "fixed: boundary"
                                             : "fixed",
-            interface ? interfaces.why(vertex) : std::string(held));
+            layer       ? "boundary layers stay (layers: free lets them go)"
+            : interface ? interfaces.why(vertex)
+                        : std::string(held));
   if (run != nullptr) draw_vertex_kind(context, frame, *run, vertex);
   value_row(context, "valence", count(topology.star(vertex).size()), {}, {}, "elements around it");
   draw_loop_place(context, frame, vertex);

@@ -73,10 +73,19 @@ void draw_figures(PanelContext& context, const std::vector<FigureRow>& rows, con
   }
 }
 
+/// Width of the title of the only viewport, which tells of inverted elements.
+float title_width(const PanelContext& context) {
+  float width = context.px(30);
+  for (const PaneFacts& pane : context.panes)
+    for (const TitlePiece& piece : title_of(pane, context.session.shown))
+      if (piece.role != TitlePiece::Role::Dim) width += ImGui::CalcTextSize(piece.text.c_str()).x + context.px(12);
+  return width;
+}
+
 /// Place of the note: beside the title of the only viewport if there is room, else below everything that stands under the titles.
 Rect place(const PanelContext& context, const Rect& rect, float width, float height) {
   const float em = context.em(), margin = context.px(8);
-  const bool beside = context.state.panes.one() && rect.w - width > 16 * em;
+  const bool beside = context.state.panes.one() && rect.w - width > std::max(16 * em, title_width(context));
   return {rect.x + rect.w - margin - width, rect.y + (beside ? margin : 5.2F * em), width, height};
 }
 

@@ -237,6 +237,16 @@ void draw_interfaces(PanelContext& context, const RunParameters& parameters) {
     if (combo.entry(name(rule), name(rule), rule == parameters.interfaces)) context.send(fmt::format("interfaces {}", name(rule)));
 }
 
+/// Draws the rule for the boundary layers of a mesh that has any.
+void draw_layers(PanelContext& context, const RunParameters& parameters) {
+  if (!context.session.input || context.session.input->layers.empty()) return;
+  labelled(context, "layers", parameter_info("layers").doc.data());
+  Combo combo(context, "layers", std::string(name(parameters.layers)));
+  if (!combo.open()) return;
+  for (const LayerRule rule : {LayerRule::Keep, LayerRule::Free})
+    if (combo.entry(name(rule), name(rule), rule == parameters.layers)) context.send(fmt::format("layers {}", name(rule)));
+}
+
 void draw_order(PanelContext& context, const RunParameters& parameters) {
   labelled(context, "order", "the order in which an iteration visits the vertices, before colouring");
   const bool shuffled = parameters.order.seed.has_value();
@@ -304,6 +314,7 @@ void draw_settings(PanelContext& context, const RunView& run) {
   draw_composite(context, run);
   draw_options(context, parameters, run.input && run.input->is_surface());
   draw_interfaces(context, parameters);
+  draw_layers(context, parameters);
   draw_order(context, parameters);
   draw_backend(context, run);
   labelled(context, "threads", "number of processor threads; the result does not depend on it");

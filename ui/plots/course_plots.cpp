@@ -62,10 +62,9 @@ class CoursePlot : PlotBuilder {
     lay_along(longest);
     if (session_.runs.empty()) return;
     mark(session_.active, session_.runs[session_.active].moment, {});
-    for (std::size_t k = 0; k < session_.runs.size(); ++k)
-      for (const auto& [since, label] :
-           {std::pair{session_.runs[k].phases.joint_since, "joint"}, {session_.runs[k].phases.mean_since, "mean"}})
-        if (since && *since > 0) mark(k, {*since}, several_ ? fmt::format("{} {}", k + 1, label) : label);
+    const RunPhases& phases = session_.runs[session_.active].phases;  // those of all runs would lie on one another
+    for (const auto& [since, label] : {std::pair{phases.joint_since, "joint"}, {phases.mean_since, "mean"}})
+      if (since && *since > 0) mark(session_.active, {*since}, label);
     for (const auto& [its, label] : {std::pair{&state_.timeline.a, "A"}, {&state_.timeline.b, "B"}}) {
       if (its->frame && session_.frame) mark(its->frame->run, its->frame->moment, label);
     }

@@ -66,7 +66,10 @@ class DistributionPlot : PlotBuilder {
       add_histogram(std::move(other), summary->histogram);
     }
     brush(*frame);
-    if (frame->now.below > 0) plot_.y_title += fmt::format(" ({} below {:g})", count(frame->now.below), frame->now.lowest);
+    const bool both = moved && frame->before.below != frame->now.below && !(frame->provisional && !frame->input_spread);
+    if (frame->now.below > 0 || both)
+      plot_.y_title += fmt::format(" ({} below {:g}{})", count(frame->now.below), frame->now.lowest,
+                                   both ? fmt::format(", {} in the input", count(frame->before.below)) : std::string());
     if (state_.plot_options.histogram_range == HistogramRange::Data) show_data_alone();
   }
 

@@ -83,7 +83,7 @@ std::string PaneView::note(const ViewState& state) const {
   if (picked.kind == Picked::Kind::Element && !scene.sees_element(picked.id)) add(fmt::format("element {}", picked.id));
   if (picked.kind == Picked::Kind::Vertex && !scene.sees_vertex(picked.id)) add(fmt::format("vertex {}", picked.id));
   if (faint.empty()) return text;
-  return "hidden, therefore marked faintly: " + faint + (text.empty() ? "" : " · ") + text;
+  return "hidden, marked faintly: " + faint + (text.empty() ? "" : " · ") + text;
 }
 
 void PaneView::update_volume(render::VolumeScene& scene, const Scenery& scenery, const Wish& wish) {

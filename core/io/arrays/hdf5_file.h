@@ -46,7 +46,7 @@ class Hdf5File final : public ArrayFile {
 
   std::unique_ptr<Library> library_;
   const IoContext& context_;
-  std::uint64_t left_;                             // bytes that may still be unpacked
+  std::uint64_t left_;  // bytes that may still be unpacked
 };
 
 }  // namespace dmoscope

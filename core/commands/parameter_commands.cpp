@@ -64,7 +64,7 @@ void set_interfaces(CommandContext& context, Arguments arguments) {
 void add_parameters(std::vector<CommandRow>& table) {
   for (const ParameterInfo& row : parameter_table()) {
     if (!row.in_session) continue;
-    CommandRow command{{std::string(row.name), fmt::format("{} {}", row.name, row.type), row.help() + "."},
+    CommandRow command{{std::string(row.command()), fmt::format("{} {}", row.command(), row.type), row.help() + "."},
                        {1, 1, [&row](CommandContext& context, Arguments arguments) { set(row, context, arguments); }}};
     if (row.name == "backend") command.action.handler = set_backend;
     if (row.name == "boundary") command.action.handler = set_boundary;

@@ -19,7 +19,7 @@ namespace dmoscope {
 namespace {
 
 /// Maps a mesh that is in degrees; returns sentences for the user.
-std::vector<std::string> take_degrees(Mesh& mesh, const std::filesystem::path& path, Geographic choice) {
+std::vector<std::string> take_degrees(Mesh& mesh, const std::filesystem::path& path, Need need, Geographic choice) {
   if (choice == Geographic::Off) return {};
   if (choice == Geographic::On) {
     if (const std::string why = why_not_geographic(mesh); !why.empty())
@@ -29,6 +29,13 @@ std::vector<std::string> take_degrees(Mesh& mesh, const std::filesystem::path& p
     if (likeness == Likeness::Range)
       return {"its coordinates may be degrees of longitude and latitude, but nothing says so: --geographic on judges it on the Earth"};
     if (likeness == Likeness::None) return {};
+    if (likeness == Likeness::Pole) {
+      std::string text =
+          "its coordinates seem to be degrees of longitude and latitude, round the globe and up to a pole, which no map shows";
+      if (need == Need::Smoothing)
+        throw InputError(path.string(), 0, text + ": cut it at 89.5 degrees, or take them as they stand (--geographic off)");
+      return {text + ": it is judged in the plane of its numbers"};
+    }
   }
   map_to_mercator(mesh);
   return {
@@ -53,7 +60,7 @@ std::shared_ptr<const InputMesh> load_input(const std::filesystem::path& path, N
   try {
     Mesh mesh = read_mesh(path, context);
     name_materials(mesh, materials);
-    std::vector<std::string> notes = take_degrees(mesh, path, context.geographic);
+    std::vector<std::string> notes = take_degrees(mesh, path, need, context.geographic);
     for (std::string& note : take_thin(mesh, path, context)) notes.push_back(std::move(note));
     return prepare(std::move(mesh), path, need, context.progress, {}, std::move(notes));
   } catch (const std::bad_alloc&) {

@@ -70,6 +70,9 @@ Likeness looks_geographic(const Mesh& mesh) {
   if (std::ranges::none_of(kOceans, [&](std::string_view extension) { return file.ends_with(extension); })) return Likeness::None;
   const PointBox box = box_of(mesh.positions);
   const bool fits = box.high.x - box.low.x <= 360.0 && box.low.x >= -360.0 && box.high.x <= 360.0;
+  constexpr double kAround = 350.0, kPole = 90.0;  // degrees
+  const bool around = fits && box.high.x - box.low.x >= kAround && box.low.y >= -kPole && box.high.y <= kPole;
+  if (around && box.low.z == box.high.z && (box.low.y < -kFarthest || box.high.y > kFarthest)) return Likeness::Pole;
   if (!fits || !why_not_geographic(mesh).empty()) return Likeness::None;
   if (says_so(mesh.title) || says_so(mesh.name)) return Likeness::Said;
   const bool elsewhere = box.low.x < 0.0 || box.high.x > 180.0;

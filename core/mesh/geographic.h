@@ -32,10 +32,10 @@ enum class Geographic { Off, On, Auto };
 /// Reason why a mesh cannot be taken for one in degrees: a place beyond a pole, or too near to it for the map; a volume; a curved surface.
 /// Empty: it can.
 [[nodiscard]] std::string why_not_geographic(const Mesh& mesh);
-enum class Likeness { None, Range, Said };
+enum class Likeness { None, Range, Said, Pole };
 /// Judges whether a mesh is in degrees. Said: a planar mesh within the range of degrees, of a format for coasts and oceans, whose title or
 /// file name says so by a word (degrees, longitude, lon, ll ...). Range: such a mesh without such a word, with some x below zero or beyond
-/// 180, and some |y| beyond 5.
+/// 180, and some |y| beyond 5. Pole: a mesh of such a format that goes round the globe and nearer to a pole than the map can show.
 [[nodiscard]] Likeness looks_geographic(const Mesh& mesh);
 
 /// Maps the positions of a mesh, which are in degrees.

@@ -226,7 +226,9 @@ const std::array kTable{
                         if (p.fit > 0.0) p.boundary = BoundaryRule::Slide;
                       },
                   .in_title = [](const P& p) { return fmt::format("fit {:g}", p.fit); },
-                  .before = "off"},
+                  .before = "off",
+                  .said = "fit-surface",
+                  .item = "fit-surface"},
     ParameterInfo{.name = "joint-gap",
                   .title = "joint gap",
                   .type = "X",

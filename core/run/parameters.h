@@ -80,9 +80,11 @@ struct ParameterInfo {
   void (*from_text)(RunParameters&, const std::string&);
   std::string (*in_title)(const RunParameters&) = nullptr;  // its words in a run's title where it is not the default; null: nothing
   std::string_view before{};  // its value in session files written before it existed; empty: all files have it
+  std::string_view said{};    // its command, where another one has its name
   std::string_view item{};    // its widget in the window, where that is not the name
   bool in_session = true;     // is a command, and saved; else an option of the command line alone
 
+  [[nodiscard]] std::string_view command() const noexcept { return said.empty() ? name : said; }
   /// Returns whether the run reads it. `surface`: whether the mesh is a curved surface, where all vertices slide whatever the rule says.
   [[nodiscard]] bool read_by(const RunParameters& parameters, bool surface) const;
   /// Help of a parameter: `doc`, with the range of a number and, where not all methods read it, those that do.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <sstream>
 #include <string>
@@ -17,6 +18,7 @@
 namespace dmoscope::test {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -137,6 +139,33 @@ TEST(GeographicOnTheCommandLine, ItIsSaidAndWhereInDoubtAsked) {
   const Output solid = run({"quality", folder / "cube.vtk", "--geographic", "on"});
   EXPECT_EQ(solid.code, 3);
   EXPECT_THAT(solid.err, HasSubstr("it has volume elements"));
+}
+
+/// In the plane of its numbers the element round a pole is inverted, and untangling it sends vertices beyond latitude 90.
+TEST(GeographicOnTheCommandLine, AGlobeWithItsPoleIsRefusedNotWrecked) {
+  constexpr int kRound = 12, kRows = 3;
+  constexpr std::array<double, kRows> kLatitudes{60.0, 80.0, 89.8};
+  std::string text = fmt::format("ocean\n{} {}\n", 2 * kRound * (kRows - 1) + kRound - 2, kRound * kRows);
+  for (int row = 0; row < kRows; ++row)
+    for (int i = 0; i < kRound; ++i)
+      text +=
+          fmt::format("{} {} {} 1\n", row * kRound + i + 1, -179.5 + 359.0 * i / (kRound - 1), kLatitudes[static_cast<std::size_t>(row)]);
+  int element = 0;
+  const auto add = [&](int a, int b, int c) { text += fmt::format("{} 3 {} {} {}\n", ++element, a + 1, b + 1, c + 1); };
+  for (int row = 0; row + 1 < kRows; ++row)
+    for (int i = 0; i < kRound; ++i) {
+      const int a = row * kRound + i, b = row * kRound + (i + 1) % kRound;
+      add(a, b, b + kRound);
+      add(a, b + kRound, a + kRound);
+    }
+  for (int i = 1; i + 1 < kRound; ++i) add(2 * kRound, 2 * kRound + i, 2 * kRound + i + 1);
+  const Folder folder;
+  const std::string globe = folder.file("globe.14", text + "0\n0\n0\n0\n");
+  const Output refused = run({"smooth", globe, "-o", folder / "out.14"});
+  EXPECT_EQ(refused.code, 3);
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("up to a pole"), HasSubstr("--geographic off")));
+  EXPECT_FALSE(std::filesystem::exists(folder / "out.14"));
+  EXPECT_THAT(run({"quality", globe}).err, HasSubstr("in the plane of its numbers"));
 }
 
 /// Words with places use the file's coordinates, and a session that is saved comes back the same.

@@ -189,7 +189,7 @@ void choice(PanelContext& context, const ParameterInfo& row, const std::string& 
 }
 
 void draw_parameter(PanelContext& context, const ParameterInfo& row, const RunParameters& parameters) {
-  const std::string command(row.name), item(row.item.empty() ? row.name : row.item), now = row.to_text(parameters);
+  const std::string command(row.command()), item(row.item.empty() ? row.name : row.item), now = row.to_text(parameters);
   float wanted = 0;
   for (const std::string_view word : row.choices) wanted = std::max(wanted, combo_width(ImGui::CalcTextSize(std::string(word).c_str()).x));
   labelled(context, std::string(row.title).c_str(), row.help().c_str(), wanted);

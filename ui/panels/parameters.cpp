@@ -207,7 +207,7 @@ void draw_parameter(PanelContext& context, const ParameterInfo& row, const RunPa
 /// Draws the options of the run's method, and nothing else.
 void draw_options(PanelContext& context, const RunParameters& parameters, bool surface) {
   for (const ParameterInfo& row : parameter_table()) {
-    const bool is_option = row.reader != nullptr || row.sliding_only || row.name == "boundary";
+    const bool is_option = (row.reader != nullptr || row.sliding_only || row.name == "boundary") && row.kind != ParameterKind::Text;
     if (row.in_session && is_option && row.read_by(parameters, surface) && !(row.volume_only && !context.state.in_space))
       draw_parameter(context, row, parameters);
   }

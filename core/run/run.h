@@ -258,6 +258,7 @@ class Run {
   [[nodiscard]] bool raise_of_worst_follows(std::uint64_t iteration) const;
   [[nodiscard]] bool is_joint(std::uint64_t iteration) const;
   [[nodiscard]] std::optional<MeshRegion> region_of_inverted(std::span<const Vec3> positions) const;
+  [[nodiscard]] std::optional<Guard> joint_guard() const;
   [[nodiscard]] JointObjective joint_aims() const;
   [[nodiscard]] JointClusters& joint_clusters();
   void move_jointly(Progress& progress);

@@ -96,10 +96,14 @@ std::shared_ptr<const JointStanding> Run::joint_standing() const {
   return state ? std::make_shared<const JointStanding>(JointStanding{iteration, std::move(*state)}) : nullptr;
 }
 
+/// Guard of joint moves; none where the input is tangled, for what is untangled may be below its floor.
+std::optional<Guard> Run::joint_guard() const { return history_.records().front().statistics.inverted == 0 ? guard_ : std::nullopt; }
+
 /// Aims of joint moves. A guard is a first aim that is reached already.
 JointObjective Run::joint_aims() const {
-  if (!guard_ || parameters_.combination) return {parameters_.metric, parameters_.combination};
-  const JointObjective guarded(guard_->metric, CompositeTerms{std::nextafter(guard_->floor, 0.0), parameters_.metric});
+  const std::optional<Guard> guard = joint_guard();
+  if (!guard || parameters_.combination) return {parameters_.metric, parameters_.combination};
+  const JointObjective guarded(guard->metric, CompositeTerms{std::nextafter(guard->floor, 0.0), parameters_.metric});
   return why_not_joint(*input_, guarded).empty() ? guarded : JointObjective(parameters_.metric);
 }
 
@@ -126,7 +130,7 @@ void Run::move_jointly(Progress& progress) {
   const bool anew = at_.moment.edits > 0;
   std::optional<JointState> before = anew ? JointState{} : joint_course_.state_after(iteration, since);
   if (!before) return restore(since);
-  JointOptions options = joint_options(parameters_, guard_);
+  JointOptions options = joint_options(parameters_, joint_guard());
   options.pool = pool_.get();
   options.on_step = [&](const JointStep& step) {
     progress.set(share_done((step.bound - step.minimum) / step.bound, options.gap));

@@ -40,8 +40,9 @@ void visit_all(Smoother& smoother, const Colouring& colouring, std::vector<Vec3>
 std::vector<std::vector<Vec3>> always_awake(const dmoscope::Run& run) {
   const auto mesh = std::shared_ptr<const InputMesh>(std::shared_ptr<void>(), &run.input());
   const auto colouring = std::make_shared<const Colouring>(run.colouring());
-  const auto smoother =
-      make_smoother({.input = mesh, .colouring = colouring, .metric = run.parameters().metric, .search = run.parameters().search});
+  SmoothingTask task{.input = mesh, .colouring = colouring, .metric = run.parameters().metric, .search = run.parameters().search};
+  task.guard = run.guard();
+  const auto smoother = make_smoother(task);
   std::vector<std::vector<Vec3>> after{run.input().mesh.positions};
   std::vector<Vec3> positions = after[0];
   std::vector<IterationRecord> records{run.history().records()[0]};

@@ -62,7 +62,8 @@ TEST(Hints, ChangeNeitherTheMeshNorTheExitCodeOfAnyMix) {
     ++ran;
     EXPECT_TRUE(json_of(without)["held_by"].is_null()) << what;
     EXPECT_THAT(without.err, Not(HasSubstr("try --method"))) << what;
-    EXPECT_TRUE(json_of(with)["held_by"].is_object()) << what;
+    const auto told = json_of(with);
+    EXPECT_TRUE(told["held_by"].is_object() || told["after"]["minimum"] > 1.0 - 1e-9) << what;  // nothing holds what is ideal
     EXPECT_EQ(read_file(folder / "off.vtk"), read_file(folder / "full.vtk")) << what;
   }
   EXPECT_GT(ran, 12);

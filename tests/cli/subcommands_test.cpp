@@ -400,7 +400,7 @@ TEST(Usage, WordsThatNothingTakesAreSaidInTheirOrderWithAGuess) {
 
 TEST(Convert, TheOutputIsAWordOrAnOption) {
   const Folder folder;
-  ASSERT_EQ(run({"generate", "coast", "--size", "100", "-o", folder / "a.vtk"}).code, 0);
+  ASSERT_EQ(run({"generate", "random", "--size", "200", "-o", folder / "a.vtk"}).code, 0);
   EXPECT_EQ(run({"convert", folder / "a.vtk", folder / "b.off"}).code, 0);
   EXPECT_EQ(run({"convert", folder / "a.vtk", "-o", folder / "c.off"}).code, 0);
   EXPECT_EQ(read_file(folder / "b.off"), read_file(folder / "c.off"));

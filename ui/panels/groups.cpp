@@ -124,8 +124,7 @@ void draw_groups(PanelContext& context) {
   if (groups.empty() || context.run() == nullptr) return;
   ImGui::Dummy({0, context.px(4)});
   heading(context, "Groups");
-  constexpr std::size_t kMostShown = 40;  // a longer list in a panel helps nobody
-  const std::size_t shown = std::min(groups.size(), kMostShown);
+  const std::size_t shown = std::min<std::size_t>(groups.size(), kMostShown);
   const bool more = groups.size() > kMostShown;
   ImGui::BeginDisabled(context.activity.busy);
   const float swatch = 0.7F * ImGui::GetTextLineHeight() + context.px(6);

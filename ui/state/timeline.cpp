@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/words.h"
 #include "ui/state/run_names.h"
 
 namespace dmoscope::ui {

@@ -825,7 +825,7 @@ inline std::string cgns_linked() {
     "]Yq[6]EMQAE[9]BFpvbmUYAABzb2xpZHMuY2ducwAvQmFzZS9ab25lADya6wY=");
 }
 
-/// The same solids as exodus_solids, by meshio.
+/// MED, written by meshio: a wedge, a cube, a tetrahedron, a pyramid, a triangle and a line, with groups and fields.
 inline std::string med_solids() {
   return array_file(
     "iUhERg0KGgo[7]gIAAQAE[17]D//////////9AWAQ[6]//////////8[10]G[11]Q[8]CI[9]KgC[9]QABAAEAAAAY[9]BEAE[7]i[9]CoAg[7]FRSRUUAAAEA////////////////"

@@ -307,7 +307,7 @@ for name, file, what in [
         ("cgns_periodic", "periodic.cgns", "two structured zones of the plane that share an edge, and the ends of which are one"),
         ("cgns_periodic_lists", "periodic_lists.cgns", "an unstructured zone of the plane whose ends are one, by a list of points"),
         ("cgns_linked", "linked.cgns", "a zone that is a link into another file"),
-        ("med_solids", "solids.med", "the same solids as exodus_solids, by meshio"),
+        ("med_solids", "solids.med", "MED, written by meshio: a wedge, a cube, a tetrahedron, a pyramid, a triangle and a line, with groups and fields"),
         ("med_plane", "plane.med", "MED 2: two meshes of the plane"),
         ("xdmf_numbers", "numbers.h5", "HDF5: what XDMF files refer to")]:
     text = base64.b64encode(open(path(file), "rb").read()).decode()

@@ -45,15 +45,18 @@ void add_parameter(CLI::App& subcommand, const ParameterInfo& row, std::string& 
   if (row.kind == ParameterKind::Real) option->check(real_number());
 }
 
-void add_kind_options(CLI::App& subcommand, KindWords& words) {
-  const auto add = [&](const char* name, std::vector<std::string>& into, const char* type, const std::string& help) {
-    subcommand.add_option(name, into, help)->type_name(type)->take_all()->expected(1);
+void add_selections(CLI::App& subcommand, Selections& selections) {
+  const auto add = [&](auto& into, const char* type, const std::string& help) {
+    subcommand.add_option(std::string(into.option), into.words, help)->type_name(type)->take_all()->expected(1);
   };
-  add("--corner", words.corner, "VERTICES", "Vertices that stay where others slide, named as those to fix are");
-  add("--no-corner", words.no_corner, "VERTICES", "Vertices that slide though their curve turns there by more than the corner angle");
-  add("--feature", words.feature, "EDGES",
+  add(selections.fix, "VERTICES", fmt::format("Vertices to keep where they are besides the boundary: {}", kVertexWords));
+  add(selections.slide, "VERTICES",
+      "Vertices of the boundary, named as those to fix are, that slide while the rest of the boundary stays: loop:1");
+  add(selections.corner, "VERTICES", "Vertices that stay where others slide, named as those to fix are");
+  add(selections.no_corner, "VERTICES", "Vertices that slide though their curve turns there by more than the corner angle");
+  add(selections.feature, "EDGES",
       fmt::format("Feature edges, which nothing crosses and along which their vertices slide: {}", kEdgeWords));
-  add("--no-feature", words.no_feature, "EDGES", "Edges that are smooth though the surface folds there by more than the feature angle");
+  add(selections.no_feature, "EDGES", "Edges that are smooth though the surface folds there by more than the feature angle");
 }
 
 }  // namespace
@@ -113,17 +116,7 @@ void add_run_options(CLI::App& subcommand, RunOptions& options) {
       ->type_name("on|full|off")
       ->capture_default_str();
   for (const ParameterInfo& row : parameter_table()) add_parameter(subcommand, row, options.parameters.at(std::string(row.name)));
-  subcommand.add_option("--fix", options.fix, fmt::format("Vertices to keep where they are besides the boundary: {}", kVertexWords))
-      ->type_name("VERTICES")
-      ->take_all()
-      ->expected(1);
-  subcommand
-      .add_option("--slide", options.slide,
-                  "Vertices of the boundary, named as those to fix are, that slide while the rest of the boundary stays: loop:1")
-      ->type_name("VERTICES")
-      ->take_all()
-      ->expected(1);
-  add_kind_options(subcommand, options.kinds);
+  add_selections(subcommand, options.selections);
 }
 
 RunParameters parameters_of(const RunOptions& options) {

@@ -8,6 +8,7 @@
 
 #include "core/base/thread_count.h"
 #include "core/run/run.h"
+#include "core/run/selections.h"
 
 namespace CLI {
 class App;
@@ -18,11 +19,6 @@ namespace dmoscope::app {
 /// The default parameters.
 [[nodiscard]] std::map<std::string, std::string, std::less<>> usual_parameters();
 
-/// Words that name vertices or edges, by their option.
-struct KindWords {
-  std::vector<std::string> corner, no_corner, feature, no_feature;
-};
-
 struct RunOptions {
   std::string method = "dmo";
   std::string metric = "mean-ratio";
@@ -32,10 +28,8 @@ struct RunOptions {
   std::string then;           // see set_then(); empty: nothing
   std::string recipe;         // a name of recipe_table(); empty: none
   unsigned threads = 0;
-  std::string hints = "on";                                                         // for parse_hints()
-  std::vector<std::string> fix;                                                     // for vertices_to_fix()
-  std::vector<std::string> slide;                                                   // for vertices_to_slide()
-  KindWords kinds;                                                                  // for kinds_of()
+  std::string hints = "on";  // for parse_hints()
+  Selections selections{};
   std::map<std::string, std::string, std::less<>> parameters = usual_parameters();  // names and values of parameter_table()
 };
 

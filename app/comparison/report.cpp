@@ -223,7 +223,8 @@ void add_settings(Page& page, const Comparison& comparison, const ComparisonFact
       {"order",
        options.run.parameters.at("order") + (options.shuffles > 0 ? fmt::format(", and {} shuffled ones", options.shuffles) : "")}};
   list.emplace_back("interfaces", options.run.parameters.at("interfaces"));
-  if (!options.run.fix.empty()) list.emplace_back("kept where they are", fmt::format("{}", fmt::join(options.run.fix, "; ")));
+  if (const auto& fix = options.run.selections.fix.words; !fix.empty())
+    list.emplace_back("kept where they are", fmt::format("{}", fmt::join(fix, "; ")));
   for (auto& fact : machine_facts(facts.threads)) list.push_back(std::move(fact));
   if (facts.command_line.empty()) list.erase(list.begin());
   page.heading("Settings");

@@ -46,8 +46,7 @@ void refuse(bool is_asked, std::string_view what) {
 /// Throws UsageError for options that need more of the mesh than a rank has.
 void refuse_what_needs_one_process(const RunOptions& options, const RunParameters& parameters) {
   refuse(method_info(parameters.method).joint || parameters.then_joint, "joint moves (--method joint, --then joint)");
-  refuse(parameters.standing().slides() || !options.slide.empty() || !options.kinds.corner.empty() || !options.kinds.no_corner.empty() ||
-             !options.kinds.feature.empty() || !options.kinds.no_feature.empty(),
+  refuse(parameters.standing().slides() || !options.selections.slide.empty() || !options.selections.no_kinds(),
          "vertices that slide (--boundary slide, --slide, --interfaces slide, --corner, --feature)");
   refuse(parameters.combination && parameters.combination->size() != nullptr, "sizes (--combine with density)");
   refuse(parameters.order.seed.has_value(), "an order of visits but the natural one (--order)");
@@ -116,7 +115,7 @@ int smooth(const World& world, const SharedSmoothOptions& options) {
   std::string without;
   RunParameters parameters = shared_parameters(options, without);
   const PartitionChoice partition = parse_partition(options.partition);
-  const SharedVertexWords named(options.run.fix);
+  const SharedVertexWords named(options.run.selections.fix.words);
   world.together([&] {
     if (!world.is_first()) return;
     require_writable(options.output);

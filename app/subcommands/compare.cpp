@@ -79,10 +79,8 @@ int compare(const CompareOptions& options, const std::string& command_line) {
   options.reading.tell(reading);
   const auto input = load_input_on(options.file, options.surface, Need::Smoothing, reading, options.materials);
   std::vector<std::string> warnings = tell_findings(*input);
-  const std::vector<Index> fixed = vertices_to_fix(input->mesh, options.run.fix);
-  const std::vector<Index> sliding = vertices_to_slide(input->mesh, options.run.slide);
-  for (Contender& contender : plan.contenders) fix_and_slide(contender.parameters, *input, fixed, sliding);
-  fit_to_mesh(plan, input, kinds_of(*input, plan.contenders.front().parameters, options.run.kinds, warnings));
+  for (Contender& contender : plan.contenders) fix_and_slide(contender.parameters, *input, options.run.selections);
+  fit_to_mesh(plan, input, tell_kinds(*input, plan.contenders.front().parameters, options.run.selections, warnings));
   tell_interfaces(*input, plan.contenders.front().parameters, warnings);
 
   const auto warn = [&warnings](std::string sentence) {

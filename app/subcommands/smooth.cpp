@@ -145,9 +145,9 @@ int smooth(const SmoothOptions& options) {
   options.reading.tell(reading);
   const auto input = load_input_on(options.input, options.surface, Need::Smoothing, reading, options.materials);
   std::vector<std::string> warnings = tell_findings(*input);
-  fix_and_slide(parameters, *input, vertices_to_fix(input->mesh, options.run.fix), vertices_to_slide(input->mesh, options.run.slide));
+  fix_and_slide(parameters, *input, options.run.selections);
   require_fields(parameters.fields, input->mesh);
-  parameters.kinds = kinds_of(*input, parameters, options.run.kinds, warnings);
+  parameters.kinds = tell_kinds(*input, parameters, options.run.selections, warnings);
   tell_interfaces(*input, parameters, warnings);
   const auto warn = [&warnings](std::string sentence) {
     complain(sentence);

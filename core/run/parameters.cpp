@@ -33,6 +33,7 @@ using Word = const std::string&;
 
 constexpr std::array<std::string_view, 2> kPrecisions{"float", "double"}, kDirections{"random", "axes"}, kBoundary{"fixed", "slide"},
     kLayers{"keep", "free"};
+constexpr std::array<std::string_view, 4> kSimdLevels{"auto", "baseline", "avx2", "avx512"};
 constexpr std::array<std::string_view, 3> kBackends{"auto", "cpu", "cuda"}, kInterfaces{"fixed", "free", "slide"};
 
 const std::array kTable{
@@ -83,6 +84,7 @@ const std::array kTable{
         .title = "SIMD",
         .type = "LEVEL",
         .doc = "Vector instructions: auto, baseline, avx2 or avx512. The result is the same for any",
+        .choices = kSimdLevels,
         .reader = &MethodInfo::searches_grid,
         .to_text = [](const P& p) { return std::string(p.search.simd ? name(*p.search.simd) : "auto"); },
         .from_text = [](P& p, Word word) { p.search.simd = word == "auto" ? std::nullopt : std::optional(parse_simd_level(word)); },

@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
     const dmo::Mesh mesh = dmo::Mesh::read(argv[1]);
     dmo::SmoothOptions options;
     options.until_converged = true;
-    options.options["metric"] = "mean-ratio";
+    options.metric = "mean-ratio";
     options.after_iteration = [](const dmo::Iteration& at) {
       std::printf("iteration %llu: minimum %.4f\n", static_cast<unsigned long long>(at.number), at.statistics.minimum);
       return true;  // false would end here

@@ -24,5 +24,6 @@ Progress& Progress::operator=(const Progress&) = default;
 double Progress::fraction() const { return state_->progress.fraction(); }
 std::string Progress::label() const { return state_->progress.label(); }
 void Progress::request_cancel() { state_->progress.request_cancel(); }
+void Progress::reset() { state_->progress.clear_cancel(); }
 
 }  // namespace dmo

@@ -12,8 +12,10 @@
 #include "core/io/reading/binary.h"
 #include "core/io/vtk/vtk_cells.h"
 #include "core/mesh/geographic.h"
+#include "core/mesh/group_facts.h"
 #include "core/mesh/outline.h"
 #include "core/mesh/thin.h"
+#include "core/mesh/vertex_words.h"
 #include "library/mesh_data.h"
 
 namespace dmo {
@@ -275,11 +277,23 @@ std::vector<PointData> Mesh::point_data() const {
   if (data_->fields.empty()) return numbers_of(data_->input->mesh, Field::On::Vertices);
   return numbers_of(with_fields(data_->input->mesh, data_->fields), Field::On::Vertices);
 }
-std::vector<CellGroup> Mesh::cell_groups() const {
-  std::vector<CellGroup> all;
-  for (const dmoscope::Group& group : data_->input->mesh.groups)
-    if (group.of_elements()) all.push_back({group.name, group.members});
+std::vector<Group> Mesh::groups() const {
+  const dmoscope::Mesh& mesh = data_->input->mesh;
+  const std::vector<dmoscope::GroupFacts> facts = facts_of_groups(mesh);
+  std::vector<Group> all;
+  for (std::size_t g = 0; g < facts.size(); ++g) {
+    const dmoscope::Group& group = mesh.groups[g];
+    Group one{group.name, facts[g].kind, group.of_elements() ? "cells" : std::string(facts[g].of), facts[g].number, {}, {}};
+    if (group.of_elements()) one.cells = group.members;
+    one.vertices = vertices_of(mesh, group);
+    std::ranges::sort(one.vertices);
+    one.vertices.erase(std::unique(one.vertices.begin(), one.vertices.end()), one.vertices.end());
+    all.push_back(std::move(one));
+  }
   return all;
+}
+std::vector<Index> Mesh::vertices(std::string_view name) const {
+  return translated([&] { return vertices_named(data_->input->mesh, name); });
 }
 
 std::vector<BoundaryLoop> Mesh::boundary_loops() const {

@@ -1,10 +1,7 @@
-// Quality, smoothing and traces, and the runs that options describe.
+// Quality, smoothing and traces.
 
-#include <algorithm>
-#include <map>
 #include <memory>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -13,131 +10,26 @@
 #include "core/base/error.h"
 #include "core/base/thread_count.h"
 #include "core/base/thread_pool.h"
-#include "core/base/unknown_value.h"
-#include "core/base/words.h"
 #include "core/input/input_mesh.h"
 #include "core/inspect/visit_trace.h"
 #include "core/mesh/geographic.h"
-#include "core/mesh/vertex_words.h"
 #include "core/quality/defined_metric.h"
 #include "core/quality/metric.h"
 #include "core/quality/quality.h"
 #include "core/run/crossing_faces.h"
 #include "core/run/ending.h"
-#include "core/run/parameters.h"
-#include "core/run/recipe.h"
 #include "core/run/run.h"
-#include "core/run/sliding.h"
-#include "core/smooth/composite_objective.h"
-#include "core/target/target.h"
 #include "core/transfer/moved_fields.h"
 #include "core/transfer/thin_places.h"
 #include "library/include/dmoscope/quality.h"
 #include "library/include/dmoscope/smooth.h"
 #include "library/include/dmoscope/trace.h"
 #include "library/mesh_data.h"
+#include "library/run_request.h"
 
 namespace dmo {
 
 namespace {
-
-struct RunRequest {
-  dmoscope::RunParameters parameters;
-  dmoscope::ConvergenceLimits limits;
-  bool until_converged = false;
-  std::vector<std::string> warnings;
-};
-
-using Words = std::map<std::string, std::string>;
-
-/// Removes an option and returns its value; empty if it is not given.
-std::string take(Words& words, const std::string& name) {
-  const auto node = words.extract(name);
-  return node.empty() ? std::string() : node.mapped();
-}
-
-template <class Work>
-auto naming(const std::string& option, const Work& work) {
-  try {
-    return work();
-  } catch (const dmoscope::UsageError& error) {
-    throw dmoscope::UsageError(fmt::format("{}: {}", option, error.what()));
-  }
-}
-
-[[noreturn]] void refuse_unknown(const std::string& name) {
-  std::vector<std::string_view> known{"combine", "fix",           "max-iterations", "method", "metric", "patience",
-                                      "recipe",  "size-function", "slide",          "target", "then"};
-  for (const dmoscope::ParameterInfo& row : dmoscope::parameter_table()) known.push_back(row.name);
-  std::sort(known.begin(), known.end());
-  throw dmoscope::UsageError(dmoscope::unknown_value("option", name, known));
-}
-
-void set_objective(dmoscope::RunParameters& parameters, Words& words) {
-  const std::string metric = take(words, "metric"), combination = take(words, "combine"), size = take(words, "size-function");
-  if (!metric.empty() && !combination.empty())
-    throw dmoscope::UsageError("metric and combine: only one of them, combine names both metrics");
-  if (combination.empty() && !size.empty()) throw dmoscope::UsageError("size-function is for combine with density");
-  if (!metric.empty()) parameters.metric = naming("metric", [&] { return dmoscope::parse_metric(metric); });
-  if (!combination.empty())
-    std::tie(parameters.metric, parameters.combination) = naming("combine", [&] { return dmoscope::parse_composite(combination, size); });
-  if (const std::string target = take(words, "target"); !target.empty())
-    naming("target", [&] { aim_at(parameters, dmoscope::parse_target(target)); });
-}
-
-/// Throws UsageError for options that exclude each other, by the rules of the program.
-void refuse_together(const Words& words, bool until_converged) {
-  const auto said = [&words](const char* name) { return words.count(name) > 0; };
-  for (const char* other : {"method", "combine", "then"})
-    if (said("recipe") && said(other)) throw dmoscope::UsageError(fmt::format("recipe and {}: only one of them", other));
-  for (const char* limit : {"patience", "max-iterations"})
-    if (said(limit) && !until_converged) throw dmoscope::UsageError(fmt::format("{} is for until_converged", limit));
-}
-
-/// Makes the run's request from the options. Throws dmoscope::UsageError that names the option.
-RunRequest request_of(const dmoscope::InputMesh& input, const SmoothOptions& options) {
-  RunRequest request;
-  dmoscope::RunParameters& parameters = request.parameters;
-  Words words = options.options;
-  const bool said_gap = words.count("joint-gap") > 0;
-  dmoscope::require_thread_count(options.threads);
-  request.until_converged = options.until_converged || (words.count("recipe") > 0 && !options.iterations);
-  refuse_together(words, request.until_converged);
-  if (const std::string method = take(words, "method"); !method.empty()) {
-    static_cast<void>(dmoscope::method_info(method));
-    parameters.method = method;
-  }
-  set_objective(parameters, words);
-  for (const dmoscope::ParameterInfo& row : dmoscope::parameter_table())
-    if (const auto node = words.extract(std::string(row.name)); !node.empty())
-      naming(node.key(), [&] { row.from_text(parameters, node.mapped()); });
-  if (const std::string then = take(words, "then"); !then.empty()) naming("then", [&] { set_then(parameters, then, {}); });
-  if (const std::string slide = take(words, "slide"); !slide.empty())
-    naming("slide", [&] { slide_only(parameters, input, dmoscope::vertices_named(input.mesh, slide)); });
-  if (const std::string fix = take(words, "fix"); !fix.empty())
-    for (const Index v : naming("fix", [&] { return dmoscope::vertices_named(input.mesh, fix); })) parameters.fixed.push_back(v);
-  if (const std::string recipe = take(words, "recipe"); !recipe.empty()) {
-    std::string without =
-        follow_recipe(dmoscope::recipe(recipe), input, parameters, said_gap ? std::optional(parameters.joint_gap) : std::nullopt);
-    if (!without.empty()) request.warnings.push_back(std::move(without));
-  }
-  if (const std::string patience = take(words, "patience"); !patience.empty())
-    request.limits.patience = naming("patience", [&] { return dmoscope::to_count(patience); });
-  if (const std::string most = take(words, "max-iterations"); !most.empty())
-    request.limits.max_iterations = naming("max-iterations", [&] { return dmoscope::to_count(most); });
-  if (!words.empty()) refuse_unknown(words.begin()->first);
-
-  for (const Index vertex : options.fixed)
-    if (vertex >= input.mesh.vertex_count())
-      throw dmoscope::UsageError(fmt::format("fixed: there is no vertex {}, the mesh has {}", vertex, input.mesh.vertex_count()));
-  parameters.fixed.insert(parameters.fixed.end(), options.fixed.begin(), options.fixed.end());
-  std::sort(parameters.fixed.begin(), parameters.fixed.end());
-  parameters.fixed.erase(std::unique(parameters.fixed.begin(), parameters.fixed.end()), parameters.fixed.end());
-  validate(parameters.search);
-  validate(parameters.options);
-  if (request.until_converged) be_patient(parameters, request.limits.patience);
-  return request;
-}
 
 Statistics statistics_of(const dmoscope::Statistics& s) {
   return {s.minimum, s.mean, s.movable_minimum, s.inverted, s.worst_element == dmoscope::kNoIndex ? 0 : s.worst_element};
@@ -212,19 +104,22 @@ void advance(dmoscope::Run& run, const RunRequest& request, const SmoothOptions&
 Smoothed smooth(const Mesh& mesh, const SmoothOptions& options) {
   return translated([&] {
     dmoscope::Progress& progress = options.progress.state().progress;
-    std::shared_ptr<const dmoscope::InputMesh> input;
+    RunRequest request;
     try {
-      input = mesh.data()->judged(progress);
+      progress.begin("preparing the mesh");
+      request = request_of(mesh, options, progress);
     } catch (const dmoscope::Cancelled&) {
       return Smoothed{mesh, {}, 0, false, true, "cancelled", {}, {}};
     }
-    RunRequest request = request_of(*input, options);
+    const auto input = request.input;
     auto pool = std::make_shared<dmoscope::ThreadPool>(options.threads);
     dmoscope::Run run(input, request.parameters, pool, 0);  // no past positions: none are returned
-    require_fields(request.parameters.fields, input->mesh);
     Smoothed result{mesh, {}, 0, false, false, {}, std::move(request.warnings), {}};
     if (std::string warning = run.take_warning(); !warning.empty()) result.warnings.push_back(std::move(warning));
     if (run.size_field() && !run.size_field()->note().empty()) result.warnings.push_back(run.size_field()->note());
+    if (input->surface && !run.domain())
+      result.warnings.emplace_back("surface: nothing slides on it; boundary = slide lets the vertices of a volume's boundary");
+    progress.begin("smoothing");
     advance(run, request, options, result);
     for (const dmoscope::IterationRecord& record : run.history().records()) result.history.push_back(iteration_of(record));
     result.iteration = run.moment().iteration;
@@ -278,12 +173,11 @@ Trace trace_of(const dmoscope::Mesh& mesh, const Traced& traced, const Lift& lif
 
 Trace trace(const Mesh& mesh, Index vertex, const SmoothOptions& options) {
   return translated([&] {
-    const auto input = mesh.data()->judged(options.progress.state().progress);
+    const RunRequest request = request_of(mesh, options, options.progress.state().progress);
+    const auto& input = request.input;
     if (input->is_surface()) throw dmoscope::UsageError("the search of a vertex on a curved surface is not traced here");
     if (vertex >= input->mesh.vertex_count())
-      throw dmoscope::UsageError("there is no vertex " + std::to_string(vertex) + ", the mesh has " +
-                                 std::to_string(input->mesh.vertex_count()));
-    const RunRequest request = request_of(*input, options);
+      throw dmoscope::UsageError(fmt::format("vertex: there is no vertex {}, the mesh has {}", vertex, input->mesh.vertex_count()));
     const dmoscope::Run run(input, request.parameters, nullptr, 0);
     const dmoscope::Sweep sweep = run.sweep();
     const auto composite =

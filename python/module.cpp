@@ -1,5 +1,6 @@
 // The Python module's core: meshes, quality, smoothing and traces as NumPy arrays. dmoscope/__init__.py wraps it for users.
 
+#include <array>
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
@@ -183,15 +184,37 @@ py::dict history_of(const std::vector<dmo::Iteration>& iterations) {
   return columns;
 }
 
-dmo::SmoothOptions options_of(std::optional<std::uint64_t> iterations, bool until_converged, unsigned threads,
-                              std::vector<dmo::Index> fixed, std::map<std::string, std::string> words) {
+/// Names and numbers of vertices or edges.
+template <class Number>
+using Selected = std::pair<std::vector<std::string>, std::vector<Number>>;
+using SelectedVertices = std::map<std::string, Selected<dmo::Index>>;
+using SelectedEdges = std::map<std::string, Selected<std::array<dmo::Index, 2>>>;
+
+dmo::SmoothOptions options_of(const std::vector<std::pair<std::string, std::string>>& words, const SelectedVertices& vertices,
+                              const SelectedEdges& edges, const std::optional<dmo::Mesh>& surface) {
   dmo::SmoothOptions options;
-  options.iterations = iterations;
-  options.until_converged = until_converged;
-  options.threads = threads;
-  options.fixed = std::move(fixed);
-  options.options = std::move(words);
+  for (const auto& [name, text] : words) options.set(name, text);
+  const auto take = [](auto& numbers, auto& names, const auto& selected) {
+    names = selected.first;
+    numbers = selected.second;
+  };
+  for (const auto& [name, field] : {std::pair("fixed", &dmo::SmoothOptions::fixed),
+                                    {"slide", &dmo::SmoothOptions::slide},
+                                    {"corners", &dmo::SmoothOptions::corners},
+                                    {"no_corners", &dmo::SmoothOptions::no_corners}})
+    take((options.*field).numbers, (options.*field).names, vertices.at(name));
+  take(options.features.ends, options.features.names, edges.at("features"));
+  take(options.no_features.ends, options.no_features.names, edges.at("no_features"));
+  options.surface = surface;
   return options;
+}
+
+py::list parameters() {
+  py::list all;
+  for (const dmo::Parameter& p : dmo::parameters())
+    all.append(py::dict(py::arg("name") = p.name, py::arg("doc") = p.doc, py::arg("usual") = p.usual, py::arg("least") = p.least,
+                        py::arg("most") = p.most, py::arg("choices") = p.choices, py::arg("methods") = p.methods));
+  return all;
 }
 
 /// Whether the answer is False, or NumPy's False.
@@ -292,13 +315,15 @@ void define_mesh(py::module_& module) {
                              })
       .def_property_readonly("cell_data", [](const dmo::Mesh& mesh) { return arrays_of(mesh.cell_data()); })
       .def_property_readonly("point_data", [](const dmo::Mesh& mesh) { return arrays_of(mesh.point_data()); })
-      .def_property_readonly("cell_groups",
+      .def_property_readonly("groups",
                              [](const dmo::Mesh& mesh) {
-                               py::dict groups;
-                               for (dmo::CellGroup& group : mesh.cell_groups())
-                                 groups[py::str(group.name)] = array_of(std::move(group.cells));
+                               py::list groups;
+                               for (dmo::Group& group : mesh.groups())
+                                 groups.append(py::make_tuple(group.name, group.kind, group.members, group.number,
+                                                              array_of(std::move(group.cells)), array_of(std::move(group.vertices))));
                                return groups;
                              })
+      .def("vertices", [](const dmo::Mesh& mesh, const std::string& name) { return array_of(mesh.vertices(name)); })
       .def_property_readonly(
           "boundary_loops",
           [](const dmo::Mesh& mesh) {
@@ -330,7 +355,8 @@ PYBIND11_MODULE(_dmoscope, module) {
   module.attr("__version__") = dmo::version();
   // Never destroyed: the interpreter ends before static objects are destroyed.
   static const py::object& error = *new py::exception<dmo::Error>(module, "Error", PyExc_RuntimeError);
-  static const py::object& input_error = *new py::exception<dmo::InputError>(module, "InputError", error);
+  static const py::object& input_error =
+      *new py::exception<dmo::InputError>(module, "InputError", py::make_tuple(error, py::handle(PyExc_ValueError)));
   static const py::object& output_error = *new py::exception<dmo::OutputError>(module, "OutputError", error);
   static const py::object& usage_error =
       *new py::exception<dmo::UsageError>(module, "UsageError", py::make_tuple(error, py::handle(PyExc_ValueError)));
@@ -361,6 +387,7 @@ PYBIND11_MODULE(_dmoscope, module) {
       .def_property_readonly("movable_minimum", [](const dmo::Iteration& i) { return i.statistics.movable_minimum; })
       .def_property_readonly("inverted", [](const dmo::Iteration& i) { return i.statistics.inverted; });
   py::class_<dmo::SmoothOptions>(module, "Options").def(py::init(&options_of));
+  module.def("parameters", &parameters);
   module.def("smooth", &smooth);
   module.def("trace", &trace);
   module.def("quality", [](const dmo::Mesh& mesh, const std::string& metric, unsigned threads) {

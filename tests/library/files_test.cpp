@@ -79,8 +79,8 @@ TEST(Library, NewPlacesAreWrittenInTheFilesOwnFormat) {
       ASSERT_EQ(written.cell_data().size(), read.cell_data().size());
       for (std::size_t k = 0; k < read.cell_data().size(); ++k) EXPECT_EQ(written.cell_data()[k].values, read.cell_data()[k].values);
       ASSERT_EQ(written.point_data().size(), read.point_data().size());
-      ASSERT_EQ(written.cell_groups().size(), read.cell_groups().size());
-      for (std::size_t k = 0; k < read.cell_groups().size(); ++k) EXPECT_EQ(written.cell_groups()[k].cells, read.cell_groups()[k].cells);
+      ASSERT_EQ(written.groups().size(), read.groups().size());
+      for (std::size_t k = 0; k < read.groups().size(); ++k) EXPECT_EQ(written.groups()[k].cells, read.groups()[k].cells);
     }
   }
 }

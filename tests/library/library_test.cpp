@@ -54,12 +54,14 @@ TEST(Library, BoundaryLoopsPartsAndRings) {
   EXPECT_TRUE(solids().mesh().parts().empty());
   EXPECT_TRUE(solids().mesh().ring(0).empty());
   dmo::SmoothOptions options;
-  options.options["slide"] = "loop:1";
+  options.set("slide", "loop:1");
   const dmo::Smoothed slid = dmo::smooth(mesh, options);
-  options.options = {{"boundary", "slide"}};
+  options = {};
+  options.boundary = dmo::Boundary::Slide;
   const dmo::Smoothed all = dmo::smooth(mesh, options);
   EXPECT_EQ(std::memcmp(slid.mesh.positions(), all.mesh.positions(), arrays.positions.size() * sizeof(double)), 0);
-  options.options = {{"slide", "loop:2"}};
+  options = {};
+  options.slide.names = {"loop:2"};
   EXPECT_THROW((void)dmo::smooth(mesh, options), dmo::UsageError);
 }
 
@@ -104,7 +106,7 @@ TEST(Library, DataComeBackAsTheyWentIn) {
   ASSERT_EQ(mesh.point_data().size(), 1U);
   EXPECT_EQ(mesh.point_data()[0].components, 3U);
   EXPECT_EQ(mesh.point_data()[0].values[3 * 24 + 1], 24.0);
-  EXPECT_TRUE(mesh.cell_groups().empty());
+  EXPECT_TRUE(mesh.groups().empty());
   EXPECT_THROW((void)dmo::Mesh(arrays.positions.data(), 25, arrays.cells(), {}, {{"wind", {1.0, 2.0}, 3}}), dmo::InputError);
 }
 
@@ -184,13 +186,13 @@ TEST(Library, FixedVerticesAndOptionsAreHeard) {
   dmo::SmoothOptions options;
   options.iterations = 3;
   for (dmo::Index v = 0; v < mesh.vertex_count(); ++v)
-    if (v != 40) options.fixed.push_back(v);
+    if (v != 40) options.fixed.numbers.push_back(v);
   const dmo::Smoothed one = dmo::smooth(mesh, options);
   for (std::size_t v = 0; v < mesh.vertex_count(); ++v)
     EXPECT_EQ(std::memcmp(one.mesh.positions() + 3 * v, mesh.positions() + 3 * v, 3 * sizeof(double)) == 0, v != 40) << v;
-  options.fixed = {99999};
+  options.fixed.numbers = {99999};
   EXPECT_THROW((void)dmo::smooth(mesh, options), dmo::UsageError);
-  options.fixed.clear();
+  options = {};
   for (const auto& [name, value, told] : std::vector<std::array<std::string, 3>>{{"methode", "dmo", "method"},
                                                                                  {"metric", "mean", "mean-ratio"},
                                                                                  {"grid", "1", "grid"},
@@ -198,8 +200,9 @@ TEST(Library, FixedVerticesAndOptionsAreHeard) {
                                                                                  {"then", "peace", "mean"},
                                                                                  {"size-function", "h1:0,0", "combine"},
                                                                                  {"target", "round", "target"}}) {
-    options.options = {{name, value}};
+    options = {};
     try {
+      options.set(name, value);
       (void)dmo::smooth(mesh, options);
       ADD_FAILURE() << name << "=" << value << " was taken";
     } catch (const dmo::UsageError& error) {
@@ -228,8 +231,8 @@ TEST(Library, MoreThreadsThanTheProgramAllowsAreRefused) {
 TEST(Library, ATargetIsOneOfTheMetric) {
   const dmo::Mesh mesh = sheet(6).mesh();
   dmo::SmoothOptions option, metric;
-  option.options["target"] = "input";
-  metric.options["metric"] = "mean-ratio@input";
+  option.target = "input";
+  metric.metric = "mean-ratio@input";
   const dmo::Smoothed one = dmo::smooth(mesh, option), other = dmo::smooth(mesh, metric);
   EXPECT_EQ(std::memcmp(one.mesh.positions(), other.mesh.positions(), 3 * mesh.vertex_count() * sizeof(double)), 0);
   EXPECT_NEAR(one.history.front().statistics.minimum, 1.0, 1e-12) << "as it was, each cell is its own target";
@@ -238,8 +241,8 @@ TEST(Library, ATargetIsOneOfTheMetric) {
 TEST(Library, ARecipeGoesOnUntilItHasConverged) {
   const dmo::Mesh mesh = sheet(6).mesh();
   dmo::SmoothOptions options, spelled;
-  options.options["recipe"] = "mean";
-  spelled.options["then"] = "mean";
+  options.recipe = dmo::Recipe::Mean;
+  spelled.then_mean = dmo::MeanKind::Harmonic;
   spelled.until_converged = true;
   const dmo::Smoothed one = dmo::smooth(mesh, options), other = dmo::smooth(mesh, spelled);
   EXPECT_TRUE(one.converged);
@@ -251,13 +254,13 @@ TEST(Library, ARecipeGoesOnUntilItHasConverged) {
 TEST(Library, AGapThatIsSaidCountsMoreThanTheRecipes) {
   const dmo::Mesh mesh = sheet(6).mesh();
   dmo::SmoothOptions options, spelled;
-  options.options["recipe"] = "best";
-  spelled.options["then"] = "joint,mean";
-  options.options["joint-gap"] = spelled.options["joint-gap"] = "0.2";
+  options.recipe = dmo::Recipe::Best;
+  spelled.set("then", "joint,mean");
+  options.joint_gap = spelled.joint_gap = 0.2;
   spelled.until_converged = true;
   const dmo::Smoothed one = dmo::smooth(mesh, options), other = dmo::smooth(mesh, spelled);
   EXPECT_EQ(std::memcmp(one.mesh.positions(), other.mesh.positions(), 3 * mesh.vertex_count() * sizeof(double)), 0);
-  options.options.erase("joint-gap");
+  options.joint_gap = dmo::SmoothOptions{}.joint_gap;
   EXPECT_NE(std::memcmp(dmo::smooth(mesh, options).mesh.positions(), one.mesh.positions(), 3 * mesh.vertex_count() * sizeof(double)), 0);
 }
 
@@ -343,7 +346,7 @@ TEST(Library, PointDataBelongToPlaces) {
   expect_depth(dmo::smooth(once.mesh).mesh);
   expect_depth(dmo::Mesh::from_bytes(once.mesh.to_bytes()));
   dmo::SmoothOptions carry;
-  carry.options["fields"] = "carry";
+  carry.fields.all = dmo::FieldRule::Carry;
   EXPECT_EQ(dmo::smooth(mesh, carry).mesh.point_data()[0].values, depth.values);
   // After a move by hand fields are carried, from the last positions.
   const dmo::Mesh elsewhere = once.mesh.with_positions(arrays.positions.data());

@@ -91,7 +91,7 @@ def test_what_cannot_be_is_refused():
         dmoscope.smooth(dmoscope.Mesh(points, {"triangle": triangles}), fixed=np.zeros(3, dtype=bool))
     with pytest.raises(TypeError, match="no mesh"):
         dmoscope.smooth(points)
-    with pytest.raises(dmoscope.UsageError, match="method"):
+    with pytest.raises(TypeError, match="methode"):
         dmoscope.smooth(dmoscope.Mesh(points, {"triangle": triangles}), methode="dmo")
 
 
@@ -113,7 +113,7 @@ def test_boundary_loops_parts_and_rings():
     # Two sheets are two parts; one is kept.
     both = dmoscope.Mesh(np.vstack([points, points + [10, 0]]), {"triangle": np.vstack([triangles, triangles + len(points)])})
     assert [len(part) for part in both.parts] == [len(triangles)] * 2 and [loop.part for loop in both.boundary_loops] == [0, 1]
-    moved = dmoscope.smooth(both, 3, fix="part:1").mesh.points != both.points
+    moved = dmoscope.smooth(both, 3, fixed="part:1").mesh.points != both.points
     assert not moved[:len(points)].any() and moved[len(points):].any()
 
 

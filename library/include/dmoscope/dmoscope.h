@@ -6,6 +6,7 @@
 
 #include "dmoscope/error.h"
 #include "dmoscope/mesh.h"
+#include "dmoscope/options.h"
 #include "dmoscope/progress.h"
 #include "dmoscope/quality.h"
 #include "dmoscope/smooth.h"

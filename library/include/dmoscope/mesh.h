@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -40,10 +41,14 @@ struct Numbers {
 using PointData = Numbers;
 using CellData = Numbers;
 
-/// Cells that a file names as a group. Cells of different groups have an interface between them, which stays.
-struct CellGroup {
+/// Points, lines, faces or cells that a file names. Cells of different groups have an interface between them, which stays.
+struct Group {
   std::string name;
-  std::vector<Index> cells;
+  std::string kind;             // the file's own word: "physical group", "marker", "land boundary"
+  std::string members;          // "points", "lines", "faces" (of a volume mesh) or "cells"
+  std::optional<int> number;    // number that the file gives the group
+  std::vector<Index> cells;     // the cells of a group of cells
+  std::vector<Index> vertices;  // all vertices of the group, ascending
 };
 
 /// A closed curve of the boundary of a planar or surface mesh.
@@ -89,9 +94,13 @@ class DMO_API Mesh {
   /// Cell data that was given or read from the file.
   [[nodiscard]] std::vector<CellData> cell_data() const;
   [[nodiscard]] std::vector<PointData> point_data() const;
-  [[nodiscard]] std::vector<CellGroup> cell_groups() const;
-  /// Finds the boundary loops of the mesh at its present positions, in the order of the option "fix", which names them loop:1, loop:2 ...;
-  /// none of a volume mesh. Takes about two seconds for a million vertices.
+  [[nodiscard]] std::vector<Group> groups() const;
+  /// Finds the vertices that a name names, ascending: "group:wall" or "wall" (a group of the file), "material=3" (data of points or cells),
+  /// "box:X0,Y0,X1,Y1" (closed ranges; six numbers in space), "loop:1" and "part:1" (see below), "3,7-9". Throws UsageError that lists what
+  /// the mesh has.
+  [[nodiscard]] std::vector<Index> vertices(std::string_view name) const;
+  /// Finds the boundary loops of the mesh at its present positions, in the order of their names for vertices(), loop:1, loop:2 ...; none
+  /// of a volume mesh. Takes about two seconds for a million vertices.
   [[nodiscard]] std::vector<BoundaryLoop> boundary_loops() const;
   /// Finds the sets of cells connected across edges, in the order of part:1, part:2 ...; none of a volume mesh. Takes as long as
   /// boundary_loops().

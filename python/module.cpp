@@ -360,6 +360,10 @@ PYBIND11_MODULE(_dmoscope, module) {
   static const py::object& output_error = *new py::exception<dmo::OutputError>(module, "OutputError", error);
   static const py::object& usage_error =
       *new py::exception<dmo::UsageError>(module, "UsageError", py::make_tuple(error, py::handle(PyExc_ValueError)));
+  error.attr("__doc__") = "Base of all errors of the module.";
+  input_error.attr("__doc__") = "Error in a file's content, or in an array; `file` and `line` say where (line 0: nowhere in particular).";
+  output_error.attr("__doc__") = "A file could not be written; a former file of that name is unchanged.";
+  usage_error.attr("__doc__") = "A request for something that does not exist or does not fit: an unknown metric, an option out of range.";
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);
@@ -378,14 +382,19 @@ PYBIND11_MODULE(_dmoscope, module) {
   });
 
   define_mesh(module);
-  py::class_<dmo::Iteration>(module, "Iteration")
-      .def_readonly("number", &dmo::Iteration::number)
-      .def_readonly("moved", &dmo::Iteration::moved)
-      .def_readonly("seconds", &dmo::Iteration::seconds)
-      .def_property_readonly("minimum", [](const dmo::Iteration& i) { return i.statistics.minimum; })
-      .def_property_readonly("mean", [](const dmo::Iteration& i) { return i.statistics.mean; })
-      .def_property_readonly("movable_minimum", [](const dmo::Iteration& i) { return i.statistics.movable_minimum; })
-      .def_property_readonly("inverted", [](const dmo::Iteration& i) { return i.statistics.inverted; });
+  py::class_<dmo::Iteration>(module, "Iteration", "State at the end of an iteration, by the metric that is raised.")
+      .def_readonly("number", &dmo::Iteration::number, "Number of the iteration, from 1 on.")
+      .def_readonly("moved", &dmo::Iteration::moved, "Number of vertices that moved.")
+      .def_readonly("seconds", &dmo::Iteration::seconds, "Time of smoothing alone.")
+      .def_property_readonly(
+          "minimum", [](const dmo::Iteration& i) { return i.statistics.minimum; }, "Quality of the worst cell.")
+      .def_property_readonly(
+          "mean", [](const dmo::Iteration& i) { return i.statistics.mean; }, "Mean quality of the cells.")
+      .def_property_readonly(
+          "movable_minimum", [](const dmo::Iteration& i) { return i.statistics.movable_minimum; },
+          "Quality of the worst cell with a corner off the boundary.")
+      .def_property_readonly(
+          "inverted", [](const dmo::Iteration& i) { return i.statistics.inverted; }, "Number of inverted cells.");
   py::class_<dmo::SmoothOptions>(module, "Options").def(py::init(&options_of));
   module.def("parameters", &parameters);
   module.def("smooth", &smooth);

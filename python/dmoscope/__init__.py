@@ -85,5 +85,6 @@ def render(mesh: Any, size: Tuple[int, int] = (1280, 800), *, metric: str = "mea
     except ImportError as missing:
         raise RuntimeError("pictures need the package python3-dmoscope-render, and OpenGL's libraries") from missing
     inner = mesh_of(mesh)._mesh
-    return _render.render(inner.points, inner.kinds, inner.offsets, inner.connectivity, metric, tuple(size), colormap, range, transparent,
+    width, height = size
+    return _render.render(inner.points, inner.kinds, inner.offsets, inner.connectivity, metric, (width, height), colormap, range, transparent,
                           edges, colour_bar, clip, clip_mode, view)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import importlib
 import operator
 import os
 import warnings
@@ -299,7 +300,7 @@ class Mesh:
 
     def to_meshio(self) -> Any:
         """A meshio.Mesh, with the data of points and cells, and the groups of cells as its cell_sets."""
-        import meshio
+        meshio = importlib.import_module("meshio")
 
         blocks = self._blocks()
         return meshio.Mesh(np.array(self.points), [(kind, _in_meshio_order(kind, data).astype(np.int64)) for kind, data in self.cells],
@@ -309,7 +310,7 @@ class Mesh:
 
     def to_pyvista(self) -> Any:
         """A pyvista.UnstructuredGrid, with the data of points and cells; "group" tells cells of different groups apart."""
-        import pyvista
+        pyvista = importlib.import_module("pyvista")
 
         kinds = self._mesh.kinds
         offsets = self._mesh.offsets.astype(np.int64)

@@ -27,6 +27,11 @@ grep -qE -- '-> 0\.86[0-9]+, vertex 4 at \((0\.99|1\.00)' "$work/arrays"
 "$build/dmoscope" smooth "$work/coast.14" -o "$work/program.14" --until-converged >/dev/null
 "$work/build/smooth_file" "$work/coast.14" "$work/library.14" >/dev/null
 cmp "$work/program.14" "$work/library.14"
+"$work/build/progress_and_cancel" >"$work/told"
+tail -1 "$work/told" | grep -qE '^cancelled after [0-9]+ iterations; minimum 0.17[0-9]* -> 0.8[0-9]+; 121203 coordinates'
+"$work/build/compare_metrics" "$work/coast.14" | tee "$work/told"
+[[ $(wc -l <"$work/told") == 3 ]]
+"$work/build/slide_on_surface"
 if "$work/build/smooth_file" "$work/none.14" "$work/none.out" 2>"$work/told"; then exit 1; fi
 grep -q 'none.14' "$work/told"
 

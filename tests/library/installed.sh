@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# installed.sh BUILD EXAMPLES: installs the library into an empty folder, builds the examples with that installation alone, by CMake and by
-# pkg-config, and compares their output with the program's.
+# installed.sh BUILD EXAMPLES MANUAL: installs the library into an empty folder, builds the examples with that installation alone, by CMake and by
+# pkg-config, and the blocks of the manual, and compares their output with the program's.
 set -euo pipefail
-build=$1 examples=$2
+build=$1 examples=$2 manual=$3
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 prefix=$work/prefix
@@ -34,6 +34,17 @@ tail -1 "$work/told" | grep -qE '^cancelled after [0-9]+ iterations; minimum 0.1
 "$work/build/slide_on_surface"
 if "$work/build/smooth_file" "$work/none.14" "$work/none.out" 2>"$work/told"; then exit 1; fi
 grep -q 'none.14' "$work/told"
+
+# The blocks of the manual are bodies of programs.
+awk -v folder="$work" '/^```cpp/ { file = folder "/manual" ++n ".cpp"; inside = 1; body = ""; next }
+  /^```/ && inside { print "int main() {\n" body "}" >file; inside = 0 }
+  inside && /^#include/ { print >file; next }
+  inside { body = body $0 "\n" }' "$manual"
+[[ $(ls "$work"/manual*.cpp | wc -l) == 5 ]]
+for program in "$work"/manual*.cpp; do
+  c++ -std=c++17 "$program" -o "${program%.cpp}" -I"$prefix/include" -L"$(dirname "$(find "$prefix" -name libdmoscope.so)")" -ldmoscope
+  (cd "$work" && LD_LIBRARY_PATH=$(dirname "$(find "$prefix" -name libdmoscope.so)") "${program%.cpp}")
+done
 
 export PKG_CONFIG_PATH
 PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name dmoscope.pc)")

@@ -183,13 +183,6 @@ def test_trace_ends_where_the_visit_does():
     assert trace.after >= trace.before
 
 
-def test_the_manual_s_trace_has_levels(coast):
-    """docs/user/python.md"""
-    trace = dmoscope.trace(dmoscope.read(coast), 2000)
-    assert trace.levels[0].candidates.shape == (8, 8, 3) and trace.levels[0].quality.shape == (8, 8)
-    assert trace.sentence.startswith("moved: ")
-
-
 def test_interrupt_keeps_the_mesh(tmp_path):
     run("generate", "grid", "-o", tmp_path / "grid.off", "--size", 250000)
     mesh = dmoscope.read(tmp_path / "grid.off")

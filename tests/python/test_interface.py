@@ -84,6 +84,20 @@ def test_smooth_has_a_keyword_for_each_row_of_the_table():
     assert list(typing.get_args(hints["method"])) == every
 
 
+def test_the_manual_has_each_option_as_the_docstring_has_it():
+    rows = {}
+    for line in (ROOT / "docs" / "user" / "options.md").read_text().splitlines():
+        cells = [cell.strip() for cell in line.replace("\\|", "\0").strip("|").split("|")]
+        if len(cells) == 4 and cells[0].startswith("`"):
+            rows[cells[0].strip("`")] = (cells[2].replace("\0", "|"), cells[3].strip("`"))
+    signature, entries = inspect.signature(dmoscope.smooth).parameters, documented(dmoscope.smooth)
+    assert set(rows) == set(signature) - {"mesh", "callback", "raise_on_interrupt"}
+    for name, (text, default) in rows.items():
+        assert text + "." in entries[name][1] + ".", name
+        usual = signature[name].default
+        assert default == {"None": "none", "False": "false"}.get(str(usual), str(usual)) or name == "iterations", name
+
+
 def test_the_docstring_s_example_is_true():
     test = doctest.DocTestFinder().find(dmoscope.smooth, "smooth", globs={"dmoscope": dmoscope})[0]
     assert test.examples and doctest.DocTestRunner().run(test).failed == 0

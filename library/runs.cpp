@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -90,7 +91,11 @@ void advance(dmoscope::Run& run, const RunRequest& request, const SmoothOptions&
                                                               : run.iterate(options.iterations.value_or(kUsual), progress, after);
     const bool optimises = dmoscope::method_info(run.parameters().method).optimises;
     if (request.until_converged || !optimises) run.end_at_best(progress);
-    for (std::string& sentence : missing_phases(run)) result.warnings.push_back(std::move(sentence));
+    constexpr std::string_view kOfProgram = "add --until-converged", kHere = "set until_converged";
+    for (std::string& sentence : missing_phases(run)) {
+      if (const std::size_t at = sentence.find(kOfProgram); at != std::string::npos) sentence.replace(at, kOfProgram.size(), kHere);
+      result.warnings.push_back(std::move(sentence));
+    }
     result.converged = request.until_converged && outcome.reason != dmoscope::StopReason::IterationLimit;
     result.sentence = run.last_outcome().value_or(outcome).sentence();
   } catch (const dmoscope::Cancelled&) {

@@ -270,16 +270,28 @@ TEST(LibraryOptions, CornersStayWhereOthersSlide) {
   EXPECT_FALSE(moves(options, middle));
   options.no_corners.names = {"4"};
   EXPECT_TRUE(moves(options, middle));
-  options = {};
-  const dmo::Index inner = 4 * 9 + 4;
-  options.features.ends = {{inner, inner + 1}, {inner, inner - 1}};  // ends inside the mesh hold what is between them
-  const double* at = mesh.positions() + 3 * std::size_t{inner};
-  const dmo::Mesh along = dmo::smooth(mesh, options).mesh;
-  const double* to = along.positions() + 3 * std::size_t{inner};
-  const auto from_line = [&](const double* a, const double* b) {
-    return std::abs((b[0] - a[0]) * (to[1] - a[1]) - (b[1] - a[1]) * (to[0] - a[0]));
+}
+
+TEST(LibraryOptions, VerticesSlideAlongFeatures) {
+  const dmo::Mesh mesh = sheet(8).mesh();
+  constexpr std::size_t kInner = 4 * 9 + 4;
+  const auto beside = [&](const dmo::SmoothOptions& options) {
+    const dmo::Mesh smoothed = dmo::smooth(mesh, options).mesh;
+    const double *a = mesh.positions() + 3 * (kInner - 1), *b = a + 3, *c = b + 3, *to = smoothed.positions() + 3 * kInner;
+    const auto distance = [to](const double* from, const double* end) {
+      const double x = end[0] - from[0], y = end[1] - from[1];
+      return std::abs(x * (to[1] - from[1]) - y * (to[0] - from[0])) / std::hypot(x, y);
+    };
+    return std::min(distance(a, b), distance(b, c));
   };
-  EXPECT_TRUE(std::memcmp(at, to, 3 * sizeof(double)) == 0 || std::min(from_line(at, at + 3), from_line(at, at - 3)) < 1e-9);
+  dmo::SmoothOptions options;
+  EXPECT_GT(beside(options), 1e-3);
+  options.corner_angle = 120.0;
+  options.features.ends = {{kInner, kInner + 1}, {kInner, kInner - 1}};
+  EXPECT_LT(beside(options), 1e-9);
+  options.features.ends = {};
+  options.features.names = {"39-40-41"};
+  EXPECT_LT(beside(options), 1e-9);
 }
 
 TEST(LibraryOptions, TheGuardAndTheLaterPhasesAreReached) {

@@ -343,7 +343,7 @@ def test_options_are_heard_or_refused():
                     dict(combine="mean-ratio:0.7:density", then="mean")):
         with pytest.raises(dmoscope.UsageError):
             dmoscope.smooth(mesh, **options)
-    assert any("until-converged" in told for told in dmoscope.smooth(mesh, iterations=2, then="mean").warnings)
+    assert any("set until_converged" in told for told in dmoscope.smooth(mesh, iterations=2, then="mean").warnings)
     assert dmoscope.smooth(mesh, recipe="best").converged
     assert dmoscope.smooth(mesh, recipe=None).iteration == 20
     by_option, by_metric = dmoscope.smooth(mesh, target="input"), dmoscope.smooth(mesh, metric="mean-ratio@input")

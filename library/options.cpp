@@ -70,7 +70,7 @@ void read(FieldRules& rules, const ParameterInfo&, Text text) {
   const auto rule = [](dmoscope::FieldRule one) { return one == dmoscope::FieldRule::Place ? FieldRule::Place : FieldRule::Carry; };
   const dmoscope::FieldRules parsed = dmoscope::parse_field_rules(text);
   rules = {rule(parsed.all), {}};
-  for (const auto& [name, one] : parsed.named) rules.named[name] = rule(one);
+  for (const auto& [name, one] : parsed.named) rules.named.emplace_back(name, rule(one));
 }
 
 // --- Fields of rows ---
@@ -118,13 +118,14 @@ const RowField& field_of(const ParameterInfo& row) {
 
 void set_combine(SmoothOptions& options, Text text) {
   const auto [first, terms] = dmoscope::parse_composite(text, {});
-  if (options.metric != SmoothOptions{}.metric) throw UsageError("only one of it and metric: it names both metrics");
+  if (options.metric != info(dmoscope::RunParameters{}.metric).name)
+    throw UsageError("it names both metrics, so that metric cannot be set");
   const auto* second = std::get_if<dmoscope::Metric>(&terms.second);
   options.metric = info(first).name;
   options.combine = SecondAim{terms.threshold, second != nullptr ? std::string(info(*second).name) : "density"};
 }
 void set_metric(SmoothOptions& options, Text text) {
-  if (options.combine) throw UsageError("only one of it and combine: combine names both metrics");
+  if (options.combine) throw UsageError("combine names both metrics");
   options.metric = text;
 }
 void set_then(SmoothOptions& options, Text text) {
@@ -132,6 +133,11 @@ void set_then(SmoothOptions& options, Text text) {
   dmoscope::set_then(parameters, text, {});
   options.then_joint = parameters.then_joint.has_value();
   options.then_mean = parameters.then_mean ? std::optional(static_cast<MeanKind>(parameters.mean)) : std::nullopt;
+}
+
+bool flag(Text text) {
+  constexpr std::array<std::string_view, 2> kWords{"off", "on"};
+  return dmoscope::parse_choice<int>("value", text, kWords) == 1;
 }
 
 struct OtherOption {
@@ -161,10 +167,8 @@ constexpr std::array kOthers{
                   dmoscope::require_thread_count(threads);
                   o.threads = static_cast<unsigned>(threads);
                 }},
-    OtherOption{"until-converged", [](O& o, Text text) {
-                  constexpr std::array<std::string_view, 2> kFlag{"off", "on"};
-                  o.until_converged = dmoscope::parse_choice<int>("value", text, kFlag) == 1;
-                }}};
+    OtherOption{"explain", [](O& o, Text text) { o.explain = flag(text); }},
+    OtherOption{"until-converged", [](O& o, Text text) { o.until_converged = flag(text); }}};
 
 [[noreturn]] void refuse_unknown(const std::string& name) {
   std::vector<std::string_view> known;

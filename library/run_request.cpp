@@ -138,7 +138,7 @@ RunRequest request_of(const Mesh& mesh, const SmoothOptions& options, dmoscope::
   naming("fields", [&] { require_fields(parameters.fields, input.mesh); });
   parameters.kinds = kinds_of(input, parameters, selections, request.warnings);
   if (options.recipe != Recipe::None) {
-    const auto said_gap = options.joint_gap != SmoothOptions{}.joint_gap ? std::optional(options.joint_gap) : std::nullopt;
+    const auto said_gap = options.joint_gap != RunParameters{}.joint_gap ? std::optional(options.joint_gap) : std::nullopt;
     std::string without = follow_recipe(dmoscope::recipe(recipe), input, parameters, said_gap);
     if (!without.empty()) request.warnings.push_back(std::move(without));
   }

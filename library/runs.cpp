@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/base/error.h"
 #include "core/base/thread_count.h"
@@ -19,6 +20,7 @@
 #include "core/quality/quality.h"
 #include "core/run/crossing_faces.h"
 #include "core/run/ending.h"
+#include "core/run/hints.h"
 #include "core/run/run.h"
 #include "core/transfer/moved_fields.h"
 #include "core/transfer/thin_places.h"
@@ -74,6 +76,21 @@ Statistics statistics(const Mesh& mesh, const std::string& metric, unsigned thre
 
 namespace {
 
+Held held_of(const dmoscope::HeldMinimum& found) {
+  Held held;
+  held.cell = found.element;
+  held.quality = found.quality;
+  held.by = name(found.by);
+  for (const dmoscope::HeldVertex& one : found.vertices) {
+    held.vertices.push_back(one.vertex);
+    held.reasons.emplace_back(name(one.by));
+  }
+  held.change = fmt::format("{}", fmt::join(found.commands(), "; "));
+  held.certified = found.certified();
+  held.sentence = found.sentence();
+  return held;
+}
+
 Iteration iteration_of(const dmoscope::IterationRecord& record) {
   return {record.iteration, statistics_of(record.statistics), record.moved, record.seconds};
 }
@@ -114,18 +131,23 @@ Smoothed smooth(const Mesh& mesh, const SmoothOptions& options) {
       progress.begin("preparing the mesh");
       request = request_of(mesh, options, progress);
     } catch (const dmoscope::Cancelled&) {
-      return Smoothed{mesh, {}, 0, false, true, "cancelled", {}, {}};
+      return Smoothed{mesh, {}, 0, false, true, "cancelled", {}, {}, {}};
     }
     const auto input = request.input;
     auto pool = std::make_shared<dmoscope::ThreadPool>(options.threads);
     dmoscope::Run run(input, request.parameters, pool, 0);  // no past positions: none are returned
-    Smoothed result{mesh, {}, 0, false, false, {}, std::move(request.warnings), {}};
+    Smoothed result{mesh, {}, 0, false, false, {}, std::move(request.warnings), {}, {}};
     if (std::string warning = run.take_warning(); !warning.empty()) result.warnings.push_back(std::move(warning));
     if (run.size_field() && !run.size_field()->note().empty()) result.warnings.push_back(run.size_field()->note());
     if (input->surface && !run.domain())
       result.warnings.emplace_back("surface: nothing slides on it; boundary = slide lets the vertices of a volume's boundary");
     progress.begin("smoothing");
     advance(run, request, options, result);
+    if (run.visits_per_iteration() == 0) result.warnings.emplace_back("nothing can move: all vertices are fixed");
+    if (options.explain && !result.cancelled) {
+      progress.begin("looking for what holds the minimum");
+      if (const auto found = what_holds(run, pool.get(), progress)) result.held = held_of(*found);
+    }
     for (const dmoscope::IterationRecord& record : run.history().records()) result.history.push_back(iteration_of(record));
     result.iteration = run.moment().iteration;
     if (const auto left = find_left_inverted(run)) result.warnings.push_back(left->sentence());

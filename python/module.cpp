@@ -217,6 +217,13 @@ py::list parameters() {
   return all;
 }
 
+py::object held_of(const std::optional<dmo::Held>& held) {
+  if (!held) return py::none();
+  std::map<dmo::Index, std::string> vertices;
+  for (std::size_t i = 0; i < held->vertices.size(); ++i) vertices[held->vertices[i]] = held->reasons[i];
+  return py::make_tuple(held->cell, held->quality, held->by, vertices, held->change, held->certified, held->sentence);
+}
+
 /// Whether the answer is False, or NumPy's False.
 bool is_false(const py::object& answer) {
   if (answer.ptr() == Py_False) return true;
@@ -242,7 +249,7 @@ py::tuple smooth(const dmo::Mesh& mesh, dmo::SmoothOptions options, const py::ob
   dmo::Smoothed smoothed = future.get();
   const bool interrupted = raised.has_value();
   return py::make_tuple(smoothed.mesh, history_of(smoothed.history), smoothed.iteration, smoothed.converged, smoothed.cancelled,
-                        interrupted, smoothed.sentence, smoothed.warnings, smoothed.fields);
+                        interrupted, smoothed.sentence, smoothed.warnings, smoothed.fields, held_of(smoothed.held));
 }
 
 py::dict trace(const dmo::Mesh& mesh, dmo::Index vertex, const dmo::SmoothOptions& options) {

@@ -20,9 +20,9 @@ import numpy.typing as npt
 from . import _dmoscope
 from ._dmoscope import Error, InputError, Iteration, OutputError, UsageError, __version__
 from ._mesh import BoundaryLoop, Group, Mesh, _from_bytes, mesh_of, read
-from ._smooth import Smoothed, Trace, TraceLevel, smooth, trace
+from ._smooth import Held, Smoothed, Trace, TraceLevel, smooth, trace
 
-__all__ = ["BoundaryLoop", "Error", "Group", "InputError", "Iteration", "Mesh", "Metric", "OutputError", "Smoothed", "Trace", "TraceLevel",
+__all__ = ["BoundaryLoop", "Error", "Group", "Held", "InputError", "Iteration", "Mesh", "Metric", "OutputError", "Smoothed", "Trace", "TraceLevel",
            "UsageError", "metrics", "read", "render", "smooth", "trace", "__version__"]
 
 

@@ -21,6 +21,19 @@ _EDGES = ("features", "no_features")
 
 
 @dataclass
+class Held:
+    """Reason why the worst cell gets no better. In a mesh one cell thick, numbers are those of its front."""
+
+    cell: int  # the worst cell, or the worst that can move
+    quality: float  # its quality
+    by: str  # main reason: "boundary", "interface", "corner", "hand", "neighbours" ...; "free": none
+    vertices: Dict[int, str]  # reason of each of its corners
+    change: str  # option and value that would free it: "boundary slide"; "": none is known
+    certified: bool  # whether it is proved that no joint move raises the minimum, to first order
+    sentence: str = field(repr=False)  # all of that for people
+
+
+@dataclass
 class Smoothed(Generic[AnyMesh]):
     """Result of smooth()."""
 
@@ -32,6 +45,7 @@ class Smoothed(Generic[AnyMesh]):
     sentence: str  # reason for the end
     warnings: List[str] = field(repr=False)  # sentences for people
     fields: str = field(default="", repr=False)  # changes of the point data
+    held: Optional[Held] = None  # what holds the minimum, if that was to be explained
 
 
 def _names_and_numbers(given: Any) -> Tuple[List[str], Any]:
@@ -101,7 +115,7 @@ def _options(mesh: Mesh, given: Dict[str, Any]) -> _dmoscope.Options:
 
 
 def smooth(mesh: AnyMesh, iterations: Optional[int] = None, *, until_converged: bool = False, patience: int = 200,
-           max_iterations: int = 10000, threads: int = 0, fixed: Selection = None, slide: Selection = None, corners: Selection = None,
+           max_iterations: int = 10000, threads: int = 0, explain: bool = False, fixed: Selection = None, slide: Selection = None, corners: Selection = None,
            no_corners: Selection = None, features: Selection = None, no_features: Selection = None, surface: Any = None,
            method: Literal["dmo", "laplace", "smart-laplace", "angle-based", "dvr", "pattern-search", "active-set", "joint"] = "dmo",
            metric: str = "mean-ratio", target: Optional[str] = None, combine: Optional[str] = None, size_function: Optional[str] = None,
@@ -133,6 +147,8 @@ def smooth(mesh: AnyMesh, iterations: Optional[int] = None, *, until_converged: 
         Limit for the iterations of until_converged and recipes: 0 to 1e9.
     threads : int, default 0
         Number of threads: 0 to 1024; 0: one for each processor.
+    explain : bool, default False
+        Find what holds the minimum once the run is over: Smoothed.held. May take as long as the run.
     fixed : array_like of int or bool, set of int, str or list of str, optional
         Vertices that stay in place besides those of the boundary: by number, as n booleans, or by names as of Mesh.vertices(), such as
         "group:wall".
@@ -243,13 +259,14 @@ def smooth(mesh: AnyMesh, iterations: Optional[int] = None, *, until_converged: 
     """
     given = dict(locals())
     prepared = mesh_of(mesh)
-    inner, history, iteration, converged, cancelled, interrupted, sentence, told, changed = _dmoscope.smooth(
+    inner, history, iteration, converged, cancelled, interrupted, sentence, told, changed, held = _dmoscope.smooth(
         prepared._mesh, _options(prepared, given), callback)
     if interrupted and raise_on_interrupt:
         raise KeyboardInterrupt
     if interrupted:
         warnings.warn(f"interrupted after iteration {iteration}; the mesh is what there was then", RuntimeWarning, stacklevel=2)
-    return Smoothed(given_back(mesh, Mesh._of(inner)), history, iteration, converged, cancelled, sentence, told, changed)
+    return Smoothed(given_back(mesh, Mesh._of(inner)), history, iteration, converged, cancelled, sentence, told, changed,
+                    None if held is None else Held(*held))
 
 
 @dataclass

@@ -93,7 +93,7 @@ TEST(LibraryOptions, SetAndGetAreInverse) {
   }
   EXPECT_EQ(options.guard->floor, 0.25);
   EXPECT_EQ(options.order, 7U);
-  EXPECT_EQ(options.fields.named.at("depth"), dmo::FieldRule::Place);
+  EXPECT_EQ(options.fields.named, (std::vector<std::pair<std::string, dmo::FieldRule>>{{"depth", dmo::FieldRule::Place}}));
   options.set("guard", "off");
   EXPECT_FALSE(options.guard);
   options.set("corner_angle", "31");
@@ -213,7 +213,7 @@ TEST(LibraryOptions, WrongValuesAreRefusedByName) {
   expect("metric: unknown metric 'skew'", [](O& o) { o.metric = "skew"; });
   expect("combine: ", [](O& o) { o.combine = dmo::SecondAim{0.5, "skew"}; });
   expect("target: ", [](O& o) { o.target = "round"; });
-  expect("fields: ", [](O& o) { o.fields.named["depth"] = dmo::FieldRule::Carry; });
+  expect("fields: ", [](O& o) { o.fields.named = {{"depth", dmo::FieldRule::Carry}}; });
   expect("method: there is no value 99", [](O& o) { o.method = static_cast<dmo::Method>(99); });
   expect("recipe: there is no value 99", [](O& o) { o.recipe = static_cast<dmo::Recipe>(99); });
   expect("boundary: there is no value 7", [](O& o) { o.boundary = static_cast<dmo::Boundary>(7); });
@@ -310,6 +310,27 @@ TEST(LibraryOptions, TheGuardAndTheLaterPhasesAreReached) {
   const dmo::Mesh first = dmo::smooth(mesh, alone).mesh, last = dmo::smooth(mesh, then).mesh;
   EXPECT_GE(dmo::statistics(last).minimum, dmo::statistics(first).minimum - 1e-9);
   EXPECT_GT(dmo::statistics(last).mean, dmo::statistics(first).mean);
+}
+
+TEST(LibraryOptions, WhatHoldsTheMinimumIsExplained) {
+  Arrays arrays;  // a corner with a sharp angle that the boundary holds, and a vertex that moves
+  arrays.positions = {0, 0, 0, 4, 0, 0, 4, 0.5, 0, 0, 4, 0, 2, 1, 0};
+  arrays.add(dmo::CellKind::Triangle, {0, 1, 4});
+  arrays.add(dmo::CellKind::Triangle, {1, 2, 4});
+  arrays.add(dmo::CellKind::Triangle, {2, 3, 4});
+  arrays.add(dmo::CellKind::Triangle, {3, 0, 4});
+  dmo::SmoothOptions options;
+  options.until_converged = true;
+  EXPECT_FALSE(dmo::smooth(arrays.mesh(), options).held);
+  options.explain = true;
+  const dmo::Smoothed result = dmo::smooth(arrays.mesh(), options);
+  ASSERT_TRUE(result.held);
+  EXPECT_EQ(result.held->cell, dmo::statistics(result.mesh).worst_cell);
+  EXPECT_NEAR(result.held->quality, dmo::statistics(result.mesh).minimum, 1e-12);
+  EXPECT_EQ(result.held->vertices.size(), 3U);
+  EXPECT_EQ(result.held->reasons.size(), 3U);
+  EXPECT_THAT(result.held->reasons, ::testing::Contains("boundary"));
+  EXPECT_FALSE(result.held->sentence.empty());
 }
 
 TEST(LibraryOptions, AProgressIsUsedAgainAfterACancel) {

@@ -77,7 +77,7 @@ def test_smooth_has_a_keyword_for_each_row_of_the_table():
             assert range_ in text, name
         if row["methods"] != every:
             assert "Read by " + ", ".join(row["methods"]) in text, name
-    others = {"mesh", "iterations", "until_converged", "patience", "max_iterations", "threads", "fixed", "slide", "corners", "no_corners",
+    others = {"mesh", "iterations", "until_converged", "patience", "max_iterations", "threads", "explain", "fixed", "slide", "corners", "no_corners",
               "features", "no_features", "surface", "method", "metric", "target", "combine", "size_function", "then", "recipe", "callback",
               "raise_on_interrupt"}
     assert set(signature) == others | set(PARAMETERS)
@@ -190,6 +190,16 @@ def test_wrong_types_are_type_errors(name, value):
         dmoscope.smooth(sheet(), **{name: value})
     with pytest.raises(TypeError, match="boundry"):
         dmoscope.trace(sheet(), 40, boundry="slide")
+
+
+def test_what_holds_the_minimum_is_explained():
+    mesh = sheet()
+    assert dmoscope.smooth(mesh).held is None
+    held = dmoscope.smooth(mesh, until_converged=True, explain=True).held
+    assert held.cell < 128 and len(held.vertices) == 3 and "worst" in held.sentence and held.quality > 0.3
+    alone = dmoscope.Mesh([[0, 0], [1, 0], [0, 1]], {"triangle": [[0, 1, 2]]})
+    result = dmoscope.smooth(alone, explain=True)
+    assert any("nothing can move" in told for told in result.warnings)
 
 
 def test_arrays_of_a_wrong_kind_are_value_errors():

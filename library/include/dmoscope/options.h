@@ -4,10 +4,9 @@
 #include <array>
 #include <cstdint>
 #include <functional>
-#include <limits>
-#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "dmoscope/export.h"
@@ -72,7 +71,7 @@ struct SecondAim {
 /// Rule for all point data, and for some by their names. Whole numbers are carried unless they have a rule of their own.
 struct FieldRules {
   FieldRule all = FieldRule::Place;
-  std::map<std::string, FieldRule> named;
+  std::vector<std::pair<std::string, FieldRule>> named;  // {{"depth", FieldRule::Carry}}
 };
 
 /// Vertices by number, by name, or both.
@@ -105,6 +104,9 @@ struct SmoothOptions {
   std::uint64_t max_iterations = 10000;
   /// Number of threads; 0: one for each processor. The result does not depend on it. Range: 0 to 1024.
   unsigned threads = 0;
+
+  /// Finds what holds the minimum once the run is over: Smoothed::held. May take as long as the run. Default: false.
+  bool explain = false;
 
   // --- Vertices and edges that are treated apart ---
 
@@ -201,8 +203,9 @@ struct SmoothOptions {
   /// Progress to watch from another thread, and to cancel by.
   Progress progress;
 
-  /// Sets an option by its name on the command line of `dmoscope smooth`, without the dashes before it, from text: set("boundary", "slide"), set("then",
-  /// "mean"), set("combine", "mean-ratio:0.7:min-angle"), set("fix", "group:wall"). Throws UsageError that begins with the name.
+  /// Sets an option by its name on the command line of `dmoscope smooth`, without the dashes before it, from text: set("boundary",
+  /// "slide"), set("then", "mean"), set("combine", "mean-ratio:0.7:min-angle"), set("fix", "group:wall"). Throws UsageError that begins
+  /// with the name.
   DMO_API void set(const std::string& name, const std::string& value);
   /// Returns the text of one of parameters(), as set() reads it. Throws UsageError.
   [[nodiscard]] DMO_API std::string get(const std::string& name) const;

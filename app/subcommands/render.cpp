@@ -46,7 +46,7 @@ struct RenderOptions {
   std::string at;
   bool shading = false, no_occlusion = false;
   bool transparent = false;
-  std::string clip, clip_mode = "crinkle", isolate, from = "iso";
+  std::string clip, clip_mode = "crinkle", isolate, from = "iso", up = "auto";
   std::uint64_t peel = 0, worst = 0;
   std::optional<float> peel_quality;
   double shrink = 1.0;
@@ -172,7 +172,7 @@ int render(const RenderOptions& options) {
   look.transparent = options.transparent;
   look.zoom = options.zoom;
   look.at = at;
-  const InsideLook inside{options.clip, view, options.from, options.perspective};
+  const InsideLook inside{options.clip, view, options.from, options.up, options.perspective};
   require_sense(inside);
   Watch watch;
   IoContext reading(watch.progress(), nullptr, options.memory.bytes());
@@ -204,6 +204,9 @@ void add_inside(CLI::App& subcommand, RenderOptions& options) {
       ->transform(whole_number(1, 0xfffffffe));
   option("--shrink", options.shrink, "F", "Draw every element F times as large")->capture_default_str();
   option("--view", options.from, "VIEW", "Look from: iso, +x, -x, +y, -y, +z, -z")->capture_default_str();
+  option("--up", options.up, "AXIS", "Axis that points up: z, y, or auto, on what the mesh stands")
+      ->check(CLI::IsMember({"auto", "z", "y"}))
+      ->capture_default_str();
   subcommand.add_flag("--perspective", options.perspective, "What is farther away looks smaller")->group("Volume meshes");
   subcommand.add_flag("--shading", options.shading, "Lit by a lamp, too, which changes what the colours tell")->group("Volume meshes");
   subcommand.add_flag("--no-occlusion", options.no_occlusion, "Not darker in corners and along edges")->group("Volume meshes");

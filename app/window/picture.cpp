@@ -18,6 +18,7 @@
 #include "render/screenshot.h"
 #include "render/volume_scene.h"
 #include "ui/state/format.h"
+#include "ui/state/view_geometry.h"
 
 namespace dmoscope::app {
 namespace {
@@ -113,6 +114,7 @@ render::Image volume_picture(const InputMesh& input, std::span<const Vec3> posit
   if (shot.legend) shot.legend->selection = share_seen(scene.faces().visible_cells, judged.quality.size());
   render::OrbitCamera camera;
   camera.perspective = inside.perspective;
+  camera.up_axis = inside.up == "auto" ? ui::guessed_up(input) : inside.up == "y" ? render::UpAxis::Y : render::UpAxis::Z;
   camera.look_from(render::view_preset_from_name(inside.from));
   const Vec2<double> viewport = render::mesh_viewport(shot);
   constexpr double kMargin = 24.0;  // pixels

@@ -43,9 +43,10 @@ struct InsideLook {
   std::string clip;          // see parse_clip; empty: no plane
   ClippingView view{};       // the mode alone; the plane is that of `clip`
   std::string from = "iso";  // see view_preset_table
+  std::string up = "auto";   // axis that points up: z, y, or as the window guesses it
   bool perspective = false;
   /// Whether any member differs from its default.
-  [[nodiscard]] bool asked_for() const { return !clip.empty() || view != ClippingView{} || from != "iso" || perspective; }
+  [[nodiscard]] bool asked_for() const { return !clip.empty() || view != ClippingView{} || from != "iso" || up != "auto" || perspective; }
 };
 
 /// Throws UsageError for words without meaning, before anything is read.

@@ -1,5 +1,6 @@
 // Pictures by the command line: the visible part of a mesh.
 
+#include <fstream>
 #include <iterator>
 #include <map>
 #include <set>
@@ -36,6 +37,24 @@ TEST(Render, LooksInsideAVolume) {
     pictures.insert(read_file(picture));
   }
   EXPECT_EQ(pictures.size(), looks.size()) << "each look differs";
+}
+
+/// A roof whose square below lies in y stands upright as in the window.
+TEST(Render, GuessesTheUpAxisAsTheWindowDoes) {
+  const Folder folder;
+  const std::string roof = folder / "roof.off";
+  std::ofstream(roof) << "OFF\n5 5 0\n-1 0 -1\n1 0 -1\n1 0 1\n-1 0 1\n0 1 0\n4 0 1 2 3\n3 1 0 4\n3 2 1 4\n3 3 2 4\n3 0 3 4\n";
+  std::map<std::string, std::string> pictures;
+  for (const std::string up : {"auto", "y", "z"}) {
+    const std::string picture = folder / (up + ".png");
+    const Output output = run({"render", roof, "-o", picture, "--size", "160x120", "--up", up});
+    if (cannot_draw(output)) GTEST_SKIP() << output.err;
+    ASSERT_EQ(output.code, 0) << output.err;
+    pictures[up] = read_file(picture);
+  }
+  EXPECT_EQ(pictures["auto"], pictures["y"]);
+  EXPECT_NE(pictures["auto"], pictures["z"]);
+  EXPECT_NE(run({"render", roof, "-o", folder / "x.png", "--up", "x"}).code, 0);
 }
 
 TEST(Render, ShowsAPartLargerInThePlaneAndInSpace) {

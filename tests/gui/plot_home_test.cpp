@@ -35,6 +35,27 @@ double share_up_to(const Plot& plot, const PlotView& view, double x) {
   return (layout.x.place(x) - layout.left) / (layout.right - layout.left);
 }
 
+TEST(PlotEnds, CurvesAreNamedBesideThePlotIfThereIsRoom) {
+  const auto names = [](std::size_t runs, double beside) {
+    const Plot plot = plot_of(session_of(runs, 5));
+    const PlotLayout layout = lay_out(plot, {}, {0, 0, 400, 200}).value();
+    Drawing drawing;
+    draw_plot_area(drawing, plot, {}, layout, ink_of(colours()), 12, 1, beside);
+    std::vector<std::string> named;
+    double last = -1.0;
+    for (const Drawing::Label& label : drawing.labels) {
+      if (label.at.x < layout.right || label.anchor != Drawing::Anchor::Start) continue;
+      EXPECT_GE(label.at.y - last, 12.0) << "no name lies on another";
+      last = label.at.y;
+      named.push_back(label.text);
+    }
+    return named;
+  };
+  EXPECT_EQ(names(1, 0.0), std::vector<std::string>{});
+  EXPECT_EQ(names(1, 150.0), (std::vector<std::string>{"mean", "movable minimum", "minimum"}));
+  EXPECT_EQ(names(3, 20.0), (std::vector<std::string>{"3", "2", "1"})) << "the numbers of runs need little";
+}
+
 TEST(PlotHome, TheRiseHasMostOfTheWidthUnlessAskedOtherwise) {
   const SessionView session = converged_run();
   ViewState state;

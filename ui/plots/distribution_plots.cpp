@@ -29,6 +29,13 @@ class DistributionPlot : PlotBuilder {
     return k != session_.frame->run && is_shown(k) && summary != nullptr && summary->metric == session_.frame->shown ? summary : nullptr;
   }
 
+  [[nodiscard]] Series series_of_input() const {
+    Series series;
+    series.name = "input";
+    series.colour = palette_.dim;
+    return series;
+  }
+
   void add_histogram(Series series, const Histogram& histogram) {
     const auto bins = static_cast<std::size_t>(state_.plot_options.bins);
     series.y = rebinned(histogram, bins);
@@ -48,9 +55,7 @@ class DistributionPlot : PlotBuilder {
     plot_.x_title = metric_phrase(frame->shown);
     plot_.title = "histogram of the " + plot_.x_title;
     const bool moved = frame->moment != Moment{};
-    Series before;
-    before.name = "input";
-    before.colour = palette_.dim;
+    Series before = series_of_input();
     before.kind = Series::Kind::Bars;
     before.strength = 0.5;
     if ((moved || several_) && (!frame->provisional || frame->input_spread)) add_histogram(std::move(before), frame->before);
@@ -141,10 +146,7 @@ class DistributionPlot : PlotBuilder {
     plot_.y_title = metric_phrase(frame->shown);
     plot_.title = "sorted " + plot_.y_title;
     const bool moved = frame->moment != Moment{};
-    Series before;
-    before.name = "input";
-    before.colour = palette_.dim;
-    if (moved || several_) add_sorted(std::move(before), sorted_.before);
+    if (moved || several_) add_sorted(series_of_input(), sorted_.before);
     if (shows_frame(*frame)) add_sorted(series_of_run(frame->run, moved || several_ ? "now" : "input"), sorted_.now);
     for (std::size_t k = 0; k < session_.runs.size(); ++k) {
       if (const RunSummary* summary = summary_of(k)) add_sorted(series_of_run(k, "now"), summary->sorted);

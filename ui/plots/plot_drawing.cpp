@@ -215,6 +215,39 @@ void draw_marks(Drawing& drawing, const Plot& plot, const PlotLayout& layout, co
   }
 }
 
+/// Writes the name of each curve at its end, to the right of the plot if there is `room`, in letters of its colour: of several runs the
+/// number of each, at its first curve. Names that would lie on one another move apart.
+void draw_end_names(Drawing& drawing, const Plot& plot, const PlotView& view, const PlotLayout& layout, const PlotInk& colours, double font,
+                    double room) {
+  struct EndName {
+    std::string text;
+    double y;
+    DrawingColour ink;
+  };
+  std::vector<EndName> names;
+  const auto runs = std::ranges::count_if(plot.legend, [](const LegendEntry& entry) { return entry.of_run; });
+  std::string_view last;
+  for (const Series& one : plot.series) {
+    if (one.kind != Series::Kind::Line || one.strip || !is_visible(plot, view, one) || one.x.empty()) continue;
+    const double y = can_show(layout.y.kind, one.y.back()) ? layout.y.place(one.y.back()) : NAN;
+    if ((runs > 1 && one.run == last) || !(y >= layout.y.to && y <= layout.y.from)) continue;
+    last = one.run;
+    const std::string& whole = runs > 1 ? one.run : one.name;
+    const bool fits = width_of(whole, font) <= room;
+    const std::string text = fits ? whole : runs > 1 ? whole.substr(0, whole.find(' ')) : std::string();
+    if (!text.empty() && width_of(text, font) <= room)
+      names.push_back({text, y, mixed(one.colour, colours.background, 0.6 + 0.4 * one.strength)});
+  }
+  std::ranges::sort(names, {}, &EndName::y);
+  double lowest = layout.y.from + 0.4 * font - font * static_cast<double>(names.size());
+  double next = -INFINITY;
+  for (const EndName& name : names) {
+    const double y = std::max(std::min(name.y + 0.36 * font, lowest += font), next);
+    next = y + font;
+    drawing.labels.push_back({{layout.right + 0.5 * font, y}, name.text, font, name.ink, Drawing::Anchor::Start});
+  }
+}
+
 void draw_sample(Drawing& drawing, const Series& look, double x, double y, const PlotInk& colours) {
   if (look.kind == Series::Kind::Bars) {
     drawing.boxes.push_back({{x + 4.0, y - 5.0}, {x + 18.0, y + 5.0}, ink(look.colour), look.strength});
@@ -228,7 +261,7 @@ void draw_sample(Drawing& drawing, const Series& look, double x, double y, const
 PlotInk ink_of(const Palette& palette) { return {palette.panel, palette.text, palette.dim, palette.grid, palette.accent}; }
 
 void draw_plot_area(Drawing& drawing, const Plot& plot, const PlotView& view, const PlotLayout& layout, const PlotInk& colours, double font,
-                    double unit) {
+                    double unit, double beside) {
   draw_axes(drawing, plot, layout, colours, font, unit);
   SeriesDrawer drawer(drawing, plot, layout, colours, unit);
   // Thick lines, the active run's, come over the others; among these the first over later ones, in the order of the legend.
@@ -241,6 +274,7 @@ void draw_plot_area(Drawing& drawing, const Plot& plot, const PlotView& view, co
   for (const Series* one : order) drawer.draw(*one);
   draw_brush(drawing, plot, layout, colours, unit);
   draw_marks(drawing, plot, layout, colours, font, unit);
+  draw_end_names(drawing, plot, view, layout, colours, font, beside - 0.5 * font);
 }
 
 Drawing whole_plot(const Plot& plot, const PlotView& view, double width, double height, const PlotInk& colours) {

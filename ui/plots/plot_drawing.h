@@ -13,9 +13,9 @@ struct PlotInk {
 [[nodiscard]] PlotInk ink_of(const Palette& palette);
 
 /// Draws grid, ticks, series, brush and marks, at the places of `layout`. `font`: height of the ticks' labels; `unit`: of all other
-/// lengths, such as the lines' widths.
+/// lengths, such as the lines' widths. `beside`: room for names of curves at their ends, to the right.
 void draw_plot_area(Drawing& drawing, const Plot& plot, const PlotView& view, const PlotLayout& layout, const PlotInk& ink, double font,
-                    double unit);
+                    double unit, double beside = 0.0);
 
 /// The plot in its visible range, with title, legend of visible series, and axes' titles, for white paper. Lengths in units; text is 12
 /// high.

@@ -40,7 +40,7 @@ std::optional<PlotLayout> lay_out(const Plot& plot, const PlotView& view, const 
   const auto strip = plot.strip_share > 0.0 ? value_range(plot, view, x, true) : std::nullopt;
   if (!values && !strip) return std::nullopt;
   PlotLayout layout;
-  const Range inside = area.inside.value_or(Range{area.left + 4.2 * area.font, area.left + area.width - 0.8 * area.font});
+  const Range inside = area.inside.value_or(Range{area.left + 4.2 * area.font, area.left + area.width - area.beside * area.font});
   layout.left = inside.first;
   layout.right = std::max(layout.left + 1.0, inside.second);
   layout.top = area.top + 0.4 * area.font;

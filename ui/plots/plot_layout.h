@@ -30,6 +30,7 @@ struct PlotLayout {
 struct PlotArea {
   double left = 0.0, top = 0.0, width = 0.0, height = 0.0;
   double font = 12.0;
+  double beside = 0.8;            // room to the right of the plot's inside, in heights of the font
   std::optional<Range> inside{};  // given interval of the plot's inside across, so that it is in line with something else
 };
 

@@ -251,9 +251,11 @@ class Widget {
     cache_.drawing_key = std::move(key);
     cache_.drawing = {};
     const double font = static_cast<double>(ImGui::GetFontSize());
-    cache_.layout = lay_out(plot_, view_, {origin.x, origin.y, size.x, size.y, font, inside_});
+    const bool numbers_runs = std::ranges::count_if(plot_.legend, &LegendEntry::of_run) > 1;
+    cache_.layout = lay_out(plot_, view_, {origin.x, origin.y, size.x, size.y, font, numbers_runs ? 2.2 : 0.8, inside_});
     if (cache_.layout) {
-      draw_plot_area(cache_.drawing, plot_, view_, *cache_.layout, ink_of(palette_), font, scale_);
+      draw_plot_area(cache_.drawing, plot_, view_, *cache_.layout, ink_of(palette_), font, scale_,
+                     origin.x + size.x - cache_.layout->right);
     } else {
       const std::string text = plot_.series.empty() ? plot_.empty_text : "this axis can show none of the values";
       const DrawingColour dim{palette_.dim.r, palette_.dim.g, palette_.dim.b};

@@ -2,6 +2,7 @@
 // The window's commands, theme by theme, and the reading of their words. Only for sources of this module.
 
 #include <array>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -22,6 +23,21 @@ inline std::shared_ptr<const SessionView> open_view(const CommandHost& host) {
   auto view = host.session();
   if (!view || !view->input) throw UsageError("no mesh is open");
   return view;
+}
+
+/// Reads options and one path. `take(word, value)`: sets the option of this word, with its value from value(); false for other words.
+template <class Take>
+void read_options(Arguments words, std::filesystem::path& path, std::string_view expected, Take take) {
+  for (std::size_t k = 0; k < words.size(); ++k) {
+    const std::string& word = words[k];
+    const auto value = [&]() -> const std::string& {
+      if (++k >= words.size()) throw UsageError(word + ": a value is missing");
+      return words[k];
+    };
+    if (take(word, value)) continue;
+    if (!path.empty() || word.starts_with("--")) unexpected(word, expected);
+    path = word;
+  }
 }
 
 /// New state of a switch from the word on, off or toggle (also: no word).

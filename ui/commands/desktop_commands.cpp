@@ -25,12 +25,7 @@ void add_session_file_commands(CommandTable& table, ViewState& state, const Comm
 
 SequenceOptions parse_sequence(Arguments words) {
   SequenceOptions options;
-  for (std::size_t k = 0; k < words.size(); ++k) {
-    const std::string& word = words[k];
-    const auto value = [&]() -> const std::string& {
-      if (++k >= words.size()) throw UsageError(word + ": a value is missing");
-      return words[k];
-    };
+  read_options(words, options.folder, "one folder and options", [&options](const std::string& word, const auto& value) {
     if (word == "--from") {
       options.from = to_count(value());
     } else if (word == "--to") {
@@ -43,12 +38,11 @@ SequenceOptions parse_sequence(Arguments words) {
       options.window = true;
     } else if (word == "--overwrite") {
       options.overwrite = true;
-    } else if (options.folder.empty() && !word.starts_with("--")) {
-      options.folder = word;
     } else {
-      unexpected(word, "one folder and options");
+      return false;
     }
-  }
+    return true;
+  });
   if (options.folder.empty()) throw UsageError("a folder is missing");
   if (options.window && options.width > 0) throw UsageError("--size is of the mesh; the window has its own: size W H");
   return options;

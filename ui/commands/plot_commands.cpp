@@ -65,25 +65,20 @@ void sort_runs(ViewState& state, Arguments words) {
 
 PlotSave parse_save(Arguments words) {
   PlotSave save;
-  for (std::size_t k = 0; k < words.size(); ++k) {
-    const auto value = [&]() -> const std::string& {
-      if (++k >= words.size()) throw UsageError(words[k - 1] + ": a value is missing");
-      return words[k];
-    };
-    if (words[k] == "--size") {
+  read_options(words, save.path, "one file and options", [&save](const std::string& word, const auto& value) {
+    if (word == "--size") {
       std::tie(save.width, save.height) = parse_size(value());
       if (save.width < 200 || save.height < 120 || save.width > 16384 || save.height > 16384)
         throw UsageError("a plot's picture is 200x120 to 16384x16384");
-    } else if (words[k] == "--scale") {
+    } else if (word == "--scale") {
       const std::uint64_t scale = to_count(value(), 1);
       if (scale > 8) throw UsageError("--scale goes from 1 to 8");
       save.scale = static_cast<int>(scale);
-    } else if (save.path.empty() && !words[k].starts_with("--")) {
-      save.path = words[k];
     } else {
-      unexpected(words[k], "one file and options");
+      return false;
     }
-  }
+    return true;
+  });
   const std::string extension = save.path.extension().string();
   if (extension != ".csv" && extension != ".svg" && extension != ".png") throw UsageError("a plot is saved as .csv, .svg or .png");
   return save;

@@ -107,27 +107,22 @@ void add_output_commands(CommandTable& table, ViewState& state) {
              "writes a PNG of the mesh, or of the whole window"},
             [&state](Arguments words) {
               ScreenshotOptions shot;
-              for (std::size_t k = 0; k < words.size(); ++k) {
-                const auto value = [&]() -> const std::string& {
-                  if (++k >= words.size()) throw UsageError(words[k - 1] + ": a value is missing");
-                  return words[k];
-                };
-                if (words[k] == "--size") {
+              read_options(words, shot.path, "one file and options", [&shot](const std::string& word, const auto& value) {
+                if (word == "--size") {
                   std::tie(shot.width, shot.height) = parse_size(value());
-                } else if (words[k] == "--supersample") {
+                } else if (word == "--supersample") {
                   const std::uint64_t n = to_count(value(), 1);
                   if (n > 8) throw UsageError("--supersample goes from 1 to 8");
                   shot.supersample = static_cast<int>(n);
-                } else if (words[k] == "--transparent") {
+                } else if (word == "--transparent") {
                   shot.transparent = true;
-                } else if (words[k] == "--window") {
+                } else if (word == "--window") {
                   shot.window = true;
-                } else if (shot.path.empty() && !words[k].starts_with("--")) {
-                  shot.path = words[k];
                 } else {
-                  unexpected(words[k], "one file and options");
+                  return false;
                 }
-              }
+                return true;
+              });
               if (shot.path.empty()) throw UsageError("a file name is missing");
               for (const std::string_view other : {".jpg", ".jpeg", ".gif", ".bmp", ".tif", ".tiff", ".webp", ".svg", ".pdf"})
                 if (shot.path.extension() == other)

@@ -89,6 +89,10 @@ struct Inspection {
   std::vector<Index> corners;    // corners of the star without the vertex, ascending
   std::vector<Vec3> corners_at;  // their places before the visit
 
+  /// Whether a candidate is refused for its place: the surface there would deviate or lean too much, whatever its quality.
+  [[nodiscard]] bool refuses(int number, int candidate) const {
+    return grid && grid->levels[static_cast<std::size_t>(number - 1)].fates[static_cast<std::size_t>(candidate)] != CandidateFate::Counts;
+  }
   /// Summary of the visit, for any mesh; null: there is no trace.
   [[nodiscard]] const VisitSummary* visit() const { return trace ? &*trace : solid ? static_cast<const VisitSummary*>(&*solid) : nullptr; }
   [[nodiscard]] std::size_t level_count() const { return trace ? trace->levels.size() : solid ? solid->levels.size() : 0; }

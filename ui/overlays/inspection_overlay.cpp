@@ -110,8 +110,7 @@ class OnSurface final : public Visit {
     outline(pen, number, width, [&](Vec2<double> p) { return inspection_.grid->plane.lift(p); });
   }
   [[nodiscard]] DotShape shape_of(int number, int index) const override {
-    const auto& fates = inspection_.grid->levels[static_cast<std::size_t>(number - 1)].fates;
-    return fates[static_cast<std::size_t>(index)] == CandidateFate::Counts ? DotShape::Round : DotShape::Square;
+    return inspection_.refuses(number, index) ? DotShape::Square : DotShape::Round;
   }
 };
 

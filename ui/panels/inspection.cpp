@@ -91,13 +91,16 @@ class LevelMap {
     const auto invalid = invalid_range(level_);
     for (int cell = 0; cell < level_.points * level_.points; ++cell) {
       const std::array<int, 2> place{cell / level_.points, cell % level_.points};
-      const double quality = level_.quality[static_cast<std::size_t>(slice_.index(place[0], place[1]))];
+      const int candidate = slice_.index(place[0], place[1]);
+      const double quality = level_.quality[static_cast<std::size_t>(candidate)];
+      const bool refused = context_.inspection.refuses(number_, candidate);
       const auto [a, b] = box(place);
-      list_.AddRectFilled(a, b, is_valid(quality) ? colour(colours.colour(quality)) : colour(context_.palette.raised));
+      list_.AddRectFilled(a, b, colour(context_.palette.raised));
+      if (is_valid(quality)) list_.AddRectFilled(a, b, colour(colours.colour(quality), refused ? kRefused : 1.0F));
       // Inverted candidates are drawn the fainter, the less inverted they are: untangling goes by that.
       if (!is_valid(quality))
         list_.AddRectFilled(a, b, colour(kInvalidCandidate, 0.4F - 0.4F * static_cast<float>(part_of(invalid, quality))));
-      if (!is_valid(quality)) cross(a, b);
+      if (!is_valid(quality) || refused) mark(a, b, !is_valid(quality));
     }
     if (level_.best) frame(*level_.best, true);
     if (context_.state.inspection.hovered) {
@@ -119,12 +122,14 @@ class LevelMap {
     const auto i = static_cast<float>(place[0]), j = static_cast<float>(level_.points - 1 - place[1]);
     return {{low_.x + i * cell_, low_.y + j * cell_}, {low_.x + (i + 1) * cell_, low_.y + (j + 1) * cell_}};
   }
-  void cross(ImVec2 a, ImVec2 b) const {
+  /// Marks a candidate that inverts an element by a cross, one that is refused by a square.
+  void mark(ImVec2 a, ImVec2 b, bool crossed) const {
     const float inset = 0.28F * cell_;
     if (cell_ < 4.0F) return;
-    const ImU32 ink = colour(kInvalidCandidate);
-    list_.AddLine({a.x + inset, a.y + inset}, {b.x - inset, b.y - inset}, ink, context_.px(1.3F));
-    list_.AddLine({a.x + inset, b.y - inset}, {b.x - inset, a.y + inset}, ink, context_.px(1.3F));
+    const ImVec2 low{a.x + inset, a.y + inset}, high{b.x - inset, b.y - inset};
+    if (!crossed) return list_.AddRect(low, high, colour(context_.palette.text), 0.0F, 0, context_.px(1));
+    list_.AddLine(low, high, colour(kInvalidCandidate), context_.px(1.3F));
+    list_.AddLine({low.x, high.y}, {high.x, low.y}, colour(kInvalidCandidate), context_.px(1.3F));
   }
   void frame(int index, bool chosen) const {
     const auto place = slice_.place(index);
@@ -135,6 +140,7 @@ class LevelMap {
     list_.AddRect({a.x - w / 2, a.y - w / 2}, {b.x + w / 2, b.y + w / 2}, colour({0xff, 0xff, 0xff}), 0.0F, 0, w);
   }
 
+  static constexpr float kRefused = 0.35F;  // strength of the colour of a candidate that is refused
   PanelContext& context_;
   const LevelValues& level_;
   GridSlice slice_;

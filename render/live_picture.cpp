@@ -15,6 +15,7 @@ void LivePicture::update(Scene& scene, const Wish& wish) {
     complete_ = scene.draw_elements(base_, wish.camera, wish.style, wish.detail);
     progress_ = {};
     key_ = key;
+    ++serial_;
     drawn = true;
   } else if (!complete_ && wish.refine) {
     refine(scene, wish);

@@ -24,6 +24,8 @@ class LivePicture {
   void update(Scene& scene, const Wish& wish);
   /// Makes the next update draw anew, whatever the scene says of itself.
   void forget() { key_.reset(); }
+  /// Grows whenever the elements look otherwise than before.
+  [[nodiscard]] std::uint64_t serial() const noexcept { return serial_; }
   /// Whether every element in view is drawn.
   [[nodiscard]] bool complete() const noexcept { return complete_; }
   /// OpenGL's name of the picture, see Framebuffer::texture.
@@ -48,6 +50,7 @@ class LivePicture {
   SliceProgress progress_;  // progress of finer_
   Index slice_ = 50'000;    // elements drawn in a moment
   bool complete_ = true;
+  std::uint64_t serial_ = 0;
 };
 
 }  // namespace dmoscope::render

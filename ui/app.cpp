@@ -28,15 +28,6 @@ bool compares_runs(std::string_view line) { return line.starts_with("compare ");
 
 constexpr double kNotByItself = std::numeric_limits<double>::infinity();
 
-/// Part of the meshes that side panels over them leave uncovered.
-Rect uncovered(const Layout& layout) {
-  Rect rect = layout.viewport;
-  if (!layout.folded) return rect;
-  rect.w = std::max(0.0F, rect.w - layout.left.w - layout.right.w);
-  rect.x += layout.left.w;
-  return rect;
-}
-
 }  // namespace
 
 App::App(Options options)
@@ -162,7 +153,8 @@ void App::take_news(double now) {
 void App::show_comparison(bool ended) {
   const bool more = std::exchange(runs_before_, session_->runs.size()) < session_->runs.size();
   const bool at_work = compares_runs(engine_.current_command());
-  if ((ended || (at_work && more)) && !std::exchange(comparison_shown_, true)) {
+  if ((more && (at_work || ended)) || (ended && !comparison_shown_)) {
+    comparison_shown_ = true;
     state_.show_comparison(session_->runs.size());
     state_.commands.keep_look(look());
   }
@@ -271,7 +263,7 @@ void App::uncover_pick(const Layout& layout) {
   const Picked picked = state_.picked;
   if (std::exchange(seen_pick_, picked) == picked || !layout.folded || picked.kind == Picked::Kind::None) return;
   const PaneFacts& pane = viewports_.facts()[state_.panes.focus];
-  const Rect free = uncovered(layout);
+  const Rect free = layout.uncovered();
   const Frame* frame = pane.frame();
   if (!pane.view || frame->device || frame->positions.empty() || free.w < 6 * ImGui::GetFontSize()) return;
   const Index vertex = picked.kind == Picked::Kind::Vertex ? picked.id : frame->input->mesh.elements.corners(picked.id)[0];
@@ -295,28 +287,27 @@ void App::draw_panels(PanelContext& context) {
   Panels panels = state_.panels;
   constexpr double kLeastComparison = 17.0;  // height with four runs
   if (state_.plot == PlotTab::Compare) panels.bottom_height = std::max(panels.bottom_height, kLeastComparison);
-  const Layout layout = compute_layout(panels, screen.x, screen.y, header_size(context), session_->input != nullptr);
+  Layout layout = compute_layout(panels, screen.x, screen.y, header_size(context), session_->input != nullptr);
   widgets_.narrow = layout.folded;
+  give_message_room(context, layout);
   draw_menu(context, layout.menu);
+  draw_notice(context, layout);
   update_viewports(context, layout.viewport);
   draw_toolbar(context, layout.toolbar);
   draw_viewports(context, layout.viewport);
   uncover_pick(layout);
-  draw_notice(context, uncovered(layout));
   if (!layout.folded) {
     draw_column(context, Side::Left, layout.left, false);
     draw_column(context, Side::Right, layout.right, false);
   }
   draw_plots(context, layout);
-  draw_strips(context, layout);
   draw_splitters(context, layout);
   if (layout.folded) {
     draw_column(context, Side::Left, layout.left, true);
     draw_column(context, Side::Right, layout.right, true);
   }
   draw_timeline(context, layout);
-  draw_status(context, layout.status);
-  draw_message(context, layout.viewport);
+  draw_status(context, layout);
   draw_tour(context, layout);
   draw_dialogs(context);
 }
@@ -383,7 +374,7 @@ void App::draw(double now) {
   if (state_.inspection.hovered != hovered) redraw_in_ = 0.0;      // the next frame marks it in the mesh
   if (widgets_.glyphs.size() != built_letters_) redraw_in_ = 0.0;  // to draw letters that were met for the first time
   if (const auto wakes_in = std::exchange(widgets_.pointer_rest.wakes_in, std::nullopt)) redraw_in_ = std::min(redraw_in_, *wakes_in);
-  if (tooltip_unsettled()) redraw_in_ = 0.0;
+  if (tooltip_unsettled() || std::exchange(widgets_.resized, false)) redraw_in_ = 0.0;
 }
 
 /// Sends each level as a command of its own, so that it can be repeated. Returns the seconds after which there may be more.

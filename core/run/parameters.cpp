@@ -216,7 +216,7 @@ const std::array kTable{
                   .in_title = [](const P& p) { return fmt::format("max deviation {:g}", p.max_deviation); },
                   .before = "0.001"},
     ParameterInfo{.name = "fit",
-                  .title = "fit",
+                  .title = "fit within",
                   .type = "DISTANCE|off",
                   .doc = "Vertices within this distance of another mesh's surface are drawn to their nearest place on it first, as far "
                          "as all elements stay sound and the guard holds. The boundary slides then",

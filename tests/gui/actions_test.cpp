@@ -165,9 +165,8 @@ TEST(Layout, PanelsCoverTheWindowWithoutOverlap) {
       const Layout layout = compute_layout(panels, width, height, {em, 20 * em, 40 * em});
       EXPECT_GE(layout.viewport.w, 0);
       EXPECT_GE(layout.viewport.h, 0);
-      const float left = layout.folded ? layout.left_strip.w : layout.left.w, right = layout.folded ? layout.right_strip.w : layout.right.w;
-      EXPECT_NEAR(left + layout.viewport.w + right, width, 0.5);
-      EXPECT_EQ(left > 0, setup_side == Side::Left) << "facts stand at the right";
+      EXPECT_NEAR(layout.folded ? layout.viewport.w : layout.left.w + layout.viewport.w + layout.right.w, width, 0.5);
+      EXPECT_EQ(!layout.folded && layout.left.w > 0, !layout.folded && setup_side == Side::Left) << "facts stand at the right";
       const bool one_row = layout.toolbar.y == 0;
       EXPECT_EQ(one_row, width >= 60 * em);
       EXPECT_NEAR((one_row ? 0 : layout.menu.h) + layout.toolbar.h + layout.viewport.h + layout.bottom.h + layout.status.h, height, 0.5);

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <imgui.h>
 
 #include "core/base/number_text.h"
 #include "tests/gui/headless_test.h"
@@ -57,7 +58,12 @@ TEST_F(Ending, IsHiddenUntilAnotherRunEnds) {
   open_hopeless();
   good("run 2");
   EXPECT_TRUE(has_item("notice")) << "a line";
-  EXPECT_FALSE(has_item("notice-off"));
+  EXPECT_TRUE(has_item("notice-off"));
+  EXPECT_FALSE(has_item("notice:vertex"));
+  good("click notice");
+  EXPECT_TRUE(has_item("notice:vertex"));
+  good("click notice");
+  EXPECT_FALSE(has_item("notice:vertex")) << "a second click folds it";
   good("click notice");
   good("click notice-off");
   EXPECT_FALSE(has_item("notice:vertex"));
@@ -66,6 +72,37 @@ TEST_F(Ending, IsHiddenUntilAnotherRunEnds) {
   good("notice off");
   good("run 1");
   EXPECT_TRUE(has_item("notice:vertex"));
+}
+
+TEST_F(Ending, TheNoteAndWarningsLeaveTheMeshInSight) {
+  for (const auto& [width, height] : {std::pair{800, 600}, {1280, 800}}) {
+    SCOPED_TRACE(width);
+    open(width, height);
+    good("generate coast 400");
+    good("method laplace");
+    good("run 60");
+    const auto box = [&](const char* item) { return window_->app().items().find(item); };
+    for (const char* layout : {"viewports 1", "viewports 4"}) {
+      SCOPED_TRACE(layout);
+      good(layout);
+      for (const char* line : {"unfold-notice off", "unfold-notice on"}) {
+        good(line);
+        const float below = has_item("notice:best") ? box("notice:best")[3] : box("notice")[3];
+        for (const ui::PaneFacts& pane : window_->app().panes()) EXPECT_LE(below, pane.rect.y) << line;
+        for (const ui::PaneFacts& pane : window_->app().panes()) EXPECT_LE(pane.rect.y + pane.rect.h, box("status-message")[1]) << line;
+      }
+    }
+    good("viewports 1");
+    good("notice off");
+    const float top = window_->app().panes()[0].rect.y;
+    good("notice on");
+    EXPECT_LT(top, window_->app().panes()[0].rect.y) << "it takes room of its own";
+    // A message that must be read whole has as much of the lowest row as it needs.
+    add_message(state(), {Message::Kind::Warning, "so many words that the room below the column of facts is not enough for them", 0});
+    good("move 5 5");
+    EXPECT_GT(box("status-message")[2] - box("status-message")[0], 20 * ImGui::GetFontSize());
+    EXPECT_LE(box("viewport")[3], box("status-message")[1]);
+  }
 }
 
 TEST_F(Ending, AMethodThatGetsFurtherIsOffered) {

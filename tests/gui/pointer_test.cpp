@@ -36,6 +36,24 @@ TEST_F(Pointer, ThatRestsShowsTheValueBelowIt) {
   EXPECT_FALSE(has_tooltip()) << "beside the mesh";
 }
 
+TEST_F(Pointer, ValuesAreThoseOfWhatIsBelowItNow) {
+  good("generate grid 100");
+  good("pointer-value on");
+  const auto rests = [&](const char* line) {
+    good(line);
+    rest(60);
+    EXPECT_TRUE(has_tooltip()) << line;
+    return window_->picture().rgba;
+  };
+  (void)rests("move 600 300");
+  for (const char* line : {"zoom 1.7", "step iteration", "show min-angle"}) {
+    const auto stayed = rests(line);
+    good("move 1100 300");
+    EXPECT_FALSE(has_tooltip()) << line;
+    EXPECT_TRUE(rests("move 600 300") == stayed) << line;
+  }
+}
+
 TEST_F(Pointer, ClicksOnAxesLookAlongThem) {
   good("generate solids");
   for (const char* axis : {"x", "y", "z"}) {

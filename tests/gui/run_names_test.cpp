@@ -34,6 +34,23 @@ TEST_F(RunNames, SayWhatTellsRunsApartAndNoMore) {
   EXPECT_EQ(names(), (std::vector<std::string>{"1 dmo", "2 laplace", "3 dmo · then mean, shuffle:7"}));
 }
 
+TEST_F(RunNames, TheListSaysAllThatTheViewportsTitlesSay) {
+  good("generate annulus 300");
+  good("add-run dmo:min-angle");
+  good("then mean");
+  good("add-run dmo:min-angle");
+  good("rename-run 3 coarse");
+  const auto all = ui::run_names(*session());
+  EXPECT_EQ(all[0].method_and_aim() + "|" + all[0].other_differences(), "dmo · mean ratio|");
+  EXPECT_EQ(all[1].method_and_aim() + "|" + all[1].other_differences(), "dmo · minimum angle|then mean");
+  EXPECT_EQ(all[2].method_and_aim() + "|" + all[2].other_differences(), "coarse|");
+  // Differences that a row has no room for stand in a second line.
+  good("move 5 5");
+  const auto height = [&](int run) { return box("run:" + std::to_string(run))[3] - box("run:" + std::to_string(run))[1]; };
+  EXPECT_GT(height(1), 1.5F * height(0));
+  EXPECT_EQ(height(2), height(0));
+}
+
 TEST_F(RunNames, SearchesAndPlacesTellApart) {
   good("generate annulus 300");
   good("run 1");

@@ -11,6 +11,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/volume_grids.h"
 #include "ui/analysis/inspection.h"
+#include "ui/analysis/scene_points.h"
 #include "ui/overlays/overlay.h"
 
 namespace dmoscope::app {
@@ -91,11 +92,67 @@ TEST_F(SurfaceWindow, SaysWhatItsRunsReadOfSliding) {
   good("settings on");
   (void)picture();
   for (const char* item : {"feature-angle", "corner-angle", "max-deviation"}) EXPECT_TRUE(has(item)) << item;
+  EXPECT_FALSE(has("fit-surface")) << "there is no other surface";
   good("feature-angle 95");
   EXPECT_THAT(session()->runs[0].title, ::testing::HasSubstr("feature angle 95"));
   good("generate annulus");
   (void)picture();
   for (const char* item : {"feature-angle", "corner-angle", "max-deviation"}) EXPECT_FALSE(has(item)) << item;
+}
+
+TEST_F(SurfaceWindow, TheDistanceOfAFitIsTyped) {
+  good("size 1280 1500");
+  good("settings on");
+  const std::string fine = (folder_.path() / "fine.vtk").string();
+  Progress progress;
+  const Mesh other = cube(8);
+  write_mesh(fine, other, other.positions, progress);
+  good("surface \"" + fine + "\"");
+  good("double-click fit-surface");
+  good("key Ctrl+A");
+  good("type 0.25");
+  good("key Enter");
+  EXPECT_EQ(session()->runs[0].parameters.fit, 0.25);
+}
+
+TEST_F(SurfaceWindow, FitsFourViewportsInASmallWindow) {
+  open(800, 600);
+  good("open \"" + (folder_.path() / "cube.vtk").string() + "\"");
+  good("compare with laplace:mean-ratio dmo:scaled-jacobian laplace:scaled-jacobian 2");
+  good("move 5 5");
+  ASSERT_EQ(window_->app().panes().size(), 4U) << session()->runs.size() << " runs";
+  const Vec2<double> viewport = state().viewport;
+  for (const ui::PaneFacts& pane : window_->app().panes()) {
+    ASSERT_TRUE(pane.view);
+    double least = 1e9, most = -1e9;
+    for (const Vec3& at : pane.frame()->positions) {
+      const auto place = pane.view->place(ui::ScenePoints::of(*pane.frame()->input).at(at));
+      ASSERT_TRUE(place);
+      EXPECT_LE(std::abs(place->x), 0.5 * viewport.x);
+      EXPECT_LE(std::abs(place->y), 0.5 * viewport.y);
+      least = std::min(least, place->x);
+      most = std::max(most, place->x);
+    }
+    EXPECT_GT(most - least, 0.4 * std::min(viewport.x, viewport.y)) << "and fills it";
+  }
+}
+
+/// Candidates at which the surface would deviate too much are marked alike in the mesh and in the maps of the levels.
+TEST_F(SurfaceWindow, CandidatesThatAreRefusedAreMarked) {
+  good("max-deviation 1e-9");
+  const RunView& run = session()->runs[0];
+  std::size_t refused = 0;
+  for (Index v = 0; v < run.fixed.size() && refused == 0; ++v) {
+    if (!run.domain->on_surface(v)) continue;
+    good("inspect vertex " + std::to_string(v));
+    const ui::Inspection& inspection = window_->app().inspection();
+    for (int k = 0; k < static_cast<int>(inspection.level(1).quality.size()); ++k) {
+      const bool counts = inspection.grid->levels[0].fates[static_cast<std::size_t>(k)] == CandidateFate::Counts;
+      EXPECT_EQ(inspection.refuses(1, k), !counts);
+      refused += counts ? 0 : 1;
+    }
+  }
+  EXPECT_GT(refused, 0U);
 }
 
 TEST_F(SurfaceWindow, VisitsAreLookedIntoWhereVerticesSlideOnIt) {

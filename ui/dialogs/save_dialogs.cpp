@@ -88,11 +88,6 @@ SaveEndings plot_endings(const PanelContext& context) {
   return {"a plot", {".svg", ".png", ".csv"}};
 }
 
-std::uint64_t last_iteration(const PanelContext& context) {
-  const RunView* run = context.run();
-  return run == nullptr || run->records.empty() ? 0 : run->records.back().iteration;
-}
-
 std::string command_of(const SequenceDialog& widgets) {
   std::string line =
       fmt::format("sequence {} --from {} --to {} --every {}", quote_word(widgets.folder), widgets.from, widgets.to, widgets.every);
@@ -105,7 +100,7 @@ std::string command_of(const SequenceDialog& widgets) {
 }
 
 void draw_choices(PanelContext& context, SequenceDialog& widgets) {
-  const int last = static_cast<int>(std::min<std::uint64_t>(last_iteration(context), 1'000'000'000));
+  const int last = static_cast<int>(std::min<std::uint64_t>(context.last_iteration(), 1'000'000'000));
   int range[2] = {widgets.from, widgets.to};
   row_label(context, "iterations", 9);
   if (ImGui::InputInt2("##range", range)) {
@@ -292,7 +287,7 @@ void draw_sequence_dialog(PanelContext& context) {
   SequenceDialog& widgets = context.widgets.sequence;
   if (context.widgets.dialog_opened) {
     widgets.from = 0;
-    widgets.to = static_cast<int>(std::min<std::uint64_t>(last_iteration(context), 1'000'000'000));
+    widgets.to = static_cast<int>(std::min<std::uint64_t>(context.last_iteration(), 1'000'000'000));
     widgets.width = static_cast<int>(context.state.viewport.x) / 2 * 2;  // videos need even numbers
     widgets.height = static_cast<int>(context.state.viewport.y) / 2 * 2;
   }

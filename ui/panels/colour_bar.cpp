@@ -29,6 +29,7 @@ struct BarLayout {
   float mode_left = 0, mode_width = 0;
   bool has_bar = true;
   float left = 0, top = 0, width = 0, bar_top = 0, bar = 0;  // place of the bar
+  float swatch = 0;                                          // side of a swatch
   float histogram = 0;                                       // height of the histogram of qualities, above the bar; 0: there is none
   std::vector<Swatch> swatches;                              // swatches of the categories, or beside the bar
   std::size_t entries = 0;                                   // the first so many are categories
@@ -71,7 +72,8 @@ BarLayout lay_out(const PanelContext& context, const Rect& rect) {
   const float pad = context.px(8), line = ImGui::GetTextLineHeight();
   BarLayout layout;
   layout.has_bar = !legend.has_categories && (!context.derived.colouring.colours || context.derived.colouring.colours->has_values);
-  layout.bar = std::round(0.8F * line);
+  layout.bar = std::round(0.53F * line);
+  layout.swatch = std::round(0.8F * line);
   layout.title = legend.title;
   layout.right = layout.has_bar ? outside_text(legend) : std::string();
   if (layout.has_bar && !context.derived.colouring.colours) layout.mode = fmt::format("range: {} ▾", range_title(context.state));
@@ -95,7 +97,7 @@ BarLayout lay_out(const PanelContext& context, const Rect& rect) {
     if (!colours.counted.empty() && !colours.categories.empty()) layout.title += ", " + colours.counted;
     if (!colours.note.empty()) layout.title += " · " + colours.note;
   }
-  const float inner = 2 * pad;
+  const float inner = 1.25F * pad;
   const float widest = rect.w - 2 * pad - 2 * inner;
   float height = 0, right = 0;
   const bool roomy = context.state.panes.one() && rect.h > 26 * context.em();
@@ -104,13 +106,13 @@ BarLayout lay_out(const PanelContext& context, const Rect& rect) {
   if (layout.has_bar) {
     layout.width = std::min(widest, std::clamp(rect.w * 0.42F, 10 * context.em(), 15 * context.em()));
     height = second + layout.bar + 1.15F * line + 0.6F * pad;
-    arrange(layout.swatches, inner + layout.width + 1.5F * pad, second - 0.1F * line, widest + inner, layout.bar, pad, line);
+    arrange(layout.swatches, inner + layout.width + 1.5F * pad, second - 0.1F * line, widest + inner, layout.swatch, pad, line);
     right = inner + layout.width;
     const float words =
         ImGui::CalcTextSize(layout.title.c_str()).x + ImGui::CalcTextSize(layout.right.c_str()).x + layout.mode_width + 5 * pad;
     if (words > layout.width) right = std::min(widest + inner, inner + words);
   } else {
-    height = second + arrange(layout.swatches, inner, second, widest + inner, layout.bar, pad, line) + 0.9F * pad;
+    height = second + arrange(layout.swatches, inner, second, widest + inner, layout.swatch, pad, line) + 0.9F * pad;
     right = inner + std::min(widest, ImGui::CalcTextSize(layout.title.c_str()).x);
   }
   for (const Swatch& swatch : layout.swatches) right = std::max(right, swatch.at.x + swatch.width);
@@ -279,9 +281,7 @@ void draw_bar(const PanelContext& context, const BarLayout& layout) {
     if (!held || !context.state.colouring.held_range) continue;
     const std::string text = short_number(value);
     const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-    draw_plate(context, {x - size.x / 2 - context.px(4), top - over - size.y - context.px(4)},
-               {x + size.x / 2 + context.px(4), top - over});
-    list.AddText({x - size.x / 2, top - over - size.y - context.px(2)}, colour(context.palette.text), text.c_str());
+    draw_plate(context, {x - size.x / 2 - context.px(4), top - over - size.y - context.px(4)}, text, context.palette.text, context.px(4));
   }
 }
 
@@ -367,9 +367,9 @@ void draw_colour_bar(PanelContext& context, const Rect& rect) {
                      isolated->name != colours->categories[k].name;
     if (swatch.ink) {
       const float middle = y + 0.5F * line;
-      list.AddRectFilled({x, middle - layout.bar / 2}, {x + layout.bar, middle + layout.bar / 2}, colour(*swatch.ink, dim ? 0.35F : 1.0F),
-                         context.px(2));
-      text += layout.bar + context.px(4);
+      list.AddRectFilled({x, middle - layout.swatch / 2}, {x + layout.swatch, middle + layout.swatch / 2},
+                         colour(*swatch.ink, dim ? 0.35F : 1.0F), context.px(2));
+      text += layout.swatch + context.px(4);
     }
     list.AddText({text, y}, colour(dim ? context.palette.dim : context.palette.text), swatch.text.c_str());
   }

@@ -27,7 +27,7 @@ void begin_edge(const char* name, const Rect& rect) {
 }
 
 /// Draws a tab over the mesh, in the middle of an edge that can be folded; true when it is clicked.
-bool fold_tab(PanelContext& context, const char* name, Icon icon, const char* tooltip, const Rect& rect) {
+bool fold_tab(PanelContext& context, const char* name, std::string_view icon, const char* tooltip, const Rect& rect) {
   begin_edge(fmt::format("{} tab", name).c_str(), rect);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled({rect.x, rect.y}, {rect.x + rect.w, rect.y + rect.h}, colour(context.palette.panel, 0.9F), context.px(4));
@@ -37,17 +37,17 @@ bool fold_tab(PanelContext& context, const char* name, Icon icon, const char* to
   return clicked;
 }
 
-/// Draws the tab that folds all docks of a side, or opens them.
-void draw_column_tab(PanelContext& context, Side side, const Rect& rect) {
+/// Draws the tab that folds all docks of a side, or opens them. `over`: over the mesh.
+void draw_column_tab(PanelContext& context, Side side, const Rect& rect, bool over) {
   const Panels& panels = context.state.panels;
-  const bool open = panels.has_column(side), points_left = open == (side == Side::Left);
-  const bool both = panels.setup_side == panels.facts_side;
-  const std::string keys = both ? "F2, F3" : panels.setup_side == side ? "F2" : "F3";
-  if (!fold_tab(context, side == Side::Left ? "left" : "right", points_left ? Icon::ChevronLeft : Icon::ChevronRight,
-                fmt::format("{} ({})", open ? "folds this column" : "opens the column", keys).c_str(), rect))
+  const bool open = over ? panels.over(side) : panels.has_column(side), points_left = open == (side == Side::Left);
+  const bool both = panels.setup_side == panels.facts_side, setup = panels.setup_side == side;
+  const std::string what = both ? "setup and facts (F2, F3)" : setup ? "setup (F2)" : "facts (F3)";
+  const char *name = side == Side::Left ? "left" : "right", *word = open ? "off" : "on";
+  if (!fold_tab(context, name, points_left ? Icon::kChevronLeft : Icon::kChevronRight, ((open ? "folds " : "opens ") + what).c_str(), rect))
     return;
-  const char* word = open ? "off" : "on";
-  if (panels.setup_side == side) context.send(fmt::format("panel setup {}", word));
+  if (over) return context.send(fmt::format("unfold {} {}", name, word));
+  if (setup) context.send(fmt::format("panel setup {}", word));
   if (panels.facts_side == side) context.send(fmt::format("panel facts {}", word));
 }
 
@@ -221,14 +221,13 @@ void draw_splitters(PanelContext& context, const Layout& layout) {
   const Rect& mesh = layout.viewport;
   if (mesh.w < 2 * along || mesh.h < 2 * along) return;
   const float middle = std::round(mesh.y + mesh.h / 2 - along / 2);
-  if (!layout.folded) {
-    if (panels.uses(Side::Left)) draw_column_tab(context, Side::Left, {mesh.x, middle, across, along});
-    if (panels.uses(Side::Right)) draw_column_tab(context, Side::Right, {mesh.x + mesh.w - across, middle, across, along});
-  }
+  const Rect free = layout.uncovered();
+  if (panels.uses(Side::Left)) draw_column_tab(context, Side::Left, {free.x, middle, across, along}, layout.folded);
+  if (panels.uses(Side::Right)) draw_column_tab(context, Side::Right, {free.x + free.w - across, middle, across, along}, layout.folded);
   const float share = mesh.w < context.em() * 62 ? 0.66F : 0.5F;  // in a narrow one the colour bar reaches the middle
   const bool has_plots = !layout.bottom.empty();
   if (layout.timeline.empty() || panels.plots() != has_plots) return;  // no mesh, or no room for plots
-  if (fold_tab(context, "bottom", has_plots ? Icon::ChevronDown : Icon::ChevronUp,
+  if (fold_tab(context, "bottom", has_plots ? Icon::kChevronDown : Icon::kChevronUp,
                has_plots ? "folds the plots (F4)" : "opens the plots (F4)",
                {std::round(mesh.x + mesh.w * share - along / 2), mesh.y + mesh.h - across, along, across}))
     context.send("panel bottom toggle");

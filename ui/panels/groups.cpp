@@ -62,7 +62,7 @@ std::string fit_name(const GroupFacts& group, const RowLook& look) {
 
 struct GroupSwitch {
   const char* word;
-  Icon icon;
+  std::string_view icon;
   std::string item, tooltip;
   bool on;
 };
@@ -85,12 +85,12 @@ void draw_line(PanelContext& context, const GroupLine& line, bool fixed, const R
   next_item_tooltip(context.shown(tooltip_of(group)));
   ImGui::SameLine();
   ImGui::SetCursorPosX(right - (look.words ? words_width(context) : icons_width(context)) + context.px(6));
-  const GroupSwitch fix{"fix", fixed ? Icon::Lock : Icon::LockOff, "group-fix:" + group.name,
-                        fixed ? "fixed: its vertices stay; click to release them" : "fix: its vertices keep their places", fixed};
+  const GroupSwitch fix{"fix", fixed ? Icon::kLock : Icon::kLockOff, "group-fix:" + group.name,
+                        fixed ? "fixed; click to free its vertices again" : "fix: its vertices keep their places", fixed};
   if (draw_switch(context, fix, look.words)) context.send((fixed ? "unfix " : "fix ") + quote_word(line.word));
   ImGui::SameLine(0, context.px(look.words ? 4 : 1));
   const bool alone = context.state.colouring.isolated == Isolation{ColourBy::Group, group.name};
-  const GroupSwitch isolate{"isolate", Icon::Eye, "group-isolate:" + group.name,
+  const GroupSwitch isolate{"isolate", Icon::kEye, "group-isolate:" + group.name,
                             alone ? "isolated; click to count all elements again" : "isolate: only its elements, or those around it, count",
                             alone};
   if (draw_switch(context, isolate, look.words)) context.send(alone ? "isolate off" : "isolate group " + quote_word(group.name));
@@ -103,8 +103,9 @@ void draw_loop(PanelContext& context, const Outline& outline, Index number) {
   const std::string word = fmt::format("loop:{}", number + 1);
   const std::array<SideButton, 3> buttons{
       {{"select", fmt::format("loop-select:{}", number + 1), "selects its vertices", "select vertex " + word},
-       {"fix", fmt::format("loop-fix:{}", number + 1), "its vertices keep their places, even where the boundary slides", "fix " + word},
-       {"slide", fmt::format("loop-slide:{}", number + 1), "lets its vertices slide along it; the rest of the boundary stays",
+       {"fix", fmt::format("loop-fix:{}", number + 1), "fix: its vertices keep their places, even where the boundary slides",
+        "fix " + word},
+       {"slide", fmt::format("loop-slide:{}", number + 1), "its vertices slide along it; the rest of the boundary is fixed",
         "slide " + word}}};
   const float y = ImGui::GetCursorPosY();
   const std::string name = outline.name(number);

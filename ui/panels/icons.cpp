@@ -1,6 +1,7 @@
 #include "ui/panels/icons.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include "ui/panels/widgets.h"
@@ -8,61 +9,62 @@
 namespace dmoscope::ui {
 namespace {
 
-void draw_eye(ImDrawList& list, ImVec2 m, float r, ImU32 ink, float width) {
-  for (const float way : {-1.0F, 1.0F}) list.AddBezierQuadratic({m.x - r, m.y}, {m.x, m.y + 1.25F * way * r}, {m.x + r, m.y}, ink, width);
-  list.AddCircleFilled(m, 0.30F * r, ink);
-}
+/// Draws the strokes of a path one after the other.
+class PathPen {
+ public:
+  PathPen(ImDrawList& list, ImVec2 middle, float side, ImU32 ink)
+      : list_(list), middle_(middle), unit_(side / 16), ink_(ink), width_(std::max(1.0F, 1.5F * side / 16)) {}
 
-void draw_lock(ImDrawList& list, ImVec2 m, float r, ImU32 ink, float width, bool shut) {
-  const float side = 0.62F * r, top = m.y - 0.08F * r, bow = 0.42F * r, up = shut ? 0.0F : 0.18F * r;
-  list.AddRectFilled({m.x - side, top}, {m.x + side, m.y + 0.85F * r}, ink, 0.18F * r);
-  constexpr float kPi = 3.14159265F;
-  list.PathArcTo({m.x, top - 0.28F * r - up}, bow, kPi, 2 * kPi);
-  if (shut) list.PathLineTo({m.x + bow, top});
-  list.PathStroke(ink, 0, width);
-  list.AddLine({m.x - bow, top - 0.28F * r - up}, {m.x - bow, top}, ink, width);
-}
+  void draw(std::string_view path) {
+    for (rest_ = path; !rest_.empty();) {
+      const char step = rest_.front();
+      rest_.remove_prefix(1);
+      if (step == 'M' || step == 'Z') end(step == 'Z');
+      if (step == 'F') list_.PathFillConvex(ink_);
+      if (step == 'M' || step == 'L') list_.PathLineTo(point());
+      if (step == 'Q') {
+        const ImVec2 control = point();
+        list_.PathBezierQuadraticCurveTo(control, point());
+      }
+      if (step == 'A') arc();
+    }
+    end(false);
+  }
 
-void draw_chevron(ImDrawList& list, ImVec2 m, float r, ImVec2 way, ImU32 ink, float width) {
-  const float reach = 0.45F * r, wide = 0.8F * r;
-  const ImVec2 across{-way.y, way.x};
-  const auto at = [&](float along, float aside) {
-    return ImVec2{m.x + along * way.x + aside * across.x, m.y + along * way.y + aside * across.y};
-  };
-  const ImVec2 points[] = {at(-reach, -wide), at(reach, 0), at(-reach, wide)};
-  list.AddPolyline(points, 3, ink, ImDrawFlags_None, width);
-}
+ private:
+  void end(bool closed) { list_.PathStroke(ink_, closed ? ImDrawFlags_Closed : ImDrawFlags_None, width_); }
+  void arc() {
+    constexpr float kDegree = 3.14159265F / 180;
+    const ImVec2 centre = point();
+    const float radius = number() * unit_, from = number() * kDegree;
+    list_.PathArcTo(centre, radius, from, number() * kDegree);
+  }
+  ImVec2 point() {
+    const float x = number();
+    return {middle_.x + (x - 8) * unit_, middle_.y + (number() - 8) * unit_};
+  }
+  float number() {
+    while (rest_.starts_with(' ')) rest_.remove_prefix(1);
+    float value = 0;
+    rest_.remove_prefix(static_cast<std::size_t>(std::from_chars(rest_.data(), rest_.data() + rest_.size(), value).ptr - rest_.data()));
+    return value;
+  }
+
+  ImDrawList& list_;
+  ImVec2 middle_;
+  float unit_;
+  ImU32 ink_;
+  float width_;
+  std::string_view rest_;
+};
 
 }  // namespace
 
-void draw_icon(ImDrawList& list, Icon icon, ImVec2 middle, float side, ImU32 ink) {
-  const float r = 0.42F * side, width = std::max(1.0F, 0.09F * side);
-  switch (icon) {
-    case Icon::Eye:
-      return draw_eye(list, middle, r, ink, width);
-    case Icon::EyeOff:
-      draw_eye(list, middle, r, ink, width);
-      return list.AddLine({middle.x - 0.8F * r, middle.y + 0.8F * r}, {middle.x + 0.8F * r, middle.y - 0.8F * r}, ink, 1.4F * width);
-    case Icon::Cross:
-      for (const float way : {-1.0F, 1.0F})
-        list.AddLine({middle.x - 0.6F * r, middle.y - 0.6F * way * r}, {middle.x + 0.6F * r, middle.y + 0.6F * way * r}, ink, 1.2F * width);
-      return;
-    case Icon::Lock:
-      return draw_lock(list, middle, r, ink, width, true);
-    case Icon::LockOff:
-      return draw_lock(list, middle, r, ink, width, false);
-    case Icon::ChevronLeft:
-      return draw_chevron(list, middle, r, {-1, 0}, ink, 1.2F * width);
-    case Icon::ChevronRight:
-      return draw_chevron(list, middle, r, {1, 0}, ink, 1.2F * width);
-    case Icon::ChevronUp:
-      return draw_chevron(list, middle, r, {0, -1}, ink, 1.2F * width);
-    case Icon::ChevronDown:
-      return draw_chevron(list, middle, r, {0, 1}, ink, 1.2F * width);
-  }
+void draw_icon(ImDrawList& list, std::string_view icon, ImVec2 middle, float side, ImU32 ink) {
+  PathPen(list, middle, side, ink).draw(icon);
 }
 
-bool icon_button(PanelContext& context, const std::string& item, Icon icon, ImVec2 size, const std::string& tooltip, bool lit) {
+bool icon_button(PanelContext& context, const std::string& item, std::string_view icon, ImVec2 size, const std::string& tooltip, bool lit) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const bool pressed = ImGui::InvisibleButton(item.c_str(), size);
   context.items.record_last(item);

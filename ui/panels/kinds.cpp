@@ -20,12 +20,9 @@ struct KindButton {
 };
 
 void draw_button(PanelContext& context, const KindButton& one) {
-  if (one.on) ImGui::PushStyleColor(ImGuiCol_Button, colour_vector(context.palette.accent, 0.45F));
   ImGui::BeginDisabled(!one.enabled || context.activity.busy);
-  if (ImGui::SmallButton(one.label) && !one.command.empty()) context.send(one.command);
+  if (lit_button(context, one.item, one.label, one.on, one.tooltip, true) && !one.command.empty()) context.send(one.command);
   ImGui::EndDisabled();
-  if (one.on) ImGui::PopStyleColor();
-  note_item(context, one.item, one.tooltip);
 }
 
 /// Effect of a click on the button of an edge.
@@ -134,12 +131,12 @@ void draw_vertex_kind(PanelContext& context, const Frame& frame, const RunView& 
   const bool corner = kinds.has_corner(vertex), none = kinds.has_no_corner(vertex);
   const std::string stays = why_stays(domain, vertex), words = fmt::format(" vertices:{}", vertex);
   const float gap = context.px(4);
-  draw_button(context, {"corner", "kind:corner", corner ? "" : "corner" + words, "it stays although it could slide", corner,
+  draw_button(context, {"corner", "kind:corner", corner ? "" : "corner" + words, "it is fixed although it could slide", corner,
                         stays.empty() || corner});
   ImGui::SameLine(0, gap);
   draw_button(context,
               {"no corner", "kind:no-corner", none ? "" : "no-corner" + words,
-               stays.empty() ? "it slides along its curve, however much that turns there" : "it stays: " + stays, none, stays.empty()});
+               stays.empty() ? "it slides along its curve, however much that turns there" : "it is fixed: " + stays, none, stays.empty()});
   ImGui::SameLine(0, gap);
   draw_button(context, {"auto", "kind:auto", corner || none ? "auto-corner" + words : "",
                         "a corner if the file says so or its curve turns by more than the corner angle", !corner && !none});

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/mesh/generate.h"
+#include "ui/panels/icons.h"
 #include "ui/panels/panels.h"
 #include "ui/state/view_options.h"
 
@@ -115,42 +116,65 @@ void draw_entries(PanelContext& context, std::string_view menu) {
   }
 }
 
-/// A button of the tool bar. It has text first: a button's effect must not be a riddle.
+/// A button of the tool bar: an icon that everybody knows, or a word, with an icon where one tells more.
 struct Tool {
   const char* id;
-  const char* label;
-  const char* other = nullptr;  // second id of the item
+  std::string_view icon;
+  const char* word = "";
   bool gap = false;             // whether there is a gap before it
   float least = 0;              // least width of the tool bar that has room for it, in heights of the font
+  const char* other_word = "";  // word while work is done
 };
-constexpr std::array<Tool, 10> kTools{{{"open", "Open…", nullptr, false, 44},
-                                       {"run-pause", "▶ Run", "❚❚ Pause", true},
-                                       {"make-good", "Make it good", nullptr, false, 40},
-                                       {"step-iteration", "Iteration"},
-                                       {"back-iteration", "Back"},
-                                       {"reset", "Reset", nullptr, false, 36},
-                                       {"step-class", "Colour class", nullptr, true, 52},
-                                       {"step-vertex", "Vertex", nullptr, false, 52},
-                                       {"fit", "Fit", nullptr, true, 30},
-                                       {"wireframe", "Wires", "Wires ✓", false, 34}}};
+constexpr std::array<Tool, 12> kTools{{{"open", Icon::kOpen, "", false, 44},
+                                       {"undo", Icon::kUndo, "", true, 47},
+                                       {"redo", Icon::kRedo, "", false, 47},
+                                       {"back-iteration", Icon::kBack, "", true},
+                                       {"step-iteration", Icon::kStep, "Iteration"},
+                                       {"step-class", {}, "Colour class", false, 50},
+                                       {"step-vertex", {}, "Vertex", false, 50},
+                                       {"run-pause", Icon::kPlay, "Run", true, 0, "Pause"},
+                                       {"make-good", Icon::kSpark, "Make it good", false, 40},
+                                       {"reset", Icon::kReset, "Reset", false, 36},
+                                       {"fit", Icon::kFit, "", true, 30},
+                                       {"wireframe", Icon::kWires, "", false, 34}}};
 
-float width_of(const Tool& tool) { return tool.other == nullptr ? widest_button({tool.label}) : widest_button({tool.label, tool.other}); }
+float icon_side() { return std::round(1.1F * ImGui::GetFontSize()); }
 
-float gap_before(const PanelContext& context, const Tool& tool) { return tool.gap ? context.px(18) : context.px(6); }
+float width_of(const Tool& tool) {
+  const float words = std::max(ImGui::CalcTextSize(tool.word).x, ImGui::CalcTextSize(tool.other_word).x);
+  if (words == 0) return std::round(1.15F * ImGui::GetFrameHeight());
+  const float icon = !tool.icon.empty() ? icon_side() + ImGui::GetStyle().ItemInnerSpacing.x : 0.0F;
+  return words + icon + 2 * ImGui::GetStyle().FramePadding.x;
+}
 
-/// Draws the choice of the shown metric at the right end if there is room; with its label if there is room for that, too.
+float gap_before(const PanelContext& context, const Tool& tool) { return tool.gap ? context.px(16) : context.px(4); }
+
+void draw_tool(PanelContext& context, const Tool& tool) {
+  const bool works = context.activity.busy && *tool.other_word != 0, lit = tool.icon == Icon::kWires && context.state.wireframe;
+  const bool primary = *tool.other_word != 0 && context.session.input != nullptr;
+  const char* word = works ? tool.other_word : tool.word;
+  if (lit) ImGui::PushStyleColor(ImGuiCol_Button, colour_vector(context.palette.accent, 0.22F));
+  action_button(context, tool.id, fmt::format("##{}", tool.id).c_str(), primary, width_of(tool));
+  if (lit) ImGui::PopStyleColor();
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  const bool possible = enabled(*find_action(tool.id), context.situation());
+  const render::Rgb ink = primary ? context.palette.on_accent : lit ? context.palette.accent : context.palette.text;
+  const ImU32 shade = colour(ink, possible ? 1.0F : ImGui::GetStyle().DisabledAlpha);
+  const float text = ImGui::CalcTextSize(word).x, side = !tool.icon.empty() ? icon_side() : 0.0F;
+  const float between = side > 0 && text > 0 ? ImGui::GetStyle().ItemInnerSpacing.x : 0.0F;
+  const float left = std::round((low.x + high.x - side - between - text) / 2), middle = std::round((low.y + high.y) / 2);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  if (side > 0) draw_icon(list, works ? Icon::kPause : tool.icon, {left + side / 2, middle}, side, shade);
+  list.AddText({left + side + between, std::round(middle - ImGui::GetTextLineHeight() / 2)}, shade, word);
+}
+
+/// Draws the choice of the shown metric at the right end if there is room.
 void draw_shown_metric(PanelContext& context, const Rect& rect) {
-  const float width = 12 * context.em(), label = ImGui::CalcTextSize("shown").x + context.px(8), end = context.px(12);
-  ImGui::SameLine();
-  const float left = rect.w - end - width;
-  const float room = left - ImGui::GetCursorPosX() - context.px(8);
-  if (context.derived.metrics.empty() || room < 0) return;
-  if (room >= label) {
-    ImGui::SetCursorPosX(left - label);
-    ImGui::AlignTextToFramePadding();
-    dim_text(context, "shown", false);
-  }
-  ImGui::SameLine(left);
+  const float width = 11 * context.em();
+  ImGui::SameLine(0, context.px(8));
+  const float left = rect.w - context.px(12) - width;
+  if (context.derived.metrics.empty() || left < ImGui::GetCursorPosX()) return;
+  ImGui::SetCursorPosX(left);
   ImGui::SetNextItemWidth(width);
   metric_combo(context, "toolbar-shown", context.session.shown, "show");
 }
@@ -195,9 +219,7 @@ void draw_toolbar(PanelContext& context, const Rect& rect) {
   for (const Tool& tool : kTools) {
     if (rect.w < tool.least * context.em()) continue;
     if (end > 0) ImGui::SameLine(0, gap_before(context, tool));
-    const bool is_run = std::string_view(tool.id) == "run-pause", is_wires = std::string_view(tool.id) == "wireframe";
-    const bool other = (is_run && context.activity.busy) || (is_wires && context.state.wireframe);
-    action_button(context, tool.id, other ? tool.other : tool.label, is_run && context.session.input != nullptr, width_of(tool));
+    draw_tool(context, tool);
     end = ImGui::GetItemRectMax().x;
   }
   draw_shown_metric(context, rect);

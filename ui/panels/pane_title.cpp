@@ -54,10 +54,13 @@ TitleLayout lay_out(const PanelContext& context, const PaneFacts& pane) {
     if (worst->rank == 0) break;
     layout.pieces.erase(worst);
   }
-  // The remaining pieces must all be there: the longest is shortened in its middle, because names that begin alike end differently.
+  // The remaining pieces must all be there. The longest is shortened: at its end if the run's number leads it, else in its middle, because
+  // names that begin alike end differently.
   const auto longest = std::ranges::max_element(layout.pieces, {}, [&](const TitlePiece& piece) { return width_of(context, piece); });
   if (longest != layout.pieces.end()) {
     const std::string whole = longest->text;
+    const bool numbered = layout.swatch && pane.session->runs.size() > 1 && whole.find(' ') < 4;
+    if (numbered && width() > room) longest->text = fit_text(whole, 0.88F * (room - width() + width_of(context, *longest)));
     for (std::size_t letters = whole.size(); width() > room && letters > 4;) longest->text = without_middle(whole, --letters);
   }
   layout.plate = {pane.clip.x + pad, pane.clip.y + pad, std::min(room, width()), line + pad};
@@ -69,18 +72,6 @@ void draw_frame_of(const PanelContext& context, const PaneFacts& pane) {
   const float width = context.px(pane.focus ? 2 : 1), half = width / 2;
   ImGui::GetWindowDrawList()->AddRect({clip.x + half, clip.y + half}, {clip.x + clip.w - half, clip.y + clip.h - half},
                                       colour(pane.focus ? context.palette.accent : context.palette.line), 0.0F, 0, width);
-}
-
-void draw_why_not(const PanelContext& context, const PaneFacts& pane) {
-  const Rect& clip = pane.clip;
-  const auto line = [&](const std::string& words, float row) {
-    const std::string text = fit_text(words, clip.w - context.px(16));
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-    ImGui::GetWindowDrawList()->AddText({std::round(clip.x + (clip.w - size.x) / 2), std::round(clip.y + clip.h / 2 + row * size.y)},
-                                        colour(context.palette.dim), text.c_str());
-  };
-  line(pane.why_not, -1.1F);
-  line("right click: choose what this viewport shows", 0.1F);
 }
 
 /// Run that a click on the title makes the active one; 0: none, or it is already.
@@ -111,12 +102,15 @@ void handle_pane_title(PanelContext& context, const PaneFacts& pane) {
   if (run > 0) context.send(fmt::format("select-run {}", run));
 }
 
-void draw_pane_title(PanelContext& context, const PaneFacts& pane) {
+Rect draw_pane_title(PanelContext& context, const PaneFacts& pane) {
   const TitleLayout layout = lay_out(context, pane);
   const Rect& plate = layout.plate;
-  if (pane.frame() == nullptr) draw_why_not(context, pane);
+  if (pane.frame() == nullptr) {
+    draw_centred(context, pane.clip, pane.why_not, -1.1F);
+    draw_centred(context, pane.clip, "right click: choose what this viewport shows", 0.1F);
+  }
   if (!context.state.panes.one()) draw_frame_of(context, pane);
-  if (layout.pieces.empty() || plate.w <= 0) return;
+  if (layout.pieces.empty() || plate.w <= 0) return plate;
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float pad = context.px(8), line = ImGui::GetTextLineHeight();
   draw_plate(context, {plate.x, plate.y}, {plate.x + plate.w, plate.y + plate.h});
@@ -135,6 +129,7 @@ void draw_pane_title(PanelContext& context, const PaneFacts& pane) {
     x += width_of(context, piece);
   }
   ImGui::PopClipRect();
+  return plate;
 }
 
 void draw_pane_entries(PanelContext& context, const PaneFacts& pane) {

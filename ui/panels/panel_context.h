@@ -64,8 +64,9 @@ struct InsideGrip {
 struct PointerRest {
   std::size_t pane = 0;
   Vec2<double> at{};                 // place in the viewport, in pixels
-  std::uint64_t frame = 0;           // Frame::serial
+  std::uint64_t picture = 0;         // PaneFacts::picture_serial
   double since = 0.0;                // seconds
+  bool over = false;                 // whether it is over a mesh in this frame
   std::optional<Index> element{};    // element below it, once it rests; kNoIndex: none
   std::optional<double> wakes_in{};  // seconds until it rests; for this frame
 };
@@ -122,7 +123,8 @@ struct WidgetState {
   std::array<Index, 2> edge_under_menu{kNoIndex, kNoIndex};
   PickedFacts vertex_under_menu, element_under_menu;  // facts of these, to be copied
   float setup_height = 0;                             // height of the setup's contents in the last frame; 0: not drawn yet
-  bool message_is_cut = false;                        // the status bar's message is cut
+  float notice_height = 0;                            // height of the unfolded note of a run's end in the last frame
+  bool resized = false;                               // a part needs another height than it had: the next frame gives it that
   bool narrow = false;                                // columns lie over the mesh
   double moved_at = -1e9;                             // time when the view last moved
 };
@@ -151,6 +153,9 @@ struct PanelContext {
   [[nodiscard]] std::string shown(std::string_view text) const { return widgets.glyphs.shown(text); }
   [[nodiscard]] const Frame* frame() const { return session.frame.get(); }
   [[nodiscard]] const RunView* run() const { return session.runs.empty() ? nullptr : &session.runs[session.active]; }
+  [[nodiscard]] std::uint64_t last_iteration() const {  // of the active run
+    return run() == nullptr || run()->records.empty() ? 0 : run()->records.back().iteration;
+  }
   [[nodiscard]] Situation situation() const;
 };
 

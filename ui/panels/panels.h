@@ -48,9 +48,10 @@ void draw_inspection(PanelContext& context);
 /// Draws the quality around the inspected vertex over the mesh, when it is wanted, and over it the marks that it covers.
 void draw_field_in_view(PanelContext& context, const PaneFacts& pane);
 void draw_viewports(PanelContext& context, const Rect& rect);
-/// Handles the mouse input of a viewport's title in its upper left corner, to be called before everything that lies below it; and draws it.
+/// Handles the mouse input of a viewport's title in its upper left corner, to be called before everything that lies below it; and draws it,
+/// and returns its place.
 void handle_pane_title(PanelContext& context, const PaneFacts& pane);
-void draw_pane_title(PanelContext& context, const PaneFacts& pane);
+Rect draw_pane_title(PanelContext& context, const PaneFacts& pane);
 /// Draws the entries that choose the content of a viewport.
 void draw_pane_entries(PanelContext& context, const PaneFacts& pane);
 /// Handles and draws the brush under the mouse over the mesh's item, drawn last; `at`: the mouse in the viewport. True: drags belong to the
@@ -64,8 +65,8 @@ void draw_colour_bar(PanelContext& context, const Rect& rect);
 [[nodiscard]] float colour_bar_height(const PanelContext& context, const Rect& rect);
 /// Draws the ids on the mesh.
 void draw_labels(PanelContext& context, const PaneFacts& pane);
-/// Draws the note about a run that has come to its end over the meshes, if there is one.
-void draw_notice(PanelContext& context, const Rect& rect);
+/// Draws the note about a run that has come to its end, if there is one, above the meshes, and takes its room from them.
+void draw_notice(PanelContext& context, Layout& layout);
 /// Draws the tour's card, or the offer of a tour, over all panels; to be called last, because it looks for the control that it points to.
 void draw_tour(PanelContext& context, const Layout& layout);
 void draw_start_page(PanelContext& context, const Rect& rect);
@@ -83,10 +84,9 @@ void draw_comparison(PanelContext& context);
 /// Draws the plot in the remaining space; a click in it shows that iteration. `inside`: see PlotArea.
 void draw_plot_area(PanelContext& context, std::optional<Range> inside = {});
 void draw_timeline(PanelContext& context, const Layout& layout);
-void draw_status(PanelContext& context, const Rect& rect);
-/// Draws a message over the mesh that the status bar has no room for.
-void draw_message(PanelContext& context, const Rect& viewport);
-void draw_strips(PanelContext& context, const Layout& layout);
+/// Gives a message that must be read whole as much of the lowest row as it needs.
+void give_message_room(PanelContext& context, Layout& layout);
+void draw_status(PanelContext& context, const Layout& layout);
 void draw_splitters(PanelContext& context, const Layout& layout);
 
 /// An edge that resizes the panel beside it when dragged; a double click restores the usual size.
@@ -103,7 +103,7 @@ void splitter_grip(PanelContext& context, const SplitterEdge& edge);
 
 /// Draws the page in the start page's place while the first file is read: its name, progress, and Cancel.
 void draw_reading_page(PanelContext& context, const Rect& rect, const BeingRead& reading);
-/// Draws a note in place of a mesh that is made ready for drawing.
-void draw_preparing(const PanelContext& context, const PaneFacts& pane);
+/// Draws a line in the middle of a viewport without a picture, `row` lines below the exact middle.
+void draw_centred(const PanelContext& context, const Rect& rect, const std::string& words, float row);
 
 }  // namespace dmoscope::ui

@@ -3,6 +3,7 @@
 #include <array>
 
 #include <fmt/format.h>
+#include <imgui_stdlib.h>
 
 #include "core/mesh/geographic.h"
 #include "core/run/ending.h"
@@ -171,14 +172,6 @@ void draw_method(PanelContext& context, const RunParameters& parameters) {
       context.send(fmt::format("method {}", method.name));
 }
 
-/// Sends `command X` when another number was entered.
-void real(PanelContext& context, const char* item, double value) {
-  double edited = value;
-  ImGui::InputDouble(fmt::format("##{}", item).c_str(), &edited, 0, 0, "%.4g");
-  context.items.record_last(item);
-  if (ImGui::IsItemDeactivatedAfterEdit() && edited != value) context.send(fmt::format("{} {}", item, full_number(edited)));
-}
-
 /// Draws a choice of one of a few words.
 void choice(PanelContext& context, const ParameterInfo& row, const std::string& now) {
   const std::string item(row.name);
@@ -186,6 +179,14 @@ void choice(PanelContext& context, const ParameterInfo& row, const std::string& 
   if (!combo.open()) return;
   for (const std::string_view word : row.choices)
     if (combo.entry(word, word, word == now)) context.send(fmt::format("{} {}", item, word));
+}
+
+/// Draws a field for a number or words. Its command refuses what means nothing.
+void word_field(PanelContext& context, const std::string& item, const std::string& now, const std::string& command) {
+  std::string edited = now;
+  ImGui::InputText(fmt::format("##{}", item).c_str(), &edited);
+  context.items.record_last(item);
+  if (ImGui::IsItemDeactivatedAfterEdit() && edited != now) context.send(fmt::format("{} {}", command, edited));
 }
 
 void draw_parameter(PanelContext& context, const ParameterInfo& row, const RunParameters& parameters) {
@@ -197,17 +198,20 @@ void draw_parameter(PanelContext& context, const ParameterInfo& row, const RunPa
     const int most = static_cast<int>(std::min<double>(row.most, kLargestSeed));
     integer(context, item.c_str(), static_cast<int>(std::min<std::uint64_t>(to_count(now), kLargestSeed)), static_cast<int>(row.least),
             most, command.c_str());
-  } else if (row.kind == ParameterKind::Real) {
-    real(context, item.c_str(), to_number(now));
-  } else {
+  } else if (row.kind == ParameterKind::Choice) {
     choice(context, row, now);
+  } else {
+    word_field(context, item, now, command);
   }
 }
 
 /// Draws the options of the run's method, and nothing else.
-void draw_options(PanelContext& context, const RunParameters& parameters, bool surface) {
+void draw_options(PanelContext& context, const RunView& run) {
+  const RunParameters& parameters = run.parameters;
+  const bool surface = run.input && run.input->is_surface(), of_another = run.input && run.input->surface;
   for (const ParameterInfo& row : parameter_table()) {
-    const bool is_option = (row.reader != nullptr || row.sliding_only || row.name == "boundary") && row.kind != ParameterKind::Text;
+    const bool is_option = row.reader != nullptr ? row.kind != ParameterKind::Text : row.sliding_only || row.name == "boundary";
+    if (row.name == "fit" && !of_another) continue;  // there is nothing else to fit to
     if (row.in_session && is_option && row.read_by(parameters, surface) && !(row.volume_only && !context.state.in_space))
       draw_parameter(context, row, parameters);
   }
@@ -224,27 +228,14 @@ void draw_backend(PanelContext& context, const RunView& run) {
     if (combo.entry(name(backend), name(backend), backend == chosen)) context.send(fmt::format("backend {}", name(backend)));
 }
 
-/// Draws the interfaces of a mesh that has any.
-void draw_interfaces(PanelContext& context, const RunParameters& parameters) {
-  if (!context.session.input || !context.session.input->interfaces.any()) return;
-  labelled(context, "interfaces",
-           "whether vertices between materials, and on named lines, faces and points of the file, keep their places");
-  Combo combo(context, "interfaces", std::string(name(parameters.interfaces)));
-  const bool fixed = parameters.interfaces != InterfaceRule::Free;
-  next_item_tooltip(fixed ? context.derived.interfaces : context.derived.free_interfaces);
-  if (!combo.open()) return;
-  for (const InterfaceRule rule : {InterfaceRule::Fixed, InterfaceRule::Free, InterfaceRule::Slide})
-    if (combo.entry(name(rule), name(rule), rule == parameters.interfaces)) context.send(fmt::format("interfaces {}", name(rule)));
-}
-
-/// Draws the rule for the boundary layers of a mesh that has any.
-void draw_layers(PanelContext& context, const RunParameters& parameters) {
-  if (!context.session.input || context.session.input->layers.empty()) return;
-  labelled(context, "layers", parameter_info("layers").doc.data());
-  Combo combo(context, "layers", std::string(name(parameters.layers)));
-  if (!combo.open()) return;
-  for (const LayerRule rule : {LayerRule::Keep, LayerRule::Free})
-    if (combo.entry(name(rule), name(rule), rule == parameters.layers)) context.send(fmt::format("layers {}", name(rule)));
+/// Draws the interfaces and the boundary layers of a mesh that has any.
+void draw_standing(PanelContext& context, const InputMesh& input, const RunParameters& parameters) {
+  if (input.interfaces.any()) {
+    draw_parameter(context, parameter_info("interfaces"), parameters);
+    const bool fixed = parameters.interfaces != InterfaceRule::Free;
+    next_item_tooltip(fixed ? context.derived.interfaces : context.derived.free_interfaces);
+  }
+  if (!input.layers.empty()) draw_parameter(context, parameter_info("layers"), parameters);
 }
 
 void draw_order(PanelContext& context, const RunParameters& parameters) {
@@ -312,9 +303,8 @@ void draw_settings(PanelContext& context, const RunView& run) {
   const RunParameters& parameters = run.parameters;
   if (run.input) draw_target(context, run);
   draw_composite(context, run);
-  draw_options(context, parameters, run.input && run.input->is_surface());
-  draw_interfaces(context, parameters);
-  draw_layers(context, parameters);
+  draw_options(context, run);
+  if (context.session.input) draw_standing(context, *context.session.input, parameters);
   draw_order(context, parameters);
   draw_backend(context, run);
   labelled(context, "threads", "number of processor threads; the result does not depend on it");

@@ -28,15 +28,10 @@ float box_width(const std::vector<Choice>& choices) {
 void choice_box(PanelContext& context, const char* item, const std::vector<Choice>& choices) {
   ImGui::SetNextItemWidth(box_width(choices));
   const auto now = std::ranges::find(choices, true, &Choice::chosen);
-  const bool open = ImGui::BeginCombo(fmt::format("##{}", item).c_str(), now == choices.end() ? "" : now->label.c_str());
-  context.items.record_last(item);
-  if (!open && now != choices.end()) next_item_tooltip(now->tip);
-  if (!open) return;
-  for (const Choice& choice : choices) {
-    if (ImGui::Selectable(choice.label.c_str(), choice.chosen)) context.send(choice.command);
-    note_item(context, fmt::format("{}:{}", item, choice.label), choice.tip);
-  }
-  ImGui::EndCombo();
+  Combo combo(context, item, now == choices.end() ? std::string() : now->label);
+  if (!combo.open() && now != choices.end()) next_item_tooltip(now->tip);
+  for (const Choice& choice : choices)
+    if (combo.open() && combo.entry(choice.label, choice.label, choice.chosen, choice.tip)) context.send(choice.command);
 }
 
 std::vector<Choice> option_choices(const ViewState& state, std::string_view command) {

@@ -75,10 +75,9 @@ void handle_rest(PanelContext& context, const PaneFacts& pane, Vec2<double> at) 
   PointerRest& rest = context.widgets.pointer_rest;
   const ImGuiIO& io = ImGui::GetIO();
   const Frame& frame = *pane.frame();
-  const bool moved = std::exchange(rest.pane, pane.number) != pane.number || std::exchange(rest.at.x, at.x) != at.x ||
-                     std::exchange(rest.at.y, at.y) != at.y || std::exchange(rest.frame, frame.serial) != frame.serial || presses(io) ||
-                     io.MouseWheel != 0;
-  if (moved) rest = {pane.number, at, frame.serial, context.now, std::nullopt};
+  const bool same = rest.pane == pane.number && rest.at.x == at.x && rest.at.y == at.y && rest.picture == pane.picture_serial;
+  if (!same || presses(io) || io.MouseWheel != 0) rest = {pane.number, at, pane.picture_serial, context.now};
+  rest.over = true;
   if (!context.state.pointer_value || presses(io) || frame.device || frame.element_count() > kMostElements) return;
   const double waits = rest.since + kRest - context.now;
   if (waits > 0.0) {

@@ -104,8 +104,7 @@ void draw_number(PanelContext& context, const RunRow& row, const RunColumn& colu
   if (column.name == kSizes && std::isfinite(value)) text = size_course_text(row.input_size_correlation, value);
   const bool bad = column.name == "inverted" && value > 0.0;
   if (value == best) ImGui::PushFont(context.fonts.bold);
-  ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.0F, ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x));
-  ImGui::TextColored(colour_vector(bad ? context.palette.error : context.palette.text), "%s", text.c_str());
+  right_text(text, bad ? context.palette.error : context.palette.text);
   if (value == best) ImGui::PopFont();
   if (std::isfinite(value)) next_item_tooltip(full_number(value));
 }
@@ -162,9 +161,11 @@ void draw_judges(PanelContext& context, const Comparison& comparison) {
   if (lit_button(context, "judge:own", "Its own", own, "each run by the metric that it optimises")) context.send("judged-by own");
 }
 
-void right_text(const std::string& text, const render::Rgb& ink) {
-  ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.0F, ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x));
-  ImGui::TextColored(colour_vector(ink), "%s", text.c_str());
+/// Width of the row of buttons that draw_judges() draws for a few metrics.
+float judges_width(const PanelContext& context, const Comparison& comparison) {
+  float width = ImGui::CalcTextSize("Judged by").x + widest_button({"Its own"}) + context.px(6);
+  for (const Metric metric : comparison.metrics) width += widest_button({metric_title(metric).c_str()}) + context.px(6);
+  return width;
 }
 
 /// Draws the name of a metric above its first column, over those of the others.
@@ -232,25 +233,35 @@ void draw_row(PanelContext& context, const Comparison::Row& row) {
   ImGui::PopID();
 }
 
-void draw_matrix(PanelContext& context, const Comparison& comparison) {
+/// Widths of the matrix's columns in pixels: a number's; that of the widest name; and of all together with whole names.
+struct MatrixWidths {
+  float number = 0, name = 0, rest = 0;
+  MatrixWidths(const PanelContext& context, const Comparison& comparison) {
+    ImGui::PushFont(context.fonts.bold);
+    number = ImGui::CalcTextSize("0.0000").x;
+    for (const Comparison::Row& row : comparison.rows)
+      for (const Comparison::Cell& cell : row.cells) number = std::max(number, ImGui::CalcTextSize(short_number(cell.value).c_str()).x);
+    ImGui::PopFont();
+    name = 6 * context.em();
+    for (std::size_t k = 0; k < context.session.runs.size(); ++k)
+      name = std::max(name, ImGui::CalcTextSize(title_of_row(context, k).c_str()).x + 1.2F * context.em());
+    const float around = 2 * ImGui::GetStyle().CellPadding.x,
+                numbers = static_cast<float>(comparison.metrics.size() * Comparison::kMeasures);
+    rest = numbers * (number + around) + around + ImGui::GetStyle().ScrollbarSize;
+  }
+};
+
+void draw_matrix(PanelContext& context, const Comparison& comparison, const MatrixWidths& widths) {
   const int columns = static_cast<int>(1 + comparison.metrics.size() * Comparison::kMeasures);
   constexpr ImGuiTableFlags kFlags =
       ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY | ImGuiTableFlags_ScrollX | ImGuiTableFlags_SizingFixedFit;
   const float buttons = ImGui::GetFrameHeightWithSpacing(), room = ImGui::GetContentRegionAvail().x;
   if (!ImGui::BeginTable("comparison", columns, kFlags, {0, std::max(4 * context.em(), ImGui::GetContentRegionAvail().y - buttons)}))
     return;
-  ImGui::PushFont(context.fonts.bold);
-  float number = ImGui::CalcTextSize("0.0000").x;
-  for (const Comparison::Row& row : comparison.rows)
-    for (const Comparison::Cell& cell : row.cells) number = std::max(number, ImGui::CalcTextSize(short_number(cell.value).c_str()).x);
-  ImGui::PopFont();
-  const float around = 2 * ImGui::GetStyle().CellPadding.x, bar = ImGui::GetStyle().ScrollbarSize;
-  float widest = 6 * context.em();
-  for (std::size_t k = 0; k < context.session.runs.size(); ++k)
-    widest = std::max(widest, ImGui::CalcTextSize(title_of_row(context, k).c_str()).x + 1.2F * context.em());
-  const float rest = room - bar - static_cast<float>(columns - 1) * (number + around) - around;
-  ImGui::TableSetupColumn("run", ImGuiTableColumnFlags_WidthFixed, std::clamp(rest, 6 * context.em(), widest));
-  for (int k = 1; k < columns; ++k) ImGui::TableSetupColumn(std::to_string(k).c_str(), ImGuiTableColumnFlags_WidthFixed, number);
+  // Numbers that have no room can be scrolled to; the names stay beside them.
+  const float least = std::min(widths.name, 0.36F * room);
+  ImGui::TableSetupColumn("run", ImGuiTableColumnFlags_WidthFixed, std::clamp(room - widths.rest, least, widths.name));
+  for (int k = 1; k < columns; ++k) ImGui::TableSetupColumn(std::to_string(k).c_str(), ImGuiTableColumnFlags_WidthFixed, widths.number);
   ImGui::TableSetupScrollFreeze(1, 2);
   draw_head(context, comparison);
   for (const Comparison::Row& row : comparison.rows) draw_row(context, row);
@@ -333,17 +344,21 @@ void draw_comparison(PanelContext& context) {
   }
   const float room = ImGui::GetContentRegionAvail().x;
   const bool both = room > 48 * context.em();
+  const MatrixWidths widths(context, comparison);
   if (both) {
-    ImGui::BeginChild("judged curves", {std::floor(0.37F * room), 0}, false,
+    const float between = context.px(16), most = std::max(0.37F * room, std::min(judges_width(context, comparison), 0.45F * room));
+    const float least = std::min(most, judges_width(context, comparison)),
+                curves = std::clamp(room - between - widths.name - widths.rest, least, most);
+    ImGui::BeginChild("judged curves", {std::floor(curves), 0}, false,
                       ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
     draw_judges(context, comparison);
     draw_plot_area(context);
     ImGui::EndChild();
-    ImGui::SameLine(0, context.px(16));
+    ImGui::SameLine(0, between);
   }
   ImGui::BeginChild("matrix", {0, 0}, false, ImGuiWindowFlags_NoScrollbar);
   if (!both) draw_judges(context, comparison);
-  draw_matrix(context, comparison);
+  draw_matrix(context, comparison, widths);
   draw_buttons(context, comparison);
   ImGui::EndChild();
 }

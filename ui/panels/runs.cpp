@@ -90,35 +90,49 @@ void draw_row_buttons(PanelContext& context, std::size_t k, ImVec2 corner, float
   const std::string number = std::to_string(k + 1);
   const bool hidden = is_hidden(context, k);
   ImGui::SetCursorScreenPos(corner);
-  if (icon_button(context, "run-eye:" + number, hidden ? Icon::EyeOff : Icon::Eye, {side, height},
+  if (icon_button(context, "run-eye:" + number, hidden ? Icon::kEyeOff : Icon::kEye, {side, height},
                   hidden ? "shows it in plots and viewports again" : "hides it in plots and viewports"))
     context.send("hide-run " + number);
   ImGui::SetCursorScreenPos({corner.x + side, corner.y});
   const bool possible = context.session.runs.size() > 1 && !context.activity.busy;
   ImGui::BeginDisabled(!possible);
-  if (icon_button(context, "run-remove:" + number, Icon::Cross, {side, height},
+  if (icon_button(context, "run-remove:" + number, Icon::kCross, {side, height},
                   context.session.runs.size() > 1 ? "removes it; Ctrl+Z brings it back" : "the last run cannot be removed"))
     context.send("remove-run " + number);
   ImGui::EndDisabled();
 }
 
-/// The whole title; or the short one of legends if there is no room for it, or if there are several meshes, which it names.
-std::string title_within(const PanelContext& context, std::size_t k, float room) {
-  std::string title = run_title(context.session, k);
-  const bool fits = ImGui::CalcTextSize(title.c_str()).x <= room && !context.session.several_meshes();
-  if (fits || context.session.runs.size() == 1) return fit_text(title, room);
-  return fit_text(run_name(context.session, k).whole(), room);
-}
+/// Name of a run as over its viewport; differences that one line has no room for stand in a second one.
+struct RowText {
+  std::string first, second;
+  RowText(const RunName& name, bool only, float room, float second_room) : first((only ? "" : name.number + " ") + name.method_and_aim()) {
+    const auto fits = [room](const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x <= room; };
+    const std::string others = name.other_differences(), both = first + (others.empty() ? "" : ", " + others);
+    if (fits(both)) {
+      first = both;
+    } else if (name.given || (fits(first) && !others.empty())) {
+      second = others;
+    } else {
+      first = fit_text((only ? "" : name.number + " ") + name.method, room);
+      second = name.aim + (others.empty() ? "" : ", " + others);
+    }
+    first = fit_text(first, room);
+    second = fit_text(second, second_room / kSmaller);
+  }
+  static constexpr float kSmaller = 0.87F;  // size of the second line's letters
+};
 
-void draw_run_row(PanelContext& context, std::size_t k, float width) {
+void draw_run_row(PanelContext& context, const RunName& name, std::size_t k, float width) {
   const RunView& run = context.session.runs[k];
   ImGui::PushID(static_cast<int>(k));
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float line = ImGui::GetTextLineHeight(), height = std::round(1.6F * line), side = line + context.px(3);
+  const float line = ImGui::GetTextLineHeight(), row = std::round(1.6F * line), side = line;
   const bool active = k == context.session.active, hidden = is_hidden(context, k);
   const std::string minimum = minimum_of(context, k);
   const float bar = context.px(4), text = at.x + bar + context.px(6), buttons = at.x + width - 2 * side;
-  const float number = buttons - context.px(4) - ImGui::CalcTextSize(minimum.c_str()).x, room = number - context.px(8) - text;
+  const float number = buttons - context.px(4) - ImGui::CalcTextSize(minimum.c_str()).x, room = number - context.px(4) - text;
+  const RowText words(name, context.session.runs.size() == 1, room, at.x + width - text);
+  const float height = row + (words.second.empty() ? 0.0F : std::round(line));
   if (context.state.renaming_run == run.id) {
     ImGui::SetCursorScreenPos({text, at.y});
     draw_name_field(context, k, room);
@@ -137,12 +151,14 @@ void draw_run_row(PanelContext& context, std::size_t k, float width) {
       context.send(fmt::format("select-run {}", k + 1));
   }
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  const float pad = context.px(3), y = at.y + (height - line) / 2;
+  const float pad = context.px(3), y = at.y + (row - line) / 2;
   list.AddRectFilled({at.x, at.y + pad}, {at.x + bar, at.y + height - pad}, colour(context.palette.run(k), hidden ? 0.35F : 1.0F), bar / 2);
   const ImU32 ink = colour(hidden ? context.palette.dim : context.palette.text);
-  if (context.state.renaming_run != run.id) list.AddText({text, y}, ink, title_within(context, k, room).c_str());
+  if (context.state.renaming_run != run.id) list.AddText({text, y}, ink, words.first.c_str());
+  if (!words.second.empty())
+    list.AddText(context.fonts.body, RowText::kSmaller * context.em(), {text, y + line}, colour(context.palette.dim), words.second.c_str());
   list.AddText({number, y}, ink, minimum.c_str());
-  draw_row_buttons(context, k, {buttons, at.y}, side, height);
+  draw_row_buttons(context, k, {buttons, at.y}, side, row);
   ImGui::SetCursorScreenPos({at.x, at.y + height});
   ImGui::PopID();
 }
@@ -186,8 +202,7 @@ void draw_runs(PanelContext& context) {
   const bool by_others = std::ranges::any_of(runs, [&](const RunView& run) { return run.parameters.metric != context.session.shown; });
   if (by_others) {
     ImGui::SameLine();
-    const float room = ImGui::GetContentRegionAvail().x - widest_button({"+ add"}) - context.px(12);
-    dim_text(context, fit_text("each by its own metric", room), false);
+    dim_text(context, "by its own metric", false);
   }
   ImGui::SameLine();
   draw_add(context);
@@ -207,9 +222,10 @@ void draw_runs(PanelContext& context) {
   const float row_width = width - ImGui::GetStyle().ScrollbarSize;
   const std::uint64_t active = context.run() == nullptr ? 0 : context.run()->id;
   const bool other = std::exchange(state.active, active) != active;
+  const std::vector<RunName> names = run_names(context.session);
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const float top = ImGui::GetCursorPosY();
-    draw_run_row(context, k, row_width);
+    draw_run_row(context, names[k], k, row_width);
     const float bottom = ImGui::GetCursorPosY(), scroll = ImGui::GetScrollY();
     if (other && runs[k].id == active && (top < scroll || bottom > scroll + height))
       ImGui::SetScrollFromPosY(top - scroll + (bottom - top) / 2, 0.5F);

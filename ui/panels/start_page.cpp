@@ -50,6 +50,16 @@ void draw_card(PanelContext& context, const Thumbnail& sample, const CardSize& s
 
 void centred(const Rect& rect, float width) { ImGui::SetCursorPosX(std::max(0.0F, (rect.w - width) / 2)); }
 
+void centred_text(const PanelContext& context, const Rect& rect, const std::string& text, bool dim) {
+  const std::string shown = fit_text(text, rect.w - 2 * context.em());
+  ImGui::SetCursorPosX(std::max(0.0F, (rect.w - ImGui::CalcTextSize(shown.c_str()).x) / 2));
+  if (dim) {
+    dim_text(context, shown, false);
+  } else {
+    ImGui::TextUnformatted(shown.c_str());
+  }
+}
+
 void draw_recent_files(PanelContext& context, const Rect& rect, float width) {
   if (context.state.recent_files.empty()) return;
   ImGui::Dummy({0, context.px(6)});
@@ -66,16 +76,6 @@ void draw_recent_files(PanelContext& context, const Rect& rect, float width) {
     context.items.record_last(fmt::format("recent:{}", shown - 1));
     next_item_tooltip(context.shown(file.missing ? file.reason() : file.path));
     ImGui::PopID();
-  }
-}
-
-void centred_text(const PanelContext& context, const Rect& rect, const std::string& text, bool dim) {
-  const std::string shown = fit_text(text, rect.w - 2 * context.em());
-  ImGui::SetCursorPosX(std::max(0.0F, (rect.w - ImGui::CalcTextSize(shown.c_str()).x) / 2));
-  if (dim) {
-    dim_text(context, shown, false);
-  } else {
-    ImGui::TextUnformatted(shown.c_str());
   }
 }
 
@@ -106,23 +106,16 @@ void draw_start_page(PanelContext& context, const Rect& rect) {
   ImGui::SetCursorPosY(std::max(em, (rect.h - height) / 2));
 
   ImGui::PushFont(context.fonts.large);
-  const char* name = "dmoscope";
-  centred(rect, ImGui::CalcTextSize(name).x);
-  ImGui::TextUnformatted(name);
+  centred_text(context, rect, "dmoscope", false);
   ImGui::PopFont();
-  const char* what = "Watch a mesh get better: discrete mesh optimization, step by step";
-  const std::string shown = fit_text(what, rect.w - 2 * em);
-  centred(rect, ImGui::CalcTextSize(shown.c_str()).x);
-  dim_text(context, shown, false);
+  centred_text(context, rect, "Watch a mesh get better: discrete mesh optimization, step by step", true);
   ImGui::Dummy({0, 0.6F * em});
 
   const std::string open = "Open a mesh…";
   centred(rect, ImGui::CalcTextSize(open.c_str()).x + 2 * ImGui::GetStyle().FramePadding.x);
   action_button(context, "open", open.c_str(), true);
   context.items.record_last("start:open");
-  const std::string drop = "or drop a file here, or start from a sample";
-  centred(rect, ImGui::CalcTextSize(drop.c_str()).x);
-  dim_text(context, drop, false);
+  centred_text(context, rect, "or drop a file here, or start from a sample", true);
   ImGui::Dummy({0, 0.6F * em});
 
   for (std::size_t k = 0; k < samples.size(); ++k) {
@@ -164,11 +157,10 @@ void draw_reading_page(PanelContext& context, const Rect& rect, const BeingRead&
   context.items.record_last("reading:cancel");
 }
 
-void draw_preparing(const PanelContext& context, const PaneFacts& pane) {
-  const Rect& clip = pane.clip;
-  const std::string text = fit_text(fmt::format("drawing {}…", pane.frame()->input->mesh.name), clip.w - 2 * context.em());
+void draw_centred(const PanelContext& context, const Rect& rect, const std::string& words, float row) {
+  const std::string text = fit_text(words, rect.w - context.em());
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-  ImGui::GetWindowDrawList()->AddText({std::round(clip.x + (clip.w - size.x) / 2), std::round(clip.y + (clip.h - size.y) / 2)},
+  ImGui::GetWindowDrawList()->AddText({std::round(rect.x + (rect.w - size.x) / 2), std::round(rect.y + rect.h / 2 + row * size.y)},
                                       colour(context.palette.dim), text.c_str());
 }
 

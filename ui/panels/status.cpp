@@ -1,9 +1,11 @@
-// Status bar, and the strips in place of folded panels.
+// Status bar.
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
 #include "ui/analysis/step_report.h"
+#include "ui/commands/notice.h"
 #include "ui/panels/panels.h"
 #include "ui/state/format.h"
 #include "ui/state/run_progress.h"
@@ -23,17 +25,17 @@ std::string speed_sentence(const PanelContext& context) {
   return {};
 }
 
-/// Draws a progress bar in line with the text beside it; ImGui's own bar would be lower.
+/// Draws a progress bar in line with the text beside it.
 void draw_bar(const PanelContext& context, float fraction) {
-  const ImVec2 at = ImGui::GetCursorScreenPos(),
-               size{std::min(8 * context.em(), 0.25F * ImGui::GetWindowWidth()), ImGui::GetTextLineHeight()};
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  const float round = ImGui::GetStyle().FrameRounding;
-  list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, ImGui::GetColorU32(ImGuiCol_FrameBg), round);
-  const float width = std::clamp(fraction, 0.0F, 1.0F) * size.x;
-  if (width >= 1.0F)
-    list.AddRectFilled(at, {at.x + width, at.y + size.y}, ImGui::GetColorU32(ImGuiCol_PlotHistogram), std::min(round, width / 2));
-  ImGui::Dummy(size);
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0, 0});
+  ImGui::ProgressBar(fraction, {std::min(8 * context.em(), 0.25F * ImGui::GetWindowWidth()), ImGui::GetTextLineHeight()}, "");
+  ImGui::PopStyleVar();
+}
+
+/// Draws Cancel before everything that changes its width meanwhile, so that it stays under the pointer.
+void draw_cancel(PanelContext& context) {
+  if (ImGui::SmallButton("Cancel")) context.send("cancel");
+  context.items.record_last("cancel");
 }
 
 /// Draws the progress of pictures that are being taken; not in the pictures themselves.
@@ -43,8 +45,7 @@ void draw_sequence_progress(PanelContext& context, const Sequence& sequence) {
   ImGui::SameLine();
   ImGui::TextUnformatted(fmt::format("picture {} of {}", sequence.done + 1, sequence.iterations.size()).c_str());
   ImGui::SameLine();
-  if (ImGui::SmallButton("Cancel")) context.send("cancel");
-  context.items.record_last("cancel");
+  draw_cancel(context);
 }
 
 /// Texts of a run's progress, or for other work how much is done.
@@ -74,12 +75,6 @@ bool shows_work(const PanelContext& context) {
   return !context.state.sequence && context.activity.busy && context.activity.busy_seconds >= kShowAfter;
 }
 
-/// Draws Cancel before everything that changes its width meanwhile, so that it stays under the pointer.
-void draw_cancel(PanelContext& context) {
-  if (ImGui::SmallButton("Cancel")) context.send("cancel");
-  context.items.record_last("cancel");
-}
-
 void draw_progress(PanelContext& context) {
   if (context.state.sequence) return draw_sequence_progress(context, *context.state.sequence);
   draw_cancel(context);
@@ -94,18 +89,6 @@ void draw_progress(PanelContext& context) {
   ImGui::TextUnformatted(fit_parts(progress_said(context, run), ImGui::GetContentRegionAvail().x).c_str());
   context.items.record_last("status-progress");
   next_item_tooltip(fit_parts(progress_said(context, run), 1e9F) + "\n" + context.activity.command);
-}
-
-void strip(PanelContext& context, const char* side_name, const Rect& rect, const char* label, const char* tooltip, bool open) {
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {context.px(4), context.px(6)});
-  begin_panel(fmt::format("{} strip", side_name).c_str(), rect);
-  ImGui::PopStyleVar();
-  const float side = rect.w - 2 * context.px(4);
-  if (open) ImGui::PushStyleColor(ImGuiCol_Button, colour_vector(context.palette.accent, 0.25F));
-  if (ImGui::Button(label, {side, side})) context.send(fmt::format("unfold {} {}", side_name, open ? "off" : "on"));
-  if (open) ImGui::PopStyleColor();
-  note_item(context, fmt::format("fold:{}", side_name), tooltip);
-  end_panel();
 }
 
 /// The newest message, or the sentence of a step.
@@ -125,13 +108,24 @@ render::Rgb ink_of(const PanelContext& context, const Message& message) {
                                                   : context.palette.text;
 }
 
+/// Whether a message must be read whole: a warning, an error, or a step within an iteration. The facts tell everything else that counts,
+/// and a warning that the note of the run's end repeats stands there.
+bool is_urgent(const PanelContext& context, const Message& message) {
+  const RunView* run = context.run();
+  if (message.kind == Message::Kind::Info)
+    return run != nullptr && run->moment.visits > 0 && message.text == context.state.stepping.news.sentence && !context.state.tour.on;
+  const Notice notice = notice_of(context.session);
+  return std::ranges::none_of(notice.sentences, [&](const std::string& sentence) {
+    return notice.key != context.state.dismissed_notice &&
+           message.text.starts_with(std::string_view(sentence).substr(0, sentence.size() - 1));
+  });
+}
+
 /// Draws the newest message. `room`: up to the right end's texts.
 void draw_newest(PanelContext& context, float room) {
   const auto message = newest_message(context);
-  if (!message) return;
+  if (!message || room < 3 * context.em()) return;
   const std::string text = first_line(context, *message);
-  context.widgets.message_is_cut = ImGui::CalcTextSize(text.c_str()).x > room + 1;
-  if (room < 3 * context.em()) return;
   ImGui::TextColored(colour_vector(ink_of(context, *message)), "%s", fit_clauses(text, room + 1).c_str());
   std::string recent = message->text;
   const std::deque<Message>& log = context.state.log;
@@ -165,11 +159,21 @@ std::string backend_words(const PanelContext& context) {
 
 }  // namespace
 
-void draw_status(PanelContext& context, const Rect& rect) {
+void give_message_room(PanelContext& context, Layout& layout) {
+  const auto message = newest_message(context);
+  if (!message || context.state.sequence || shows_work(context) || !is_urgent(context, *message)) return;
+  Rect& status = layout.status;
+  const float end = status.x + status.w, width = ImGui::CalcTextSize(first_line(context, *message).c_str()).x + 1;
+  status.w = std::clamp(std::ceil(width + 2 * context.px(12)), status.w, end);
+  status.x = end - status.w;
+}
+
+void draw_status(PanelContext& context, const Layout& layout) {
+  const Rect& rect = layout.status;
+  const bool over_timeline = rect.x < layout.timeline.x + layout.timeline.w;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {context.px(12), (rect.h - ImGui::GetTextLineHeight()) / 2});
-  begin_panel("status", rect);
+  begin_panel(over_timeline ? "message" : "status", rect, over_timeline);
   ImGui::PopStyleVar();
-  context.widgets.message_is_cut = false;
   const bool at_work = context.state.sequence || shows_work(context);
   const std::string backend = fit_text(backend_words(context), 0.6F * rect.w);
   const float end = rect.w - context.px(12) - ImGui::CalcTextSize(backend.c_str()).x;
@@ -186,46 +190,6 @@ void draw_status(PanelContext& context, const Rect& rect) {
     }
   }
   end_panel();
-}
-
-void draw_message(PanelContext& context, const Rect& viewport) {
-  const auto message = newest_message(context);
-  if (!message || !context.widgets.message_is_cut || viewport.h < 8 * context.em()) return;
-  // Other news is in the facts and the tooltip, too; the facts tell all that counts of whole iterations, except how a run ended.
-  const RunView* run = context.run();
-  const bool within = run != nullptr && run->moment.visits > 0;
-  const bool ended = run != nullptr && has_converged(*run);
-  const bool is_step =
-      (within || ended) && message->text == context.state.stepping.news.sentence && !context.state.tour.on;  // its card is there
-  if (message->kind == Message::Kind::Info && !is_step) return;
-  const std::string text = first_line(context, *message);
-  const float pad = context.px(10), axes = context.state.in_space ? 6 * context.em() : 0.0F;
-  const float legend = 19 * context.em();  // width of the legend and the things beside it
-  const bool beside = viewport.w - legend - axes > 24 * context.em();
-  const float most = std::min(viewport.w - 4 * pad - axes - (beside ? legend : 0.0F), 60 * context.em());
-  const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, most - 2 * pad);
-  const Rect box{std::round(viewport.x + viewport.w - size.x - 4 * pad - axes),
-                 std::round(viewport.y + viewport.h - size.y - 4 * pad - (beside ? 0.0F : 5 * context.em())), size.x + 2 * pad + 1,
-                 size.y + 2 * pad};
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {pad, pad});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, context.px(5));
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0F);
-  begin_panel("message", box, true);
-  ImGui::PopStyleVar(3);
-  wrapped_text(text, ink_of(context, *message));
-  if (ImGui::IsItemClicked()) context.send("dialog log");
-  context.items.record_last("message");
-  end_panel();
-}
-
-void draw_strips(PanelContext& context, const Layout& layout) {
-  if (!layout.folded) return;
-  const Panels& panels = context.state.panels;
-  const auto words = [&panels](Side side) {
-    return panels.setup_side == panels.facts_side ? "setup and facts" : panels.setup_side == side ? "runs and parameters" : "facts";
-  };
-  if (!layout.left_strip.empty()) strip(context, "left", layout.left_strip, "☰", words(Side::Left), panels.over(Side::Left));
-  if (!layout.right_strip.empty()) strip(context, "right", layout.right_strip, "☰", words(Side::Right), panels.over(Side::Right));
 }
 
 }  // namespace dmoscope::ui

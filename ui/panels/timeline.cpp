@@ -15,21 +15,16 @@ namespace {
 
 constexpr float kLeastGroove = 8.0F;  // heights of the font
 
-std::uint64_t last_of(const PanelContext& context) {
-  const RunView* run = context.run();
-  return run == nullptr || run->records.empty() ? 0 : run->records.back().iteration;
-}
-
 std::string label_of(const PanelContext& context) {
   const RunView* run = context.run();
   if (run == nullptr) return {};
-  const std::uint64_t last = last_of(context), now = run->moment.iteration;
+  const std::uint64_t last = context.last_iteration(), now = run->moment.iteration;
   return last == 0 ? "iteration " + count(now) : fmt::format("iteration {} of {}", count(now), count(last));
 }
 
 /// Width of the longest label, so that the groove keeps its length.
 float label_width(const PanelContext& context) {
-  const std::string most = count(std::max<std::uint64_t>(last_of(context), 999));
+  const std::string most = count(std::max<std::uint64_t>(context.last_iteration(), 999));
   return ImGui::CalcTextSize(fmt::format("iteration {0} of {0}", most).c_str()).x;
 }
 
@@ -62,7 +57,7 @@ Groove groove_of(const PanelContext& context, const RunView& run, const Timeline
     groove.axis = plot->layout->x;
     return groove;
   }
-  const double last = static_cast<double>(std::max<std::uint64_t>(last_of(context), 1));
+  const double last = static_cast<double>(std::max<std::uint64_t>(context.last_iteration(), 1));
   groove.axis = {0.0,
                  last,
                  static_cast<double>(room.left),
@@ -93,7 +88,7 @@ void draw_groove(const PanelContext& context, const Groove& groove, const Timeli
     if (to > from) list.AddRectFilled({from, y - half}, {to, y + half}, ink, half);
   };
   stretch(room.left, room.right, colour(context.palette.raised));
-  stretch(room.left, groove.place(last_of(context)), colour(context.palette.dim, 0.5F));
+  stretch(room.left, groove.place(context.last_iteration()), colour(context.palette.dim, 0.5F));
   stretch(room.left, knob, colour(context.palette.accent));
   draw_marks(context, groove, low.y + context.px(3), high.y - context.px(3));
   list.AddCircleFilled({knob, y}, context.px(lit ? 7 : 6), colour(context.palette.text));
@@ -103,7 +98,7 @@ void draw_slider(PanelContext& context, const Rect& rect, const TimelineRoom& ro
   const RunView* run = context.run();
   const float reach = context.px(8);  // room to take the knob at the ends
   ImGui::SetCursorScreenPos({room.left - reach, rect.y});
-  ImGui::BeginDisabled(last_of(context) == 0 || context.activity.busy);
+  ImGui::BeginDisabled(context.last_iteration() == 0 || context.activity.busy);
   ImGui::PushAllowKeyboardFocus(false);  // its keys are those of the buttons
   ImGui::InvisibleButton("##timeline", {room.right - room.left + 2 * reach, rect.h});
   ImGui::PopAllowKeyboardFocus();

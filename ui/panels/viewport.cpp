@@ -1,6 +1,7 @@
 // Centre: the meshes, the text over them, and the mouse.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -21,14 +22,14 @@ Vec2<double> mouse_in(const Rect& rect) {
   return {static_cast<double>(mouse.x - rect.x), static_cast<double>(mouse.y - rect.y)};
 }
 
-/// Draws a note on stepping and selecting, below the title.
-void draw_note(const PanelContext& context, const PaneFacts& pane) {
+/// Draws a note on stepping and selecting beside the title if there is room, else below it.
+void draw_note(const PanelContext& context, const PaneFacts& pane, const Rect& title) {
   if (pane.stepping_note.empty() || !context.state.panes.one()) return;
-  const float pad = context.px(8), line = ImGui::GetTextLineHeight();
-  const ImVec2 at{pane.rect.x + pad, pane.rect.y + line + 2.25F * pad};
-  const std::string note = fit_text(pane.stepping_note, pane.rect.w - 4 * pad);
-  draw_plate(context, at, {at.x + 2 * pad + ImGui::CalcTextSize(note.c_str()).x, at.y + line + pad});
-  ImGui::GetWindowDrawList()->AddText({at.x + pad, at.y + pad / 2}, colour(context.palette.dim), note.c_str());
+  const float pad = context.px(8), line = ImGui::GetTextLineHeight(), end = title.x + title.w + pad / 2;
+  const float room = pane.rect.x + pane.rect.w - end - 3 * pad;
+  const bool beside = room >= std::min(ImGui::CalcTextSize(pane.stepping_note.c_str()).x, 9 * context.em());
+  const ImVec2 at = beside ? ImVec2{end, title.y} : ImVec2{pane.rect.x + pad, pane.rect.y + line + 2.25F * pad};
+  draw_plate(context, at, fit_text(pane.stepping_note, beside ? room : pane.rect.w - 4 * pad), context.palette.dim, pad);
 }
 
 /// Draws the name of the visible level at the upper left corner of its grid, or as near to it as can be read.
@@ -53,8 +54,7 @@ void draw_level_label(PanelContext& context, const PaneFacts& pane) {
   const float x =
       std::clamp(rect.x + static_cast<float>(pixel.x) - pad, rect.x + pad, std::max(rect.x + pad, rect.x + rect.w - size.x - 3 * pad));
   const float y = std::clamp(rect.y + static_cast<float>(pixel.y) - line - 4 * pad, highest, std::max(highest, lowest));
-  draw_plate(context, {x, y}, {x + size.x + 2 * pad, y + line + pad});
-  ImGui::GetWindowDrawList()->AddText({x + pad, y + pad / 2}, colour(context.palette.text), label.c_str());
+  draw_plate(context, {x, y}, label, context.palette.text, pad);
 }
 
 /// Tells the candidate under the mouse in words; the inspector marks it, too. In a volume, candidates of the slice that the maps show go
@@ -330,12 +330,12 @@ void draw_pane(PanelContext& context, const PaneFacts& pane) {
   if (clip.empty()) return;
   ImGui::PushClipRect({clip.x, clip.y}, {clip.x + clip.w, clip.y + clip.h}, true);
   if (pane.frame() != nullptr) draw_labels(context, pane);
-  if (pane.frame() != nullptr && !pane.current) draw_preparing(context, pane);
+  if (pane.frame() != nullptr && !pane.current)
+    draw_centred(context, clip, fmt::format("drawing {}…", pane.frame()->input->mesh.name), -0.5F);
   if (pane.frame() != nullptr && !pane.in_space()) draw_field_in_view(context, pane);
   draw_clip_plane(context, pane);
   if (pane.frame() != nullptr && pane.inspected) draw_level_label(context, pane);
-  draw_pane_title(context, pane);
-  draw_note(context, pane);
+  draw_note(context, pane, draw_pane_title(context, pane));
   ImGui::PopClipRect();
 }
 
@@ -364,6 +364,7 @@ void draw_viewports(PanelContext& context, const Rect& rect) {
   handle_colour_bar(context, rect);
   if (split) handle_split(context);
   for (const PaneFacts& pane : context.panes) handle_pane(context, pane);
+  if (!std::exchange(context.widgets.pointer_rest.over, false)) context.widgets.pointer_rest = {};
   for (const PaneFacts& pane : context.panes) draw_pane(context, pane);
   if (split) draw_split(context);
   draw_colour_bar(context, rect);

@@ -61,6 +61,11 @@ void wrapped_text(const std::string& text, std::optional<render::Rgb> ink) {
   if (ink) ImGui::PopStyleColor();
 }
 
+void right_text(const std::string& text, const render::Rgb& ink) {
+  ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.0F, ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x));
+  ImGui::TextColored(colour_vector(ink), "%s", text.c_str());
+}
+
 void row_label(const PanelContext& context, const char* text, float width_em) {
   ImGui::AlignTextToFramePadding();
   dim_text(context, text, false);
@@ -142,6 +147,12 @@ void draw_plate(const PanelContext& context, ImVec2 low, ImVec2 high) {
   ImGui::GetWindowDrawList()->AddRectFilled(low, high, colour(context.palette.panel, 0.90F), context.px(5));
 }
 
+void draw_plate(const PanelContext& context, ImVec2 low, const std::string& text, const render::Rgb& ink, float pad) {
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+  draw_plate(context, low, {low.x + size.x + 2 * pad, low.y + size.y + pad});
+  ImGui::GetWindowDrawList()->AddText({low.x + pad, low.y + pad / 2}, colour(ink), text.c_str());
+}
+
 void copied_by_click(const PanelContext& context, const std::string& text) {
   next_item_tooltip(context.shown(text) + "\n(click copies it)");
   if (ImGui::IsItemClicked()) context.send("copy " + quote_word(text));
@@ -186,7 +197,7 @@ bool fold_row(PanelContext& context, const char* item, const char* title, const 
   note_item(context, item, tooltip);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float y = at.y + (height - line) / 2, side = context.px(12);
-  draw_icon(list, open ? Icon::ChevronDown : Icon::ChevronRight, {at.x + side / 2, at.y + height / 2}, side, colour(context.palette.dim));
+  draw_icon(list, open ? Icon::kChevronDown : Icon::kChevronRight, {at.x + side / 2, at.y + height / 2}, side, colour(context.palette.dim));
   list.AddText({at.x + side + context.px(6), y}, colour(context.palette.text), title);
   list.AddText({at.x + width - ImGui::CalcTextSize(aside.c_str()).x, y}, colour(context.palette.dim), aside.c_str());
   return clicked;

@@ -51,6 +51,8 @@ void next_item_tooltip(const std::string& text);
 void note_item(PanelContext& context, std::string_view item, const std::string& tooltip);
 /// Draws text in as many lines as it needs; `ink`: in another colour than the panel's.
 void wrapped_text(const std::string& text, std::optional<render::Rgb> ink = {});
+/// Draws text flush right in the remaining space.
+void right_text(const std::string& text, const render::Rgb& ink);
 /// Draws a label before a field that fills the rest of the row.
 void row_label(const PanelContext& context, const char* text, float width_em);
 /// A drop-down list; its entries are the items "ITEM:WORD".
@@ -81,6 +83,8 @@ void option_rows(PanelContext& context, std::string_view panel);
 void close_button(PanelContext& context, const char* label);
 /// Draws a plate in the panel's colour, on which text is readable over any mesh.
 void draw_plate(const PanelContext& context, ImVec2 low, ImVec2 high);
+/// Draws one line of text on a plate, `pad` pixels from its sides and half as many from its top.
+void draw_plate(const PanelContext& context, ImVec2 low, const std::string& text, const render::Rgb& ink, float pad);
 /// Draws the label of a row "label [widget]"; the widget, drawn next, fills the right part, or a line of its own if it wants more pixels
 /// than there are. The tooltip belongs to the whole row.
 void labelled(const PanelContext& context, const char* label, const char* tooltip, float wanted = 0);

@@ -20,11 +20,10 @@ void draw_why(PanelContext& context, const Frame& frame, Index element, int row,
   const ImVec2 size = ImGui::CalcTextSize(label), back = ImGui::GetCursorScreenPos();
   ImGui::SetCursorScreenPos({right - size.x, at.y});
   if (ImGui::InvisibleButton("##why", size)) context.send(fmt::format("inspect element {}", element));
-  context.items.record_last(fmt::format("why:{}", row));
-  if (!fixed && !context.items.boxes().contains("why?"))
-    note_item(context, "why?",
-              fixed ? "All its corners are fixed: no smoothing can change it. It is part of the ceiling."
-                    : "inspects the search of its worst free corner: what limits it, and how much is left");
+  if (!fixed && !context.items.boxes().contains("why?")) context.items.record_last("why?");
+  note_item(context, fmt::format("why:{}", row),
+            fixed ? "All its corners are fixed: no smoothing can change it. It is part of the ceiling."
+                  : "inspects the search of its worst free corner: what limits it, and how much is left");
   ImGui::GetWindowDrawList()->AddText({right - size.x, at.y},
                                       colour(ImGui::IsItemHovered() ? context.palette.text
                                              : fixed                ? context.palette.dim

@@ -24,7 +24,7 @@ Parts parts_of(const RunView& run) {
 RunName name_among(const SessionView& session, const std::vector<Parts>& parts, std::size_t k) {
   const RunView& run = session.runs[k];
   const std::string& method = run.parameters.method;
-  RunName name{std::to_string(k + 1), method};
+  RunName name{std::to_string(k + 1), method, parts[k][0]};
   for (const RunView& other : session.runs) name.one_method = name.one_method && other.parameters.method == method;
   std::string former_rest;
   for (std::size_t part = 0; part < parts[k].size(); ++part) {
@@ -51,6 +51,11 @@ std::vector<Parts> parts_of(const SessionView& session) {
 }
 
 }  // namespace
+
+std::string RunName::other_differences() const {
+  if (!rest.starts_with(aim)) return rest;
+  return rest.size() > aim.size() ? rest.substr(aim.size() + 2) : std::string();
+}
 
 std::string run_title(const SessionView& session, std::size_t k) {
   const std::string& title = session.runs[k].title;

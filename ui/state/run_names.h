@@ -16,10 +16,14 @@ namespace dmoscope::ui {
 /// A run's short name, for legends and over viewports, in parts: "2", "dmo", "minimum angle, shuffle:3".
 struct RunName {
   std::string number, method;  // `method`: or the name that a person gave it
+  std::string aim{};           // "mean ratio"
   std::string rest{};          // differences to the other runs of its method; empty: there is none, or only the number differs
   bool one_method = true;      // all runs have this method
   bool given = false;          // named by a person
   std::string formerly{};      // whole(), as sessions and scripts saved by older versions have it
+  /// Its method and aim, and the other differences to runs of its method; `given`: the name alone.
+  [[nodiscard]] std::string method_and_aim() const { return given ? method : method + " · " + aim; }
+  [[nodiscard]] std::string other_differences() const;
   [[nodiscard]] std::string whole() const { return number + " " + method + (rest.empty() ? "" : " · " + rest); }
 };
 

@@ -168,7 +168,7 @@ void remember_file(ViewState& state, const std::string& file) {
 }
 
 void open_home_of(std::string_view item, Panels& panels) {
-  panels.notice = panels.notice || item.starts_with("notice");
+  panels.notice = panels.notice || item.starts_with("notice:");
   const auto home = std::ranges::find_if(kHomes, [item](const auto& one) { return item.starts_with(one.first); });
   if (is_setting(item) && home == kHomes.end()) {
     panels.settings = panels.setup = true;

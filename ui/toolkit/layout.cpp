@@ -9,7 +9,7 @@ namespace {
 
 // Heights of the parts, in heights of the font. They become whole pixels: ImGui puts windows there, and the mesh's picture must not be
 // resampled.
-constexpr float kHeader = 2.66F, kMenu = 1.6F, kLowest = 1.87F, kStrip = 2.6F;
+constexpr float kHeader = 2.66F, kMenu = 1.6F, kLowest = 1.87F;
 constexpr float kLeastMesh = 24.0F, kUnfoldedMesh = 33.0F, kLeastMeshHeight = 10.0F, kLeastPlots = 9.0F, kStatus = 20.0F;
 
 /// Places menus and tools in one row if both fit, else one above the other. Returns the lower end of the row.
@@ -46,22 +46,18 @@ void take_bottom(Layout& layout, const Panels& panels, float em) {
   layout.bottom = {mesh.x, mesh.y + mesh.h, mesh.w, height};
 }
 
-/// Places strips in place of the columns; a column that is open lies over the mesh, and none covers the other.
+/// Places columns that are open over the mesh; none covers the other.
 void place_folded(Layout& layout, const Panels& panels, float width, float top, float inner, float em) {
-  const float strip = std::round(kStrip * em);
-  const float left = panels.uses(Side::Left) ? strip : 0.0F, right = panels.uses(Side::Right) ? strip : 0.0F;
-  layout.left_strip = {0, top, left, inner};
-  layout.right_strip = {width - right, top, right, inner};
-  layout.viewport = {left, top, std::max(0.0F, width - left - right), inner};
-  const float over = std::min(layout.viewport.w, width * 0.6F);
-  float left_over = left > 0 && panels.over(Side::Left) ? std::min(static_cast<float>(panels.left_width) * em, over) : 0.0F;
-  float right_over = right > 0 && panels.over(Side::Right) ? std::min(static_cast<float>(panels.right_width) * em, over) : 0.0F;
-  const float both = left_over + right_over;
-  const float share = both > layout.viewport.w ? layout.viewport.w / both : 1.0F;
-  left_over = std::floor(left_over * share);
-  right_over = std::floor(right_over * share);
-  layout.left = {left, top, left_over, inner};
-  layout.right = {width - right - right_over, top, right_over, inner};
+  layout.viewport = {0, top, width, inner};
+  const auto over = [&](Side side, double size) {
+    return panels.uses(side) && panels.over(side) ? std::min(static_cast<float>(size) * em, width * 0.6F) : 0.0F;
+  };
+  float left = over(Side::Left, panels.left_width), right = over(Side::Right, panels.right_width);
+  const float share = std::min(1.0F, width / std::max(1.0F, left + right));
+  left = std::floor(left * share);
+  right = std::floor(right * share);
+  layout.left = {0, top, left, inner};
+  layout.right = {width - right, top, right, inner};
 }
 
 void place_columns(Layout& layout, const Panels& panels, float width, float top, float inner, float em) {
@@ -89,6 +85,11 @@ bool folds(const Panels& panels, float width, float em) {
 }
 
 }  // namespace
+
+Rect Layout::uncovered() const {
+  if (!folded) return viewport;
+  return {viewport.x + left.w, viewport.y, std::max(0.0F, viewport.w - left.w - right.w), viewport.h};
+}
 
 Layout compute_layout(const Panels& panels, float width, float height, const HeaderSize& header, bool mesh) {
   Layout out;

@@ -7,12 +7,13 @@
 namespace dmoscope::ui {
 
 struct Layout {
-  Rect menu, toolbar;            // menus and tools, in one row if there is room
-  Rect left, right;              // columns of docks
-  Rect viewport, bottom;         // the plots stand below the viewport only
-  Rect timeline, status;         // the lowest row
-  Rect left_strip, right_strip;  // strips in place of the columns if the window is too small
-  bool folded = false;           // columns are strips, and open over the mesh
+  Rect menu, toolbar;     // menus and tools, in one row if there is room
+  Rect left, right;       // columns of docks
+  Rect viewport, bottom;  // the plots stand below the viewport only
+  Rect timeline, status;  // the lowest row
+  bool folded = false;    // the window is too small for columns beside the mesh; they open over it
+  /// Part of the viewport that open columns over it leave uncovered.
+  [[nodiscard]] Rect uncovered() const;
 };
 
 /// Height of the interface's font, and widths of menus and tools in one row, in pixels.

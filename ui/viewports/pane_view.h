@@ -72,6 +72,7 @@ class PaneView {
   /// Element and vertex at a pixel of its picture.
   [[nodiscard]] render::Pick pick(const ViewState& state, const render::Camera2D& camera, Vec2<double> pixel, double radius) const;
   [[nodiscard]] unsigned texture() const noexcept { return picture_.texture(); }
+  [[nodiscard]] std::uint64_t picture_serial() const noexcept { return picture_.serial(); }
   [[nodiscard]] bool complete() const noexcept { return picture_.complete(); }
   [[nodiscard]] bool current() const noexcept { return current_; }
   [[nodiscard]] bool settled() const noexcept { return current_ && complete() && worker_.settled(); }

@@ -31,7 +31,7 @@ std::vector<TitlePiece> title_of(const PaneFacts& pane, Metric shown) {
   if (of_run) {
     const RunView& run = *pane.run();
     RunName name = run_name(*pane.session, pane.session->active);
-    if (pane.removed) name = {{}, run.name.empty() ? run.parameters.method : run.name};
+    if (pane.removed) name = {{}, run.name.empty() ? run.parameters.method : run.name, name.aim};
     if (pane.session->runs.size() == 1) name.number.clear();
     if (name.number.empty()) {
       pieces.push_back({name.method, Role::Name, 0});
@@ -43,11 +43,7 @@ std::vector<TitlePiece> title_of(const PaneFacts& pane, Metric shown) {
       pieces.push_back({name.method, Role::Name, 3});
       pieces.push_back({"· " + name.rest, Role::Name, 0});
     }
-    const bool aim_said = name.given || name.rest.starts_with(metric_phrase(run.parameters.metric));
-    if (!aim_said)
-      pieces.push_back({"· " + (run.parameters.combination ? phrase(run.parameters.metric, *run.parameters.combination)
-                                                           : metric_phrase(run.parameters.metric)),
-                        Role::Name, 5});
+    if (!name.given && !name.rest.starts_with(name.aim)) pieces.push_back({"· " + name.aim, Role::Name, 5});
     const Phase phase = frame != nullptr ? run.phases.of(frame->moment.iteration) : Phase::Method;
     if (phase == Phase::Mean && name.rest.find("then mean") == std::string::npos) pieces.push_back({"· then mean", Role::Name, 4});
     if (phase == Phase::Joint && run.parameters.then_joint && name.rest.find("then joint") == std::string::npos)

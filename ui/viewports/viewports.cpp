@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "ui/state/view_geometry.h"
+
 namespace dmoscope::ui {
 
 using ContentKind = PaneContent::Kind;
@@ -28,6 +30,7 @@ render::Bounds2 input_box(const InputMesh& input) {
   render::Bounds2 box;
   if (input.in_space()) {
     render::OrbitCamera camera;
+    camera.up_axis = guessed_up(input);
     camera.look_from(render::ViewPreset::Isometric);
     for (const Vec3& position : input.mesh.positions) box.include(Vec2<double>{dot(position, camera.right), dot(position, camera.up)});
     return box;
@@ -212,14 +215,19 @@ bool Viewports::fit(ViewState& state, double em) {
     state.requests.fit = false;
     return false;
   }
-  if (!views_[focus_]->current()) return false;
+  // One camera shows every mesh in space: while the active viewport waits for its own, another one tells what to fit.
+  const auto shows_mesh = [](const auto& one) { return one && one->frame() != nullptr; };
+  const auto at = shows_mesh(views_[focus_]) || !session_->input->in_space() ? views_.begin() + static_cast<std::ptrdiff_t>(focus_)
+                                                                             : std::ranges::find_if(views_, shows_mesh);
+  if (at == views_.end() || !(*at)->current()) return false;
+  const PaneView& view = **at;
   state.requests.fit = false;
   // Title and colour bar stand above and below the mesh, not on it.
   const bool bar_within = state.panes.one() || state.panes.layout == PaneLayout::Split;
   const double top = 2.4 * em, bottom = bar_within ? 4.4 * em : 0.5 * em;
   const Vec2<double> free{state.viewport.x, std::max(1.0, state.viewport.y - top - bottom)};
   const double margin = std::min(1.2 * em, 0.05 * std::min(free.x, free.y));
-  if (const render::VolumeScene* volume = views_[focus_]->volume()) {
+  if (const render::VolumeScene* volume = view.volume()) {
     volume->fit(state.orbit, state.viewport, {{margin, top + margin}, {state.viewport.x - margin, state.viewport.y - bottom - margin}});
     state.requests.fit_all = false;
     fitted_orbit_ = state.orbit;
@@ -277,7 +285,7 @@ bool Viewports::draw(ViewState& state, const Derived& derived, const Inspection&
   state.viewport = {std::max(1.0, static_cast<double>(rect.w)), std::max(1.0, static_cast<double>(rect.h))};
   // A fitted mesh stays fitted when the window, a panel or its projection changes.
   const bool resized = before.x != state.viewport.x || before.y != state.viewport.y;
-  const bool volume = views_[focus_]->in_space();
+  const bool volume = session_->input && session_->input->in_space();
   if (volume ? keeps_fit(state.orbit, resized) : resized && fitted_ && *fitted_ == state.camera) state.requests.fit = true;
   loading_ = refining_ = false;
   if (volume && !pool_) pool_ = std::make_unique<ThreadPool>(std::clamp(std::thread::hardware_concurrency(), 1U, kMostThreads));
@@ -326,6 +334,7 @@ PaneFacts Viewports::facts_of_pane(ViewState& state, std::size_t pane, const Rec
   facts.camera = state.camera_of(pane);
   if (view.frame() != nullptr) facts.view = view.scene().view(view.seen_from(state, facts.camera), state.viewport);
   facts.texture = view.texture();
+  facts.picture_serial = view.picture_serial();
   facts.focus = pane == focus_;
   facts.inspected = inspected(state, pane);
   facts.reduced = view.frame() != nullptr && !view.complete();

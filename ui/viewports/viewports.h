@@ -29,6 +29,7 @@ struct PaneFacts {
   render::Camera2D camera;                // camera of a planar mesh
   std::optional<render::SceneView> view;  // none: it shows no mesh
   unsigned texture = 0;
+  std::uint64_t picture_serial = 0;       // grows whenever its elements look otherwise
   bool focus = false;                     // whether it is the active one
   bool inspected = false;                 // the inspected search is shown here
   bool reduced = false;                   // drawn with fewer elements just now

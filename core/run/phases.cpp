@@ -7,9 +7,12 @@
 namespace dmoscope {
 
 std::optional<std::uint64_t> PhaseSwitchDetector::find(const PhaseBegin& next, std::span<const IterationRecord> records,
-                                                       std::optional<std::uint64_t> still, bool joint_next) {
-  if (records.empty()) return std::nullopt;
-  if (seen_ == 0) highest_ = records.front().statistics.movable_minimum;
+                                                       std::optional<std::uint64_t> still, bool joint_next, std::uint64_t from) {
+  if (records.size() <= from) return std::nullopt;
+  if (seen_ <= from) {
+    highest_ = records[from].statistics.movable_minimum;
+    seen_ = last_rise_ = from;
+  }
   for (std::uint64_t i = seen_ + 1; !turn_ && i < records.size(); ++i) {
     seen_ = i;
     const Statistics& now = records[i].statistics;

@@ -37,10 +37,11 @@ struct RunPhases {
 /// Finds the end of the first phase among the records of a path, each looked at once.
 class PhaseSwitchDetector {
  public:
-  /// Iteration at whose end the first phase is over; none: not within these records. `still`: see still_iterations(). Elements may stay
-  /// inverted: what the method attempts for them comes first, but for its last attempt, joint moves, where these come next in any case.
+  /// Iteration at whose end the first phase is over; none: not within these records. `still`: see still_iterations(). `from`: the iteration
+  /// from whose state on rises count. Elements may stay inverted: what the method attempts for them comes first, but for its last attempt,
+  /// joint moves, where these come next in any case.
   [[nodiscard]] std::optional<std::uint64_t> find(const PhaseBegin& next, std::span<const IterationRecord> records,
-                                                  std::optional<std::uint64_t> still = 1, bool joint_next = false);
+                                                  std::optional<std::uint64_t> still = 1, bool joint_next = false, std::uint64_t from = 0);
   /// Forgets the records after an iteration, which belong to another path.
   void forget_after(std::uint64_t iteration);
 

@@ -192,6 +192,10 @@ void Run::Advance::take_best(const IterationRecord& record, bool anew) {
 void Run::Advance::note_rise(const IterationRecord& record) {
   const Statistics& now = record.statistics;
   outcome_.inverted = now.inverted;
+  if (run_.fit_follows(reached_ - 1)) {  // the state that rises are counted from is the fitted one, which may be worse than the input
+    minimum_ = now.minimum;
+    movable_ = now.movable_minimum;
+  }
   // Compares differences: where nothing is movable both are infinite, and that is no rise.
   if (!(now.minimum - minimum_ >= limits_.rise || now.movable_minimum - movable_ >= limits_.rise)) return;
   since_rise_ = 0;

@@ -48,7 +48,7 @@ std::optional<std::uint64_t> Run::first_phase_end() const {
   const PhaseBegin* next = next_phase(parameters_);
   if (next == nullptr) return std::nullopt;
   return turn_.find(*next, history_.records(), still_iterations(method_info(parameters_.method), parameters_.options, input_->is_volume()),
-                    parameters_.then_joint.has_value());
+                    parameters_.then_joint.has_value(), parameters_.fit > 0.0 ? 1 : 0);
 }
 
 /// Iteration to whose state the run goes back there, the best of the first phase; none where it goes on from the last.

@@ -115,6 +115,8 @@ class SurfaceFit {
     const std::vector<Vec3> before(positions_.begin(), positions_.end());
     untangle_by(fixed, {});
     const auto strays = [&](Index v) { return length(*place_of(v) - positions_[v]) > distance_; };
+    const auto drawn_back = [&](Index v) { return strays(v) && draw(v, *place_of(v)); };
+    for (int sweep = 0; sweep < kMostRounds && std::ranges::count_if(loose, drawn_back) > 0; ++sweep) progress_.check();
     if (!is_sound(element) || std::ranges::any_of(loose, strays)) std::ranges::copy(before, positions_.begin());
   }
   [[nodiscard]] bool in_pair(Index v) const { return domain_.follower(v) != kNoIndex || domain_.leader(v) != kNoIndex; }

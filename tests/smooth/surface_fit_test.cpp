@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -103,6 +104,30 @@ TEST(SurfaceFit, CornersAndEdgesClaimTheirVerticesFirst) {
   }
   EXPECT_TRUE(same_bits(std::span<const Vec3>(results[0]), std::span<const Vec3>(results[1])));
   EXPECT_TRUE(same_bits(std::span<const Vec3>(results[0]), std::span<const Vec3>(results[2])));
+}
+
+/// Cubes, which a fit to a bulge makes worse for good: rises are those above the fitted state.
+TEST(SurfaceFit, RisesCountFromTheFittedState) {
+  Mesh bulged = skin(volume_grid(12, Fill::Hexahedra), Cells::Triangles);
+  for (Vec3& p : bulged.positions)
+    if (p.z > 1.0 - 1e-9) p.z += 0.2 * std::sin(std::numbers::pi * p.x) * std::sin(std::numbers::pi * p.y);
+  const auto mesh = slide_on(*input(volume_grid(5, Fill::Hexahedra)), input(bulged));
+  RunParameters parameters = fitting(0.3);
+  parameter_info("guard").from_text(parameters, "mean-ratio:0.1");
+  for (const bool then_mean : {false, true}) {
+    if (then_mean) {
+      set_then(parameters, "mean", {});
+      be_patient(parameters, 3);
+    }
+    dmoscope::Run run = make_run(mesh, parameters);
+    Progress progress;
+    const Outcome outcome = run.until_converged({.patience = 3, .max_iterations = 60}, progress);
+    const auto minimum = [&](std::uint64_t i) { return run.history().records()[i].statistics.minimum; };
+    EXPECT_LT(minimum(1), 0.9);
+    EXPECT_GT(outcome.last_rise, 1U);
+    EXPECT_EQ(run.mean_since().has_value(), then_mean);
+    if (then_mean) EXPECT_GT(minimum(*run.mean_since()), minimum(1) + 1e-3);
+  }
 }
 
 /// Vertices farther away than the distance stay, and are told.

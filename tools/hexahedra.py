@@ -11,9 +11,13 @@ import sys
 import tempfile
 import time
 
-MESHES = {'impeller': ['--iterations', '40'], 'CAD4': ['--iterations', '40', '--max-deviation', '1e-6'], 'mount2': ['--iterations', '40'],
-          'bunny': ['--iterations', '20', '--fit', '0.04', '--feature-angle', '90', '--corner-angle', '90', '--max-deviation', '0.01']}
-USUAL = ['--boundary', 'slide', '--recipe', 'hex', '--hints', 'off']
+HEX = ['--recipe', 'hex', '--iterations', '40']
+MESHES = {'impeller': HEX, 'CAD4': [*HEX, '--max-deviation', '1e-6'],
+          'mount2': ['--combine', 'mean-ratio:0.18:scaled-jacobian', '--iterations', '60', '--feature-angle', '46', '--corner-angle', '90',
+                     '--max-deviation', '0.003'],
+          'bunny': ['--fit', '0.05', '--combine', 'mean-ratio:0.01:scaled-jacobian', '--guard', 'off', '--iterations', '60',
+                    '--feature-angle', '90', '--corner-angle', '90', '--max-deviation', '0.02']}
+USUAL = ['--boundary', 'slide', '--hints', 'off']
 
 
 def judge(program, mesh, surface):

@@ -24,8 +24,9 @@ TEST_F(VolumePicture, MarksLieOverTheMesh) {
   EXPECT_TRUE(near_colour(at(image, {1, 0.25, 0.75}), {250, 20, 30}));
   plain.triad = true;
   const Image with_axes = shot(style);
-  EXPECT_GT(with_axes.at(200 - 58 + 25, 120 - 58).g, 100);  // y points right
-  EXPECT_GT(with_axes.at(200 - 58, 120 - 58 - 17).b, 150);  // z up
+  // Axes are half as large in a picture half as high as that in which they have their full size.
+  EXPECT_GT(with_axes.at(200 - 29 + 12, 120 - 29).g, 100);  // y points right
+  EXPECT_GT(with_axes.at(200 - 29, 120 - 29 - 8).b, 150);   // z up
 }
 
 TEST_F(VolumePicture, MarksOfWhatWasTakenAwayAreFaint) {

@@ -3,6 +3,7 @@
 #include <array>
 
 #include <fmt/format.h>
+#include <imgui.h>
 #include <imgui_stdlib.h>
 
 #include "core/mesh/geographic.h"

@@ -14,15 +14,12 @@ import numpy as np
 import pytest
 
 import dmoscope
+import test_dmoscope
 from dmoscope import _dmoscope, _smooth
 
 PROGRAM = os.environ["DMOSCOPE_PROGRAM"]
 ROOT = pathlib.Path(__file__).parents[2]
 PARAMETERS = {row["name"].replace("-", "_"): row for row in _dmoscope.parameters()}
-
-
-def run(*arguments):
-    subprocess.run([PROGRAM, *map(str, arguments)], check=True, stdout=subprocess.DEVNULL)
 
 
 def documented(function):
@@ -138,19 +135,14 @@ dmoscope.smooth(mesh).mesh.pints
 
 @pytest.mark.parametrize("example", sorted((ROOT / "examples").glob("*.py")), ids=lambda path: path.stem)
 def test_examples_run(example, tmp_path):
-    run("generate", "coast", "-o", tmp_path / "coast.14")
+    test_dmoscope.run("generate", "coast", "-o", tmp_path / "coast.14")
     told = subprocess.run([sys.executable, example, tmp_path / "coast.14"], capture_output=True, text=True, cwd=tmp_path)
     assert told.returncode == 0 and told.stdout, told.stderr
 
 
 def sheet(n=8):
-    rng = np.random.default_rng(7)
-    x, y = np.meshgrid(np.arange(n + 1.0), np.arange(n + 1.0))
-    points = np.column_stack([x.ravel(), y.ravel()])
-    inside = (points > 0).all(axis=1) & (points < n).all(axis=1)
-    points[inside] += rng.uniform(-0.3, 0.3, (inside.sum(), 2))
-    a = (np.arange(n)[None, :] + (n + 1) * np.arange(n)[:, None]).ravel()
-    return dmoscope.Mesh(points, {"triangle": np.concatenate([np.column_stack([a, a + 1, a + n + 2]), np.column_stack([a, a + n + 2, a + n + 1])])})
+    points, triangles, _ = test_dmoscope.sheet(n)
+    return dmoscope.Mesh(points, {"triangle": triangles})
 
 
 def test_vertices_are_selected_in_any_form():
@@ -217,8 +209,8 @@ def test_arrays_of_a_wrong_kind_are_value_errors():
     (["--surface", "other.vtk", "--fit", "0.05"], dict(surface=True, fit=0.05)),
 ])
 def test_volumes_have_the_program_s_bits(tmp_path, words, options):
-    run("generate", "tetrahedra", "-o", tmp_path / "mesh.vtk", "--size", 343)
-    run("generate", "tetrahedra", "-o", tmp_path / "other.vtk", "--size", 1000)
+    test_dmoscope.run("generate", "tetrahedra", "-o", tmp_path / "mesh.vtk", "--size", 343)
+    test_dmoscope.run("generate", "tetrahedra", "-o", tmp_path / "other.vtk", "--size", 1000)
     subprocess.run([PROGRAM, "smooth", "mesh.vtk", "-o", "program.vtk", *map(str, words)], cwd=tmp_path, stdout=subprocess.DEVNULL)
     if "surface" in options:
         options = {**options, "surface": dmoscope.read(tmp_path / "other.vtk")}

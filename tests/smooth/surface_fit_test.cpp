@@ -106,6 +106,29 @@ TEST(SurfaceFit, CornersAndEdgesClaimTheirVerticesFirst) {
   EXPECT_TRUE(same_bits(std::span<const Vec3>(results[0]), std::span<const Vec3>(results[2])));
 }
 
+/// A ball that is tangled on its sphere. Vertices that leave it farther than the fit allows to untangle an element can be drawn back.
+TEST(SurfaceFit, UntanglesOnTheSurface) {
+  Mesh start = mapped(volume_grid(3, Fill::Hexahedra), ball);
+  testing::Random random(1);
+  for (Vec3& p : start.positions) {
+    if (length(p) < 1.0 - 1e-9) continue;
+    p = p + 0.3 * Vec3{random(-1.0, 1.0), random(-1.0, 1.0), random(-1.0, 1.0)};
+    p = (1.0 / length(p)) * p;
+  }
+  constexpr double kDistance = 0.003;
+  const auto mesh = slide_on(*input(start), input(skin(mapped(volume_grid(12, Fill::Hexahedra), ball), Cells::Triangles)));
+  dmoscope::Run run = make_run(mesh, fitting(kDistance));
+  EXPECT_GT(run.statistics().inverted, 5U);
+  Progress progress;
+  run.iterate(1, progress);
+  EXPECT_EQ(run.statistics().inverted, 0U);
+  const auto boundary = mesh->topology.boundary();
+  for (Index v = 0; v < boundary.size(); ++v)
+    if (boundary[v] != 0) {
+      EXPECT_LE(std::abs(1.0 - length(run.positions()[v])), kDistance + 0.03) << "vertex " << v;  // the facets' own depth
+    }
+}
+
 /// Cubes, which a fit to a bulge makes worse for good: rises are those above the fitted state.
 TEST(SurfaceFit, RisesCountFromTheFittedState) {
   Mesh bulged = skin(volume_grid(12, Fill::Hexahedra), Cells::Triangles);

@@ -56,6 +56,43 @@ TEST(PlotEnds, CurvesAreNamedBesideThePlotIfThereIsRoom) {
   EXPECT_EQ(names(3, 20.0), (std::vector<std::string>{"3", "2", "1"})) << "the numbers of runs need little";
 }
 
+TEST(PlotEnds, LabelsOfTheAxisStandBelowTheirTicks) {
+  for (const std::size_t records : {2U, 6U, 11U, 201U}) {
+    const Plot plot = plot_of(session_of(1, records));
+    const PlotLayout layout = lay_out(plot, {}, {0, 0, 400, 200}).value();
+    Drawing drawing;
+    draw_plot_area(drawing, plot, {}, layout, ink_of(colours()), 12, 1, 0);
+    for (const Drawing::Label& label : drawing.labels) {
+      if (label.at.y < layout.bottom + 12 || label.text.size() > 2) continue;
+      EXPECT_EQ(label.anchor, Drawing::Anchor::Middle) << label.text << " is short, and needs no room behind the end";
+      EXPECT_NEAR(label.at.x, layout.x.place(std::stod(label.text)), 1e-6);
+    }
+  }
+}
+
+TEST(PlotEnds, LabelsOfMarksLieOnNoCurve) {
+  SessionView session = session_of(1, 11);
+  std::vector<IterationRecord> records;
+  for (std::uint64_t k = 0; k < 11; ++k) records.push_back(record(k, 0.1, 0.9, 0.01));
+  set_records(session.runs[0], std::move(records));
+  Plot plot = plot_of(session);
+  plot.marks = {{10.0, "mean"}, {9.9, "joint"}};
+  const PlotLayout layout = lay_out(plot, {}, {0, 0, 400, 200}).value();
+  Drawing drawing;
+  draw_plot_area(drawing, plot, {}, layout, ink_of(colours()), 12, 1, 0);
+  std::vector<double> baselines;
+  for (const Drawing::Label& label : drawing.labels) {
+    if (label.text != "mean" && label.text != "joint") continue;
+    baselines.push_back(label.at.y);
+    for (const double value : {0.1, 0.9}) {
+      const double curve = layout.y.place(value);
+      EXPECT_TRUE(curve > label.at.y || curve < label.at.y - 8) << label.text << " is crossed at " << value;
+    }
+  }
+  ASSERT_EQ(baselines.size(), 2U);
+  EXPECT_GE(std::abs(baselines[0] - baselines[1]), 12.0);
+}
+
 TEST(PlotHome, TheRiseHasMostOfTheWidthUnlessAskedOtherwise) {
   const SessionView session = converged_run();
   ViewState state;

@@ -144,6 +144,11 @@ class SeriesDrawer {
   double unit_;
 };
 
+double width_of(const std::string& text, double size) {
+  const auto letters = std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U; });
+  return 0.62 * size * static_cast<double>(letters);  // approximate width in DejaVu Sans, generously
+}
+
 int how_many(double length, double each) { return std::max(1, static_cast<int>(length / each)); }
 
 void draw_axes(Drawing& drawing, const Plot& plot, const PlotLayout& layout, const PlotInk& colours, double font, double unit) {
@@ -152,15 +157,12 @@ void draw_axes(Drawing& drawing, const Plot& plot, const PlotLayout& layout, con
     drawing.rules.push_back({{{layout.left, y}, {layout.right, y}}, colour, unit});
   };
   const double room = layout.x.pivot > 0.0 ? 4.0 : 6.0;  // most labels of a logarithm are short
+  const double end = layout.right + 0.7 * font;          // behind it there is no room
   for (const PlacedTick& tick : place_ticks(layout.x, plot.x_unit, plot.integer_x, how_many(layout.right - layout.left, room * font))) {
     drawing.rules.push_back({{{tick.place, layout.top}, {tick.place, layout.bottom}}, grid, unit});
-    const bool at_end = tick.place + 1.5 * font > layout.right;  // there is no room behind the end
-    drawing.labels.push_back(
-        {{at_end ? std::min(tick.place + 0.7 * font, layout.right + 0.7 * font) : tick.place, layout.bottom + 1.2 * font},
-         tick.label,
-         font,
-         dim,
-         at_end ? Drawing::Anchor::End : Drawing::Anchor::Middle});
+    const bool at_end = tick.place + width_of(tick.label, font) / 2 > end;
+    const Point at{at_end ? end : tick.place, layout.bottom + 1.2 * font};
+    drawing.labels.push_back({at, tick.label, font, dim, at_end ? Drawing::Anchor::End : Drawing::Anchor::Middle});
   }
   const auto upright = [&](const Axis& axis, const AxisUnit& units, bool integer, double each) {
     double last = INFINITY;
@@ -189,13 +191,13 @@ void draw_brush(Drawing& drawing, const Plot& plot, const PlotLayout& layout, co
     drawing.rules.push_back({{{x, layout.top}, {x, layout.bottom}}, mixed(colours.accent, colours.background, 0.8), unit});
 }
 
-double width_of(const std::string& text, double size) {
-  const auto letters = std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U; });
-  return 0.62 * size * static_cast<double>(letters);  // approximate width in DejaVu Sans, generously
-}
-
+/// Draws marks with their labels, each in the highest line where it lies on no curve and no other label, else in the highest.
 void draw_marks(Drawing& drawing, const Plot& plot, const PlotLayout& layout, const PlotInk& colours, double font, double unit) {
-  std::vector<std::pair<double, double>> taken;  // ranges of the labels so far; one that would cover another goes a line down
+  std::vector<Points> taken;  // curves, and the middles of the labels so far
+  for (const Drawing::Line& line : drawing.lines) taken.push_back(line.points);
+  const auto is_free = [&](const PlotFrame& box) {
+    return std::ranges::all_of(taken, [&](const Points& points) { return clipped(points, box).empty(); });
+  };
   for (const PlotMark& mark : plot.marks) {
     const double x = layout.x.place(mark.x);
     if (x < layout.left - 0.5 || x > layout.right + 0.5) continue;
@@ -203,15 +205,13 @@ void draw_marks(Drawing& drawing, const Plot& plot, const PlotLayout& layout, co
     if (mark.label.empty()) continue;
     const double wide = 0.3 * font + width_of(mark.label, font);
     const bool room = x + wide < layout.right;
-    const double from = room ? x : x - wide, to = from + wide;
-    const auto over = std::ranges::count_if(taken, [&](const auto& other) { return from < other.second && other.first < to; });
-    taken.emplace_back(from, to);
-    const double down = (0.9 + 1.1 * static_cast<double>(over)) * font;
-    drawing.labels.push_back({{room ? x + 0.3 * font : x - 0.3 * font, layout.top + down},
-                              mark.label,
-                              font,
-                              ink(colours.accent),
-                              room ? Drawing::Anchor::Start : Drawing::Anchor::End});
+    PlotFrame box{room ? x : x - wide, layout.top, room ? x + wide : x, layout.top + 1.1 * font};
+    const PlotFrame highest = box;
+    while (!is_free(box) && box.bottom < layout.bottom) box = {box.left, box.bottom, box.right, box.bottom + 1.1 * font};
+    if (box.bottom > layout.bottom) box = highest;
+    taken.push_back({{box.left, (box.top + box.bottom) / 2}, {box.right, (box.top + box.bottom) / 2}});
+    const Point at{room ? x + 0.3 * font : x - 0.3 * font, box.bottom - 0.2 * font};
+    drawing.labels.push_back({at, mark.label, font, ink(colours.accent), room ? Drawing::Anchor::Start : Drawing::Anchor::End});
   }
 }
 
@@ -239,8 +239,7 @@ void draw_end_names(Drawing& drawing, const Plot& plot, const PlotView& view, co
       names.push_back({text, y, mixed(one.colour, colours.background, 0.6 + 0.4 * one.strength)});
   }
   std::ranges::sort(names, {}, &EndName::y);
-  double lowest = layout.y.from + 0.4 * font - font * static_cast<double>(names.size());
-  double next = -INFINITY;
+  double lowest = layout.y.from + 0.4 * font - font * static_cast<double>(names.size()), next = -INFINITY;
   for (const EndName& name : names) {
     const double y = std::max(std::min(name.y + 0.36 * font, lowest += font), next);
     next = y + font;
@@ -285,16 +284,14 @@ Drawing whole_plot(const Plot& plot, const PlotView& view, double width, double 
   double y = kMargin + 12.0;
   drawing.labels.push_back({{kMargin, y}, plot.title, 15.0, ink(colours.text), Drawing::Anchor::Start});
   y += 0.6 * kRow;
-  double x = kMargin;
-  bool any = false;
+  double x = width;  // no room: a row begins
   for (const LegendEntry& entry : plot.legend) {
     if (!is_on(plot, view, entry)) continue;
     const double needed = 28.0 + width_of(entry.name, kFont);
-    if (!any || x + needed > width - kMargin) {
+    if (x + needed > width - kMargin) {
       x = kMargin;
       y += kRow;
     }
-    any = true;
     draw_sample(drawing, entry.look, x, y - 4.0, colours);
     drawing.labels.push_back({{x + 28.0, y}, entry.name, kFont, ink(colours.text), Drawing::Anchor::Start});
     x += needed + 16.0;

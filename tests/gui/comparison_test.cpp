@@ -168,6 +168,27 @@ TEST_F(ComparisonWindow, TwoMetricsAreSeenSideBySideAndSubtractedByMouse) {
   EXPECT_EQ(session()->active, 1U);
 }
 
+TEST_F(ComparisonWindow, TheMatrixOfTwoMetricsIsWhole) {
+  // Heights are a hundredth of what they were, so that qualities have many digits.
+  good("generate random 300 3");
+  const Mesh& mesh = session()->input->mesh;
+  const test::TemporaryFolder folder;
+  std::ofstream flat(folder / "flat.off");
+  flat << "OFF\n" << mesh.positions.size() << ' ' << mesh.elements.size() << " 0\n";
+  for (const Vec3& at : mesh.positions) flat << at.x << ' ' << 0.01 * at.y << " 0\n";
+  for (Index e = 0; e < mesh.elements.size(); ++e) {
+    const auto corners = mesh.elements.corners(e);
+    flat << "3 " << corners[0] << ' ' << corners[1] << ' ' << corners[2] << '\n';
+  }
+  flat.close();
+  good("open " + (folder / "flat.off").string());
+  good("compare with dmo:min-angle 3");
+  good("move 5 5");
+  const ui::Comparison comparison = ui::compare_runs(*session());
+  ASSERT_LT(comparison.rows[0].cells[0].value, 0.01);
+  EXPECT_LT(box("compared:min-angle:Mean")[2], box("run-list")[0]) << "no column is cut off";
+}
+
 TEST_F(ComparisonWindow, TheMatrixIsSavedWithAllItsDigits) {
   const test::TemporaryFolder folder;
   good("generate random 300 3");

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -14,6 +15,9 @@
 
 namespace dmoscope::ui {
 namespace {
+
+constexpr ImGuiTableFlags kTableFlags =
+    ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY | ImGuiTableFlags_ScrollX | ImGuiTableFlags_SizingFixedFit;
 
 /// Draws the first cell of a run's row in a table: its colour and title, recorded as `item`; a click makes it the active run.
 void draw_run_cell(PanelContext& context, std::size_t run, const std::string& item, const std::string& title) {
@@ -168,30 +172,55 @@ float judges_width(const PanelContext& context, const Comparison& comparison) {
   return width;
 }
 
-/// Draws the name of a metric above its first column, over those of the others.
-void draw_metric_names(PanelContext& context, const Comparison& comparison) {
-  ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
-  ImGui::TableNextColumn();
-  for (const Metric metric : comparison.metrics)
-    for (std::size_t k = 0; k < Comparison::kMeasures; ++k) {
-      ImGui::TableNextColumn();
-      if (k != 0) continue;
-      const std::string name = "by " + metric_phrase(metric);
-      const ImVec2 at = ImGui::GetCursorScreenPos();
-      const float cell = ImGui::GetContentRegionAvail().x + 2 * ImGui::GetStyle().CellPadding.x;
-      const float room = cell * Comparison::kMeasures - 2 * ImGui::GetStyle().CellPadding.x;
-      const std::string text = fit_text(name, room);
-      ImDrawList& list = *ImGui::GetWindowDrawList();
-      list.PushClipRect({at.x, at.y}, {at.x + room, at.y + ImGui::GetTextLineHeight() + 2}, false);
-      list.AddText({at.x + std::max(0.0F, room - ImGui::CalcTextSize(text.c_str()).x), at.y}, colour(context.palette.text), text.c_str());
-      list.PopClipRect();
-      ImGui::Dummy({1, ImGui::GetTextLineHeight()});
-      metric_tooltip(context, info(metric));
-    }
+/// Title of a run's row, without the method if all runs have the same one.
+std::string title_of_row(const PanelContext& context, std::size_t run) {
+  const RunName name = run_name(context.session, run);
+  return context.shown(name.one_method && !name.rest.empty() ? name.number + " " + name.rest : name.whole());
 }
 
-void draw_head(PanelContext& context, const Comparison& comparison) {
-  draw_metric_names(context, comparison);
+/// Widths of the matrix's columns in pixels: those of the numbers; that of the widest name; and of all together with whole names.
+struct MatrixWidths {
+  std::vector<float> numbers;
+  float name = 0, rest = 0;
+  MatrixWidths(const PanelContext& context, const Comparison& comparison)
+      : numbers(comparison.metrics.size() * Comparison::kMeasures, ImGui::CalcTextSize("0.0000").x), name(6 * context.em()) {
+    for (const Comparison::Row& row : comparison.rows)
+      for (std::size_t k = 0; k < row.cells.size(); ++k) {
+        ImGui::PushFont(row.cells[k].best ? context.fonts.bold : context.fonts.body);
+        numbers[k] = std::max(numbers[k], ImGui::CalcTextSize(short_number(row.cells[k].value).c_str()).x);
+        ImGui::PopFont();
+      }
+    for (std::size_t k = 0; k < context.session.runs.size(); ++k)
+      name = std::max(name, ImGui::CalcTextSize(title_of_row(context, k).c_str()).x + 1.2F * context.em());
+    const float around = 2 * ImGui::GetStyle().CellPadding.x;
+    rest =
+        std::accumulate(numbers.begin(), numbers.end(), around * static_cast<float>(numbers.size() + 1)) + ImGui::GetStyle().ScrollbarSize;
+  }
+};
+
+/// Draws the name of a metric above its first column, over those of the others, as far as the table's scrolled part reaches.
+void draw_metric_names(PanelContext& context, const Comparison& comparison, const MatrixWidths& widths) {
+  ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
+  float first = 0;
+  const float last = ImGui::GetWindowPos().x + ImGui::GetWindowWidth(), padding = 2 * ImGui::GetStyle().CellPadding.x;
+  for (std::size_t m = 0; m < comparison.metrics.size(); ++m) {
+    ImGui::TableSetColumnIndex(static_cast<int>(1 + m * Comparison::kMeasures));
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    if (m == 0) first = at.x + ImGui::GetScrollX();
+    const auto column = widths.numbers.begin() + static_cast<std::ptrdiff_t>(m * Comparison::kMeasures);
+    const float room = std::accumulate(column, column + Comparison::kMeasures, padding * (Comparison::kMeasures - 1));
+    const std::string text = fit_text("by " + metric_phrase(comparison.metrics[m]), room);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.PushClipRect({std::max(at.x, first), at.y}, {std::min(at.x + room, last), at.y + ImGui::GetTextLineHeight() + 2}, false);
+    list.AddText({at.x + std::max(0.0F, room - ImGui::CalcTextSize(text.c_str()).x), at.y}, colour(context.palette.text), text.c_str());
+    list.PopClipRect();
+    ImGui::Dummy({1, ImGui::GetTextLineHeight()});
+    metric_tooltip(context, info(comparison.metrics[m]));
+  }
+}
+
+void draw_head(PanelContext& context, const Comparison& comparison, const MatrixWidths& widths) {
+  draw_metric_names(context, comparison, widths);
   ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
   ImGui::TableNextColumn();
   dim_text(context, "Run", false);
@@ -199,14 +228,8 @@ void draw_head(PanelContext& context, const Comparison& comparison) {
     for (const auto& [title, tooltip] : kMeasureTitles) {
       ImGui::TableNextColumn();
       right_text(title, context.palette.dim);
-      next_item_tooltip(tooltip);
+      note_item(context, fmt::format("compared:{}:{}", info(comparison.metrics[m]).name, title), tooltip);
     }
-}
-
-/// Title of a run's row, without the method if all runs have the same one.
-std::string title_of_row(const PanelContext& context, std::size_t run) {
-  const RunName name = run_name(context.session, run);
-  return context.shown(name.one_method && !name.rest.empty() ? name.number + " " + name.rest : name.whole());
 }
 
 void draw_title(PanelContext& context, const Comparison::Row& row) {
@@ -233,37 +256,17 @@ void draw_row(PanelContext& context, const Comparison::Row& row) {
   ImGui::PopID();
 }
 
-/// Widths of the matrix's columns in pixels: a number's; that of the widest name; and of all together with whole names.
-struct MatrixWidths {
-  float number = 0, name = 0, rest = 0;
-  MatrixWidths(const PanelContext& context, const Comparison& comparison) {
-    ImGui::PushFont(context.fonts.bold);
-    number = ImGui::CalcTextSize("0.0000").x;
-    for (const Comparison::Row& row : comparison.rows)
-      for (const Comparison::Cell& cell : row.cells) number = std::max(number, ImGui::CalcTextSize(short_number(cell.value).c_str()).x);
-    ImGui::PopFont();
-    name = 6 * context.em();
-    for (std::size_t k = 0; k < context.session.runs.size(); ++k)
-      name = std::max(name, ImGui::CalcTextSize(title_of_row(context, k).c_str()).x + 1.2F * context.em());
-    const float around = 2 * ImGui::GetStyle().CellPadding.x,
-                numbers = static_cast<float>(comparison.metrics.size() * Comparison::kMeasures);
-    rest = numbers * (number + around) + around + ImGui::GetStyle().ScrollbarSize;
-  }
-};
-
 void draw_matrix(PanelContext& context, const Comparison& comparison, const MatrixWidths& widths) {
   const int columns = static_cast<int>(1 + comparison.metrics.size() * Comparison::kMeasures);
-  constexpr ImGuiTableFlags kFlags =
-      ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY | ImGuiTableFlags_ScrollX | ImGuiTableFlags_SizingFixedFit;
   const float buttons = ImGui::GetFrameHeightWithSpacing(), room = ImGui::GetContentRegionAvail().x;
-  if (!ImGui::BeginTable("comparison", columns, kFlags, {0, std::max(4 * context.em(), ImGui::GetContentRegionAvail().y - buttons)}))
+  if (!ImGui::BeginTable("comparison", columns, kTableFlags, {0, std::max(4 * context.em(), ImGui::GetContentRegionAvail().y - buttons)}))
     return;
   // Numbers that have no room can be scrolled to; the names stay beside them.
   const float least = std::min(widths.name, 0.36F * room);
   ImGui::TableSetupColumn("run", ImGuiTableColumnFlags_WidthFixed, std::clamp(room - widths.rest, least, widths.name));
-  for (int k = 1; k < columns; ++k) ImGui::TableSetupColumn(std::to_string(k).c_str(), ImGuiTableColumnFlags_WidthFixed, widths.number);
+  for (const float width : widths.numbers) ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, width);
   ImGui::TableSetupScrollFreeze(1, 2);
-  draw_head(context, comparison);
+  draw_head(context, comparison, widths);
   for (const Comparison::Row& row : comparison.rows) draw_row(context, row);
   ImGui::EndTable();
 }
@@ -294,9 +297,7 @@ void draw_run_table(PanelContext& context) {
   const std::vector<RunRow> rows = sorted_runs(context.session, context.state.plot_options);
   const std::vector<ShownColumn> columns = shown_columns(rows);
   dim_text(context, fmt::format("judged by {}, the metric that is shown", metric_phrase(context.session.shown)), false);
-  constexpr ImGuiTableFlags kFlags =
-      ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY | ImGuiTableFlags_ScrollX | ImGuiTableFlags_SizingFixedFit;
-  if (!ImGui::BeginTable("runs", static_cast<int>(columns.size()), kFlags)) return;
+  if (!ImGui::BeginTable("runs", static_cast<int>(columns.size()), kTableFlags)) return;
   float widest = 0, widest_mesh = 0;
   for (const RunRow& row : rows) {
     widest = std::max(widest, ImGui::CalcTextSize(row.title.c_str()).x);

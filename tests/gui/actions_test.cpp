@@ -89,6 +89,14 @@ TEST(Palette, ListsEveryActionAndEveryVerbOfBothTables) {
   EXPECT_TRUE(lists("step vertex|class|iteration [COUNT]"));
 }
 
+TEST(Palette, BeginsWithWhatRunsAsItIs) {
+  const std::vector<PaletteEntry> all = palette_entries("", {.mesh = true, .runs = 1}, view_command_infos());
+  ASSERT_FALSE(all.empty());
+  EXPECT_EQ(all.front().title.substr(0, 6), "File: ") << "the menus come first";
+  const auto incomplete = std::ranges::find(all, false, &PaletteEntry::complete);
+  EXPECT_GT(incomplete - all.begin(), 60) << "commands that lack words come after the actions";
+}
+
 TEST(Palette, ACommandWithItsWordsRunsAsTyped) {
   // These words also occur in the commands of "Run 10 iterations" and "Zoom in" (zoom 1.25).
   for (const char* line : {"run 1", "zoom 1", "step iteration 2", "goto vertex 3"}) {

@@ -182,7 +182,7 @@ std::string CardFigure::short_phrase() const {
   if (name == "wall cells") return fmt::format("wall cells up to {} times as high or as low", four_digits(after));
   const bool counts = name == "inverted" || name.starts_with("below");
   const auto text = [counts](double value) { return counts ? fmt::format("{:.0f}", value) : four_digits(value); };
-  return fmt::format("{} {} -> {}", name, text(before), text(after));
+  return fmt::format("{}{} {} -> {}", name, name.starts_with("below") ? ":" : "", text(before), text(after));
 }
 
 std::string CardFigure::phrase() const {

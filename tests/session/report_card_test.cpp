@@ -61,6 +61,8 @@ TEST(ReportCard, TellsTheGrowthAndCountsTheBad) {
   EXPECT_EQ(figure(card, "scaled Jacobian", "least").after, 1.0) << "it is blind to how long an element is";
   EXPECT_EQ(card.verdict, Verdict::Worse);
   EXPECT_THAT(card.sentence(true), HasSubstr("least mean ratio 0.8000 -> 0.1980"));
+  const auto bad = std::ranges::find(card.figures, "below 0.2", &CardFigure::name);
+  EXPECT_EQ(bad->phrase(), "mean ratio below 0.2: 0 -> 1") << "the bound is no count";
 }
 
 TEST(ReportCard, IsBetterWhereNothingIsWorse) {

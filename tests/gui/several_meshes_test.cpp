@@ -49,6 +49,16 @@ TEST_F(SeveralMeshesWindow, TheSecondComesIntoAViewportOfItsOwn) {
   EXPECT_GT(panes[1].frame()->shown_statistics.minimum, panes[0].frame()->shown_statistics.minimum);
 }
 
+TEST_F(SeveralMeshesWindow, TheListOfRunsHasRoomForTwoWithTheirMeshes) {
+  good("open-beside " + other_.string());
+  good("move 5 5");
+  const auto& items = window_->app().items();
+  const auto &list = items.find("run-list"), &first = items.find("run:0"), &second = items.find("run:1");
+  EXPECT_GT(first[3] - first[1], 30) << "each has a second line";
+  EXPECT_GE(first[1], list[1]);
+  EXPECT_LE(second[3], list[3]);
+}
+
 TEST_F(SeveralMeshesWindow, OneTableHasBothByTheSameMetric) {
   good("open-beside " + other_.string());
   good("run 2");

@@ -103,6 +103,17 @@ TEST_F(SmallFaults, NoFrameStaysRoundThePlot) {
   EXPECT_TRUE(render::compare(before, window_->picture()).alike());
 }
 
+TEST_F(SmallFaults, MenusAndToolsHaveOneHeight) {
+  good("generate annulus");
+  for (const char* scale : {"scale 1", "scale 1.25", "scale 1.5", "scale 1"}) {
+    good(scale);
+    good("move 5 5");
+    const ImGuiWindow *menu = ImGui::FindWindowByName("menu"), *tools = ImGui::FindWindowByName("toolbar");
+    ASSERT_TRUE(menu != nullptr && tools != nullptr);
+    EXPECT_TRUE(menu->Pos.y < tools->Pos.y || menu->Size.y == tools->Size.y) << scale;
+  }
+}
+
 TEST_F(SmallFaults, WhyAndTheNumberStandApart) {
   good("generate annulus");
   good("tab worst");

@@ -281,7 +281,7 @@ void by_size_over_target(Work& work) {
 /// Name of a frame: "run 2, iteration 10", "input".
 std::string name_of(const Frame& frame) {
   if (frame.run == Frame::kNoRun) return "input";
-  std::string name = fmt::format("run {}, iteration {}", frame.run + 1, frame.moment.iteration);
+  std::string name = fmt::format("run {}, iteration {}", frame.run + 1, count(frame.moment.iteration));
   if (frame.moment.visits > 0) name += fmt::format(" + {}", frame.moment.visits);
   return name;
 }

@@ -59,7 +59,7 @@ void tell_ending(Notice& notice, const RunEnding& ending) {
   notice.sentences.push_back(left.sentence());
   notice.offers.push_back({"notice:element", fmt::format("Show element {}", left.element), fmt::format("goto element {}", left.element),
                            "the most inverted one: picks it and moves the view there"});
-  notice.offers.push_back({"notice:vertex", fmt::format("Show vertex {}", count(left.vertex)), fmt::format("goto vertex {}", left.vertex),
+  notice.offers.push_back({"notice:vertex", fmt::format("Show vertex {}", left.vertex), fmt::format("goto vertex {}", left.vertex),
                            "the vertex of most of them: picks it and moves the view there"});
   if (!ending.hint) return;
   notice.sentences.push_back(ending.hint->sentence() + ".");

@@ -18,7 +18,7 @@ namespace {
 void draw_title(PanelContext& context) {
   const InspectionState& state = context.state.inspection;
   const float button = ImGui::CalcTextSize("×").x + 2 * context.px(8);
-  const std::string vertex = fmt::format("Vertex {}", count(state.vertex)), whole = "Grid inspection · " + lower_case(vertex);
+  const std::string vertex = fmt::format("Vertex {}", state.vertex), whole = "Grid inspection · " + lower_case(vertex);
   ImGui::PushFont(context.fonts.bold);
   const bool room = ImGui::CalcTextSize(whole.c_str()).x + button + context.px(8) <= ImGui::GetContentRegionAvail().x;
   ImGui::PopFont();

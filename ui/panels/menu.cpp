@@ -190,15 +190,17 @@ HeaderSize header_size(const PanelContext& context) {
 }
 
 void draw_menu(PanelContext& context, const Rect& rect) {
+  const float above = (rect.h - context.em()) / 2;
   ImGui::SetNextWindowPos({rect.x, rect.y});
   ImGui::SetNextWindowSize({rect.w, rect.h});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {context.px(4), 0});
-  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {context.px(8), std::round((rect.h - context.em()) / 2)});
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {context.px(8), std::floor(above)});
   ImGui::Begin("menu", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_MenuBar);
   const bool bar = ImGui::BeginMenuBar();
   ImGui::PopStyleVar(2);
+  ImGui::SetCursorPosY(std::round(above) - std::floor(above));  // the words stand as those of the tools
   for (const std::string_view menu : menu_names()) {
     if (is_nested(menu)) continue;
     const bool open = bar && ImGui::BeginMenu(std::string(menu).c_str());

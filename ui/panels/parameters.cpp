@@ -294,7 +294,7 @@ void draw_target(PanelContext& context, const RunView& run) {
 /// Summary of the parameters that are folded away: "all usual" or "2 changed".
 std::string changes_of(const RunParameters& parameters) {
   const RunParameters usual;
-  std::size_t changed = 0;
+  std::size_t changed = then_words(parameters) == then_words(usual) ? 0 : 1;
   for (const ParameterInfo& row : parameter_table())
     if (row.in_session && row.name != "method" && row.name != "metric" && row.to_text(parameters) != row.to_text(usual)) ++changed;
   return changed == 0 ? "all usual" : fmt::format("{} changed", changed);

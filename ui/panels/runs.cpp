@@ -132,7 +132,7 @@ void draw_run_row(PanelContext& context, const RunName& name, std::size_t k, flo
   const float bar = context.px(4), text = at.x + bar + context.px(6), buttons = at.x + width - 2 * side;
   const float number = buttons - context.px(4) - ImGui::CalcTextSize(minimum.c_str()).x, room = number - context.px(4) - text;
   const RowText words(name, context.session.runs.size() == 1, room, at.x + width - text);
-  const float height = row + (words.second.empty() ? 0.0F : std::round(line));
+  const float height = row + (words.second.empty() ? 0.0F : std::round(0.8F * line));
   if (context.state.renaming_run == run.id) {
     ImGui::SetCursorScreenPos({text, at.y});
     draw_name_field(context, k, room);

@@ -314,7 +314,8 @@ std::vector<PaletteEntry> palette_entries(std::string_view text, const Situation
     }
   }
   // Entries that are impossible now come last, and those with exactly this name first.
-  std::ranges::stable_sort(entries, {}, [&](const PaletteEntry& one) { return one.possible ? !text.empty() && one.name == text ? 0 : 1 : 2; });
+  std::ranges::stable_sort(entries, {},
+                           [&](const PaletteEntry& one) { return one.possible ? !text.empty() && one.name == text ? 0 : 1 : 2; });
   return entries;
 }
 

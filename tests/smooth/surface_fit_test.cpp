@@ -149,7 +149,9 @@ TEST(SurfaceFit, RisesCountFromTheFittedState) {
     EXPECT_LT(minimum(1), 0.9);
     EXPECT_GT(outcome.last_rise, 1U);
     EXPECT_EQ(run.mean_since().has_value(), then_mean);
-    if (then_mean) EXPECT_GT(minimum(*run.mean_since()), minimum(1) + 1e-3);
+    if (then_mean) {
+      EXPECT_GT(minimum(*run.mean_since()), minimum(1) + 1e-3);
+    }
   }
 }
 

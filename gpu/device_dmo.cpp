@@ -26,7 +26,7 @@ class DeviceDmo final : public Smoother {
         colouring_(task.colouring),
         metric_(task.metric),
         combination_(task.combination),
-        size_(task.size),
+        aim_(task.aim),
         aims_(aims_of({})),
         mesh_(queue_, *task.input, *colouring_, task.immovable, task.pool),
         counts_(queue_, colouring_->class_count() + std::size_t{1}),
@@ -111,7 +111,7 @@ class DeviceDmo final : public Smoother {
   }
   /// The aims of a sweep's visits besides the metric.
   [[nodiscard]] std::optional<PlainComposite> aims_of(const Sweep& sweep) const {
-    const auto composite = composite_objective_of_visit(metric_, combination_, size_, sweep);
+    const auto composite = composite_objective_of_visit(metric_, combination_, aim_, sweep);
     return composite ? plain_composite(*composite) : std::nullopt;
   }
   void set_aims(const std::optional<PlainComposite>& aims) {
@@ -220,7 +220,7 @@ class DeviceDmo final : public Smoother {
   std::shared_ptr<const Colouring> colouring_;
   Metric metric_;
   std::optional<CompositeTerms> combination_;
-  std::shared_ptr<const SizeField> size_;
+  std::shared_ptr<const PlaceAim> aim_;
   std::optional<PlainComposite> aims_;  // the present visits' second aim; none: the metric alone
   DeviceMesh mesh_;
   std::optional<DeviceMetric> defined_;  // a metric that is not built in

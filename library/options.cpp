@@ -120,9 +120,8 @@ void set_combine(SmoothOptions& options, Text text) {
   const auto [first, terms] = dmoscope::parse_composite(text, {});
   if (options.metric != info(dmoscope::RunParameters{}.metric).name)
     throw UsageError("it names both metrics, so that metric cannot be set");
-  const auto* second = std::get_if<dmoscope::Metric>(&terms.second);
   options.metric = info(first).name;
-  options.combine = SecondAim{terms.threshold, second != nullptr ? std::string(info(*second).name) : "density"};
+  options.combine = SecondAim{terms.threshold, std::string(terms.second_name())};
 }
 void set_metric(SmoothOptions& options, Text text) {
   if (options.combine) throw UsageError("combine names both metrics");

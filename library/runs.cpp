@@ -208,7 +208,7 @@ Trace trace(const Mesh& mesh, Index vertex, const SmoothOptions& options) {
     const dmoscope::Run run(input, request.parameters, nullptr, 0);
     const dmoscope::Sweep sweep = run.sweep();
     const auto composite =
-        composite_objective_of_visit(run.parameters().metric, run.parameters().combination, run.size_field(), sweep, run.guard());
+        composite_objective_of_visit(run.parameters().metric, run.parameters().combination, run.place_aim(), sweep, run.guard());
     const auto& positions = input->mesh.positions;
     const auto look = [&](auto function) {
       return function(*input, positions, run.fixed(), run.parameters().metric, run.parameters().search, vertex, composite, sweep.untangling,

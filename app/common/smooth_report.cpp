@@ -25,12 +25,9 @@ Json json_of(const CompositeTerms& combination, const Run& run) {
   Json object;
   object["first"] = info(run.parameters().metric).name;
   object["threshold"] = combination.threshold;
-  if (const auto* metric = std::get_if<Metric>(&combination.second)) {
-    object["second"] = info(*metric).name;
-    return object;
-  }
-  object["second"] = "density";
-  object["size_function"] = to_text(*combination.size());
+  object["second"] = combination.second_name();
+  if (!run.size_field()) return object;
+  object["size_function"] = combination.size_text();
   const auto [before, after] = size_course_of(run);
   object["size_correlation"] = {{"before", json_number(before.sizes)}, {"after", json_number(after.sizes)}};
   object["size_log_correlation"] = {{"before", json_number(before.logarithms)}, {"after", json_number(after.logarithms)}};

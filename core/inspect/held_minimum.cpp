@@ -157,8 +157,7 @@ class Look {
     CompositeTerms raised = now;
     raised.threshold = std::min(0.99, std::floor(100.0 * after(alone, q_.task.domain)) / 100.0);
     if (!(raised.threshold > now.threshold)) return;
-    const HoldSwitch change{"combine", to_text(q_.task.metric, raised), Holding::Threshold, raised.threshold,
-                            now.size() != nullptr ? to_text(*now.size()) : std::string()};
+    const HoldSwitch change{"combine", to_text(q_.task.metric, raised), Holding::Threshold, raised.threshold, now.size_text()};
     if (const double there = after_switches({&change, 1}); is_gain(best, there)) take(found, change, best = there);
   }
   /// Tries joint moves of the vertices that may move.

@@ -35,7 +35,9 @@ std::string rank_phrase(Metric metric) {
 std::string both_phrase(const CompositeObjective& composite) {
   if (composite.is_single()) return metric_phrase(composite.first);
   const auto* metric = std::get_if<Metric>(&composite.second);
-  const std::string second = metric != nullptr ? metric_phrase(*metric) : composite.raise_mean() ? "mean of the star" : "density";
+  const std::string second = metric != nullptr        ? metric_phrase(*metric)
+                             : composite.raise_mean() ? "mean of the star"
+                                                      : std::string(std::get<std::shared_ptr<const PlaceAim>>(composite.second)->name());
   return fmt::format("{} {} {:.6g}, {} {:.6g} + {}", metric_phrase(composite.first), composite.raise_mean() ? "below" : "up to",
                      composite.threshold, composite.raise_mean() ? "from there on" : "beyond it", composite.threshold, second);
 }

@@ -59,7 +59,7 @@ std::optional<HeldMinimum> what_holds(const Run& run, ThreadPool* pool, Progress
   task.guard = run.guard();
   HeldQuestion question{std::move(task), run.positions(), run.fixed(), p.fixed, p.standing(), p.max_deviation};
   question.task.domain = run.domain();
-  question.task.size = run.size_field();
+  question.task.aim = run.place_aim();
   question.untangling.floor = run.sweep().untangling.floor;
   question.domains = look.domains;
   RunParameters jointly = p;

@@ -320,16 +320,15 @@ void set_then(RunParameters& parameters, std::string_view words, const PhaseBegi
   constexpr std::string_view kJoint = "joint";
   const bool joint = words == kJoint || words.starts_with("joint,");
   const std::string_view mean = joint ? words.substr(std::min(words.size(), kJoint.size() + 1)) : words;
-  const auto kind = std::ranges::find(kMeanKinds, mean, [](MeanKind each) { return name(each); });
-  const bool known = kind != kMeanKinds.end();
+  const bool known = std::ranges::find(kMeanNames, mean) != kMeanNames.end();
   if (!known && words != kJoint && words != "nothing") {
     std::vector<std::string_view> choices{"joint", "joint,mean", "nothing"};
-    for (const MeanKind each : kMeanKinds) choices.push_back(name(each));
+    choices.insert(choices.end(), kMeanNames.begin(), kMeanNames.end());
     throw UsageError(unknown_value("later phases", std::string(words), choices));
   }
   parameters.then_joint = joint ? std::optional(begin) : std::nullopt;
   parameters.then_mean = known ? std::optional(begin) : std::nullopt;
-  parameters.mean = known ? *kind : MeanKind::Harmonic;
+  parameters.mean = known ? parse_choice<MeanKind>("mean", mean, kMeanNames) : MeanKind::Harmonic;
 }
 
 void be_patient(RunParameters& parameters, std::uint64_t patience) {

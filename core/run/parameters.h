@@ -13,7 +13,6 @@
 #include "core/quality/defined_metric.h"
 #include "core/quality/metric.h"
 #include "core/reference/standing.h"
-#include "core/run/guard.h"
 #include "core/run/phases.h"
 #include "core/search/parameters.h"
 #include "core/smooth/execution/accelerator.h"

@@ -55,11 +55,11 @@ std::shared_ptr<const Colouring> make_colouring(const InputMesh& input, std::spa
   return std::make_shared<const Colouring>(std::move(colouring));
 }
 
-std::shared_ptr<const SizeField> make_size_field(const std::shared_ptr<const InputMesh>& input,
-                                                 const std::optional<CompositeTerms>& combination) {
+std::shared_ptr<const PlaceAim> make_place_aim(const std::shared_ptr<const InputMesh>& input,
+                                               const std::optional<CompositeTerms>& combination) {
   const SizeFunction* function = combination ? combination->size() : nullptr;
   if (input->geometry.shape != Shape::Planar) return nullptr;  // refused by require_possible()
-  return function != nullptr ? std::make_shared<const SizeField>(input, *function) : nullptr;
+  return function != nullptr ? find_place_aim(combination->place)->make(input, *function) : nullptr;
 }
 
 /// Least quality of the elements that can move and are not inverted at their corners; +infinity where there is none.
@@ -125,7 +125,7 @@ Run::Run(std::shared_ptr<const InputMesh> input, RunParameters parameters, std::
       fixed_(std::make_shared<const std::vector<std::uint8_t>>(fixed_vertices(*input_, parameters_, domain_.get()))),
       colouring_(make_colouring(*input_, fixed(), parameters_.order, domain_.get(), pool_.get())),
       immovable_(immovable_elements(input_->mesh, fixed(), pool_.get())),
-      size_(make_size_field(input_, parameters_.combination)),
+      aim_(make_place_aim(input_, parameters_.combination)),
       guard_(find_guard(*input_, parameters_, immovable_, pool_.get())),
       executor_(choose_executor(parameters_.backend, acceleration_, task())),
       positions_(working_copy(begin_ ? *begin_ : input_->mesh.positions)),
@@ -142,6 +142,8 @@ Run::Run(std::shared_ptr<const InputMesh> input, RunParameters parameters, std::
 Run::~Run() = default;
 Run::Run(Run&&) noexcept = default;
 Run& Run::operator=(Run&&) noexcept = default;
+
+std::shared_ptr<const SizeField> Run::size_field() const { return std::dynamic_pointer_cast<const SizeField>(aim_); }
 
 std::string Run::title() const {
   if (!given_name_.empty()) return given_name_;
@@ -161,7 +163,7 @@ std::string Run::backend_sentence() const {
 SmoothingTask Run::task() const {
   SmoothingTask task = task_of(input_, parameters_);
   task.colouring = colouring_;
-  task.size = size_;
+  task.aim = aim_;
   task.guard = guard_;
   task.domain = domain_;
   task.immovable = immovable_;

@@ -133,7 +133,9 @@ class Run {
   /// Sweep that the next visits are part of.
   [[nodiscard]] Sweep sweep() const;
   /// Size function of a combination; null where there is none.
-  [[nodiscard]] const std::shared_ptr<const SizeField>& size_field() const noexcept { return size_; }
+  [[nodiscard]] std::shared_ptr<const SizeField> size_field() const;
+  /// Second aim of a combination that is no metric; null where there is none.
+  [[nodiscard]] const std::shared_ptr<const PlaceAim>& place_aim() const noexcept { return aim_; }
   /// Guard in force: none where it is off, or says nothing beyond the metrics that are raised.
   [[nodiscard]] const std::optional<Guard>& guard() const noexcept { return guard_; }
   /// Backend in use, whatever was asked for: never Backend::Auto.
@@ -292,7 +294,7 @@ class Run {
   SharedVector<std::uint8_t> fixed_;
   std::shared_ptr<const Colouring> colouring_;
   std::vector<Index> immovable_;
-  std::shared_ptr<const SizeField> size_;
+  std::shared_ptr<const PlaceAim> aim_;
   std::optional<Guard> guard_;
   Executor executor_;  // its smoother is null while the run rests
   RunProgress at_;

@@ -64,7 +64,7 @@ class SurfaceFit {
     task.metric = Metric::MeanRatio;
     task.combination.reset();
     if (task.guard && task.guard->metric == task.metric) task.guard.reset();
-    task.size.reset();
+    task.aim.reset();
     return make_dmo_smoother(task);
   }
 

@@ -18,8 +18,7 @@ std::string stats_label(const RunParameters& parameters) {
   const std::string phases =
       fmt::format("{}{}", p.then_joint ? ":then-joint" : "", p.then_mean ? fmt::format(":then-{}", name(p.mean)) : "");
   if (!p.combination) return fmt::format("{}:{}{}", p.method, info(p.metric).name, phases);
-  const SizeFunction* size = p.combination->size();
-  const std::string how = size != nullptr ? to_text(*size) : std::string();
+  const std::string how = p.combination->size_text();
   return fmt::format("{}:{}{}{}{}", p.method, to_text(p.metric, *p.combination), how.empty() ? "" : ":", how.substr(0, how.find(':')),
                      phases);
 }

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/fnv1a.h"
+#include "core/base/unknown_value.h"
 #include "core/io/mesh_io.h"
 #include "core/io/reading/source_file.h"
 #include "core/io/writing/atomic_file.h"
@@ -122,7 +123,7 @@ Json json_of(const RunParameters& p) {
   for (const ParameterInfo& row : parameter_table())
     if (row.in_session) json[std::string(row.name)] = parameter_json(row, p);
   if (p.combination) json["combination"] = to_text(p.metric, *p.combination);
-  if (p.combination && p.combination->size() != nullptr) json["size_function"] = to_text(*p.combination->size());
+  if (p.combination && !p.combination->size_text().empty()) json["size_function"] = p.combination->size_text();
   if (!p.kinds.empty()) json["kinds"] = json_of(p.kinds);  // older files do not have it
   if (p.then_joint) json["then_joint"] = json_of(*p.then_joint);
   if (p.then_mean) {
@@ -156,7 +157,8 @@ RunParameters to_parameters(const Json& json) {
   p.then_joint = to_phase(json, "then_joint");
   p.then_mean = to_phase(json, "then_mean");
   // Defaults to the arithmetic mean, which older files raise.
-  if (p.then_mean) p.mean = parse_mean_kind(json.at("then_mean").value("raises", std::string(name(MeanKind::Arithmetic))));
+  if (p.then_mean)
+    p.mean = parse_choice<MeanKind>("mean", json.at("then_mean").value("raises", std::string(name(MeanKind::Arithmetic))), kMeanNames);
   return p;
 }
 

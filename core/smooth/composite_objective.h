@@ -2,6 +2,7 @@
 // Composite objectives of two aims (paper, Section 4.2), a first metric up to a threshold and beyond it a second aim, and their notation,
 // which is the same on the command line, in the command language and in saved sessions.
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -27,12 +28,18 @@ struct SizeFunction {
   friend bool operator==(const SizeFunction&, const SizeFunction&) = default;
 };
 
+inline constexpr std::string_view kDensity = "density";  // the usual one of place_aims()
+
 /// Value of a star for a vertex (paper eq. 8): its least first metric where that is no more than the threshold; beyond the threshold all
-/// stars are better than those below, and the second aim counts: the least of another metric, or the density (eq. 6, 7).
+/// stars are better than those below, and the second aim counts: the least of another metric, or how near the vertex is to a place that it
+/// wants, as for the density (eq. 6, 7).
 struct CompositeTerms {
   double threshold = 0.7;
   std::variant<Metric, SizeFunction> second = SizeFunction{};
+  std::string_view place = kDensity;  // name of a row of place_aims(), where the second aim is no metric
   [[nodiscard]] const SizeFunction* size() const noexcept { return std::get_if<SizeFunction>(&second); }  // null: it is a metric
+  [[nodiscard]] std::string_view second_name() const;                                                     // notation of the second aim
+  [[nodiscard]] std::string size_text() const;  // notation of the size function; empty where none belongs to it
   friend bool operator==(const CompositeTerms&, const CompositeTerms&) = default;
 };
 
@@ -53,6 +60,16 @@ struct Guard {
   double floor;
   friend bool operator==(const Guard&, const Guard&) = default;
 };
+/// Guard as it is asked for.
+struct GuardRule {
+  Metric metric = Metric::MeanRatio;
+  std::optional<double> floor{};  // none: the least quality of the input's elements that can move
+  friend bool operator==(const GuardRule&, const GuardRule&) = default;
+};
+/// Words of a guard: "mean-ratio:input", "scaled-jacobian:0.2"; "off" for none.
+[[nodiscard]] std::string to_text(const std::optional<GuardRule>& rule);
+/// Reads the words of to_text(). Throws UsageError.
+[[nodiscard]] std::optional<GuardRule> parse_guard(std::string_view text);
 
 /// Phrase for titles: "mean-ratio > 0.7 · density h1".
 [[nodiscard]] std::string phrase(Metric first, const CompositeTerms& combination);

@@ -96,6 +96,10 @@ std::optional<SizeFormula> SizeField::formula() const {
   return SizeFormula{function_.kind, function_.point, least_distance_};
 }
 
+DensityTarget<Plane> SizeField::target(const PlanarView& mesh, PositionView positions, Index vertex) const {
+  return density_target_by(mesh, positions, vertex, [this](Index other, Vec3 place) { return at(other, place); });
+}
+
 double local_edge_length(const PlanarView& mesh, PositionView positions, Index vertex) {
   double sum = 0.0;
   std::size_t count = 0;

@@ -11,19 +11,22 @@
 #include "core/mesh/nodal_field.h"
 #include "core/mesh/position_view.h"
 #include "core/smooth/composite_objective.h"
-#include "core/smooth/composite_visit.h"
+#include "core/smooth/place_aim.h"
 
 namespace dmoscope {
 
-class SizeField {
+class SizeField final : public PlaceAim {
  public:
   /// Throws UsageError for a field that the mesh has not (it lists those there are), or that is no size anywhere.
   SizeField(std::shared_ptr<const InputMesh> input, SizeFunction function);
 
   /// Size h > 0, up to a factor, for `vertex` at `place`.
   [[nodiscard]] double at(Index vertex, Vec3 place) const;
-  /// Size function as plain data; none for a nodal field.
-  [[nodiscard]] std::optional<SizeFormula> formula() const;
+  [[nodiscard]] std::string_view name() const override { return kDensity; }
+  /// None for a nodal field.
+  [[nodiscard]] std::optional<SizeFormula> formula() const override;
+  /// Mean of the edge neighbours, weighted by the inverse of the size at their present positions.
+  [[nodiscard]] DensityTarget<Plane> target(const PlanarView& mesh, PositionView positions, Index vertex) const override;
   [[nodiscard]] const SizeFunction& function() const noexcept { return function_; }
   /// Note for a person ("depth is not positive at 12 vertices: ..."), usually empty.
   [[nodiscard]] const std::string& note() const noexcept { return note_; }

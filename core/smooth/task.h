@@ -17,7 +17,7 @@
 
 namespace dmoscope {
 
-class SizeField;
+class PlaceAim;
 
 /// Directions along which dvr relaxes: one per sweep for all vertices, drawn at random from a seed; or the axes of the mesh's plane, or of
 /// space, by turns.
@@ -46,7 +46,7 @@ struct SmoothingTask {
   SearchParameters search{};
   MethodOptions options{};
   std::optional<CompositeTerms> combination{};  // dmo and joint: `metric` is its first one
-  std::shared_ptr<const SizeField> size{};      // for a combination with a size function
+  std::shared_ptr<const PlaceAim> aim{};        // for a combination whose second aim is no metric
   std::optional<Guard> guard{};                 // metric that falls no further, whatever is raised
   bool then_joint = false;                      // whether a phase of joint moves may come, which is the run's
   bool then_mean = false;                       // whether a phase may come that raises the mean, see Sweep

@@ -1,6 +1,5 @@
 #include "core/target/target.h"
 
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -8,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/number_in.h"
 
 namespace dmoscope {
 
@@ -40,10 +40,8 @@ std::string quoted(const std::string& name) {
 }
 
 std::optional<double> number_in(std::string_view word) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc{} || end != word.data() + word.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
+  const std::optional<double> value = dmoscope::number_in<double>(word);
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 [[noreturn]] void refuse(std::string_view what, std::string_view why) {

@@ -42,6 +42,7 @@ RunView view_of(Run& run, bool percentiles) {
   view.sweep = run.sweep();
   view.phases = run.phases();
   if (view.moment.is_iteration_end()) view.joint = run.joint_iteration(view.moment.iteration);
+  view.aim = run.place_aim();
   view.size = run.size_field();
   view.guard = run.guard();
   view.visits_per_iteration = run.visits_per_iteration();

@@ -105,6 +105,7 @@ struct RunView {
   Sweep sweep;                                  // settings of the next visits
   RunPhases phases;                             // see Run
   std::shared_ptr<const JointIteration> joint;  // result of the iteration at whose end the run stands, if that was a joint move
+  std::shared_ptr<const PlaceAim> aim;          // see Run::place_aim
   std::shared_ptr<const SizeField> size;        // see Run::size_field
   std::optional<Guard> guard;                   // see Run::guard
   std::uint64_t visits_per_iteration = 0;

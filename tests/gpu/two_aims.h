@@ -50,7 +50,7 @@ inline void expect_same_combinations(const std::shared_ptr<Queue>& queue, const 
     SCOPED_TRACE(fmt::format("density {}", static_cast<int>(kind)));
     const SizeFunction size{kind, subject.input->mesh.positions[0] + Vec3{0.2, 0.1, 0.0}, {}};
     task.combination = {0.3, size};
-    task.size = std::make_shared<const SizeField>(subject.input, size);
+    task.aim = std::make_shared<const SizeField>(subject.input, size);
     expect_same_sweeps(queue, subject, task, sweeps);
   }
 }

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
+#include "core/base/unknown_value.h"
 #include "core/numeric/pack.h"
 #include "tests/support/meshes.h"
 
@@ -82,9 +83,23 @@ TEST(PowerMean, SlotsOfAPackGetTheBitsOfScalars) {
 }
 
 TEST(PowerMean, IsNamed) {
-  for (const MeanKind kind : kMeanKinds) EXPECT_EQ(parse_mean_kind(name(kind)), kind);
-  EXPECT_THROW((void)parse_mean_kind("median"), UsageError);
+  for (const MeanKind kind : kMeanKinds) EXPECT_EQ(parse_choice<MeanKind>("mean", name(kind), kMeanNames), kind);
+  EXPECT_THROW((void)parse_choice<MeanKind>("mean", "median", kMeanNames), UsageError);
 }
 
 }  // namespace
+TEST(PowerMean, TotalsAndSlopesAreThoseOfTheMean) {
+  for (const MeanKind kind : kMeanKinds) {
+    const auto total = [kind](double mean) { return PowerMean<double>::total_of(kind, mean, 5.0); };
+    PowerMean<double> five(kind);
+    five.join(is_product(kind) ? total(0.6) : total(0.6) - five.total());
+    EXPECT_NEAR(five.value(5.0), 0.6, 1e-15) << name(kind);
+    EXPECT_EQ(total(0.7) < total(0.6), has_falling_total(kind)) << name(kind);
+    EXPECT_NEAR(five.slope_of_total(5.0), std::abs(total(0.6001) - total(0.5999)) / 2e-4, 1e-4) << name(kind);
+    const auto term = [kind](double quality) { return PowerMean<double>(kind).term(quality); };
+    const double by_term = is_product(kind) ? 16.0 / term(0.6) : 1.0;
+    EXPECT_NEAR(PowerMean<double>::slope(kind, 1.0 / 0.6), by_term * std::abs(term(0.6001) - term(0.5999)) / 2e-4, 1e-4) << name(kind);
+  }
+}
+
 }  // namespace dmoscope

@@ -1,7 +1,5 @@
 // The guard: the least of the guarded metric never falls further, for any raised metric and any method.
 
-#include "core/run/guard.h"
-
 #include <algorithm>
 #include <memory>
 #include <string>
@@ -12,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "core/run/run.h"
+#include "core/smooth/composite_objective.h"
 #include "core/smooth/execution/method_table.h"
 #include "tests/support/meshes.h"
 #include "tests/support/volume_grids.h"

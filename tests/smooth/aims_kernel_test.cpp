@@ -219,7 +219,7 @@ TEST(CompositeKernel, FindsTheFirstBestOfAList) {
   for (const Cells cells : {Cells::Triangles, Cells::Quadrilaterals}) {
     const auto plane = testing::input(testing::lattice(7, 0.4, 47, cells)), hills = testing::input(testing::mapped(plane->mesh, hilly));
     for (const CompositeObjective& aims : kinds_of_aims(hills)) {
-      if (std::holds_alternative<std::shared_ptr<const SizeField>>(aims.second)) continue;
+      if (std::holds_alternative<std::shared_ptr<const PlaceAim>>(aims.second)) continue;
       compare_lists<Plane>(plane, aims, random, flat);
       compare_lists<Curved>(hills, aims, random, curved);
     }

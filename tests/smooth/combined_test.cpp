@@ -278,7 +278,7 @@ TEST(Density, IsOneAtTheWeightedMeanAndAHalfAMeanEdgeAway) {
   for (Index i = 1; i <= 4; ++i) testing::add(mesh, {0, i, i % 4 + 1});
   const auto rhombus = input(mesh);
   const SizeField size(rhombus, {SizeFunction::Kind::Distance, {2, -1, 0}, {}});
-  const DensityTarget<Plane> target = density_target(size, rhombus->planar_view(), rhombus->mesh.positions, 0);
+  const DensityTarget<Plane> target = size.target(rhombus->planar_view(), rhombus->mesh.positions, 0);
   // Weights: 1 over the distances 1, 2 sqrt 2, sqrt 17, 2.
   const double a = 1, b = 1 / std::sqrt(8.0), c = 1 / std::sqrt(17.0), d = 0.5, sum = a + b + c + d;
   const Point mean{(2 * a - 2 * c) / sum, (b - d) / sum};

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -147,6 +148,19 @@ TEST(SizeField, OfAPoint) {
   EXPECT_GT(near.at(0, {1.0, 1.0, 0.0}), 0.0);
   EXPECT_LT(far.at(0, {1.0, 1.0, 0.0}), std::numeric_limits<double>::infinity());
   EXPECT_EQ(SizeField(mesh, {}).at(0, {4.0, 5.0, 0.0}), 1.0);
+}
+
+TEST(PlaceAims, EachIsWrittenAndMadeByItsRow) {
+  const auto mesh = input(lattice(3, 0.0, 1));
+  for (const PlaceAimInfo& row : place_aims()) {
+    const std::string text = fmt::format("mean-ratio:0.5:{}", row.name);
+    const auto [first, terms] = parse_composite(text, row.sized ? "h1:1,2" : "");
+    EXPECT_EQ(to_text(first, terms), text);
+    EXPECT_EQ(terms.size_text(), row.sized ? "h1:1,2" : "");
+    ASSERT_NE(terms.size(), nullptr);
+    EXPECT_EQ(row.make(mesh, *terms.size())->name(), row.name);
+  }
+  EXPECT_EQ(find_place_aim("mean-ratio"), nullptr);
 }
 
 TEST(SizeCorrelation, IsPearsons) {

@@ -53,7 +53,7 @@ SmoothingTask task_of(const RunView& run, const Frame& frame) {
   task.search = p.search;
   task.options = p.options;
   task.combination = p.combination;
-  task.size = run.size;
+  task.aim = run.aim;
   task.guard = run.guard;
   task.then_mean = p.then_mean.has_value();
   task.slides = lets_slide(*frame.input, p.standing());
@@ -260,7 +260,7 @@ Inspection inspect(const SessionView& session, Index vertex) {
   try {
     gather_star(inspection, frame, vertex);
     const Sweep sweep = sweep_of(run, frame.moment, *frame.input);
-    const auto composite = composite_objective_of_visit(run.parameters.metric, run.parameters.combination, run.size, sweep, run.guard);
+    const auto composite = composite_objective_of_visit(run.parameters.metric, run.parameters.combination, run.aim, sweep, run.guard);
     if (!composite && !method_info(run.parameters.method).searches_grid) inspection.other_method = run.parameters.method;
     if (slides) {
       SurfaceVisit visit = trace_surface_visit(task_of(run, frame), frame.positions, vertex, sweep, composite);

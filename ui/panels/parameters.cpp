@@ -20,12 +20,13 @@ namespace {
 using SizeKind = SizeFunction::Kind;
 
 void say(PanelContext& context, Metric first, const CompositeTerms& combination) {
-  const SizeFunction* size = combination.size();
-  const std::string text = to_text(first, combination);
-  context.send(size == nullptr ? fmt::format("combine {}", text) : fmt::format("combine {} {}", text, quote_word(to_text(*size))));
+  const std::string size = combination.size_text();
+  context.send(fmt::format("combine {}{}", to_text(first, combination), size.empty() ? "" : " " + quote_word(size)));
 }
 
-CompositeTerms with(const CompositeTerms& combination, const SizeFunction& size) { return {combination.threshold, size}; }
+CompositeTerms with(const CompositeTerms& combination, const SizeFunction& size) {
+  return {combination.threshold, size, combination.place};
+}
 
 /// Middle of the mesh: the point of a size function until one is chosen.
 Vec3 middle(const InputMesh& input) {
@@ -48,15 +49,14 @@ CompositeTerms usual(const PanelContext& context, const RunParameters& p) {
 void draw_second(PanelContext& context, const RunParameters& p) {
   labelled(context, "second aim", "the aim once the first metric is above its threshold", metric_combo_width(context));
   const auto* metric = std::get_if<Metric>(&p.combination->second);
-  Combo combo(context, "second-aim", metric != nullptr ? metric_title(*metric) : "Density");
+  Combo combo(context, "second-aim", metric != nullptr ? metric_title(*metric) : std::string(find_place_aim(p.combination->place)->title));
   if (!combo.open()) return;
-  if (!moves_jointly(p) &&
-      combo.entry("density", "Density", metric == nullptr,
-                  "element sizes by a size function: each vertex moves towards the mean of its neighbours, weighted by 1 / size"))
-    say(context, p.metric, with(*p.combination, {}));
+  for (const PlaceAimInfo& one : place_aims())
+    if (!moves_jointly(p) && combo.entry(one.name, one.title, metric == nullptr && p.combination->place == one.name, std::string(one.doc)))
+      say(context, p.metric, {p.combination->threshold, SizeFunction{}, one.name});
   for (const Metric one : context.derived.metrics)
     if (one != p.metric && combo.entry(info(one).name, metric_title(one), metric != nullptr && *metric == one))
-      say(context, p.metric, {p.combination->threshold, one});
+      say(context, p.metric, {p.combination->threshold, one, {}});
 }
 
 void draw_point(PanelContext& context, const SizeFunction& size) {
@@ -154,9 +154,9 @@ void draw_composite(PanelContext& context, const RunView& run) {
   ImGui::InputDouble("##threshold", &threshold, 0, 0, "%.4g");
   context.items.record_last("threshold");
   if (ImGui::IsItemDeactivatedAfterEdit() && threshold != p.combination->threshold)
-    say(context, p.metric, {threshold, p.combination->second});
+    say(context, p.metric, {threshold, p.combination->second, p.combination->place});
   draw_second(context, p);
-  if (const SizeFunction* size = p.combination->size()) draw_size(context, run, *size);
+  if (run.size) draw_size(context, run, *p.combination->size());
 }
 
 constexpr int kLargestSeed = 1 << 30;  // largest seed that can be entered

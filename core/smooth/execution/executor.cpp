@@ -10,7 +10,7 @@
 #include "core/quality/metric_phrase.h"
 #include "core/smooth/execution/choose_executor.h"
 #include "core/smooth/execution/method_table.h"
-#include "core/smooth/size_field.h"
+#include "core/smooth/place_aim.h"
 
 namespace dmoscope {
 
@@ -36,7 +36,7 @@ std::string obstacle(const Acceleration& acceleration, const SmoothingTask& task
   if (task.combination && task.then_mean) return "a phase that raises the mean keeps two minima on the CPU alone";
   if (task.guard) return fmt::format("the guard on {} is kept on the CPU alone (guard off)", metric_phrase(task.guard->metric));
   if (task.slides || task.input->is_surface()) return "vertices slide on the CPU alone";
-  if (task.size && !task.size->formula()) return "sizes out of a nodal field, or on the Earth, are looked up on the CPU alone";
+  if (task.aim && !task.aim->formula()) return "sizes out of a nodal field, or on the Earth, are looked up on the CPU alone";
   if (task.search.precision == Precision::Double && !task.input->is_volume() && !task.combination && is_built_in(task.metric))
     return "the search in double runs on the CPU alone";
   if (task.input->geometry.plane.period > 0.0) return "meshes that go round in longitude run on the CPU alone";

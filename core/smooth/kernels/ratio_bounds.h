@@ -154,7 +154,7 @@ class RatioBounds {
   void set_needs_of_sum(double least, double sum) {
     set_least(least);
     const double room = (static_cast<double>(elements_) + 8.0) * 0x1p-22 * (sizes_ + 1.0);
-    if (mean_ != MeanKind::Geometric) sum_ = static_cast<float>(sum + paid_ - room);
+    if (!is_product(mean_)) sum_ = static_cast<float>(sum + paid_ - room);
   }
 
   /// Returns whether a place may reach what is needed. `d`: from the centre.
@@ -280,8 +280,8 @@ class RatioBounds {
   static double rank_of_ratio(double ratio) { return kSpace ? ratio * ratio * ratio : ratio; }
   /// Term of a quality in the mean's sum, a rising function.
   [[nodiscard]] double sum_of(double quality) const {
-    if (mean_ == MeanKind::Harmonic) return -1.0 / quality;
-    return mean_ == MeanKind::InverseSquare ? -1.0 / (quality * quality) : quality;
+    const double sum = PowerMean<D>::total_of(mean_, D(quality), 1.0).get(0);
+    return has_falling_total(mean_) ? -sum : sum;
   }
   /// Line that is never below sum_of() the mean ratio of a rank: at_zero + slope * rank.
   struct Tangent {
@@ -292,10 +292,7 @@ class RatioBounds {
     const double at = rank > kLeastTangent ? rank : kLeastTangent;
     const double quality = kSpace ? scalar::refined_cube_root(at, scalar::rough_cube_root(at)) : at;
     const double by_rank = kSpace ? 1.0 / (3.0 * quality * quality) : 1.0;  // slope of the quality
-    const double by_quality = mean_ == MeanKind::Harmonic        ? 1.0 / (quality * quality)
-                              : mean_ == MeanKind::InverseSquare ? 2.0 / (quality * quality * quality)
-                                                                 : 1.0;
-    const double slope = by_quality * by_rank;
+    const double slope = (is_product(mean_) ? 1.0 : PowerMean<D>::slope(mean_, D(1.0 / quality)).get(0)) * by_rank;
     return {sum_of(quality) - slope * at, slope};
   }
   /// Rank of v and s.

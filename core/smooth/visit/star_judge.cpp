@@ -82,13 +82,6 @@ std::array<MetricFunctions<Frame>, kMetricCount> make_table() {
   return table;
 }
 
-/// Sum of the terms of qualities whose mean is `mean`: see PowerMean.
-double total_of_mean(MeanKind kind, double mean, double count) {
-  if (kind == MeanKind::Arithmetic) return mean * count;
-  if (kind == MeanKind::Harmonic) return count / mean;
-  return kind == MeanKind::InverseSquare ? count / (mean * mean) : mean;
-}
-
 /// Rising function that is above 0: formulas may be below.
 double positive(double value) { return value > 0.0 ? 1.0 + value : 1.0 / (1.0 - value); }
 
@@ -104,8 +97,8 @@ template const MetricFunctions<Plane>& metric_functions<Plane>(Metric);
 template const MetricFunctions<Space>& metric_functions<Space>(Metric);
 template const MetricFunctions<Curved>& metric_functions<Curved>(Metric);
 
-CompositeObjective composite_objective(Metric first, const CompositeTerms& combination, std::shared_ptr<const SizeField> size) {
-  if (size) return {first, combination.threshold, std::move(size), {}};
+CompositeObjective composite_objective(Metric first, const CompositeTerms& combination, std::shared_ptr<const PlaceAim> aim) {
+  if (aim) return {first, combination.threshold, std::move(aim), {}};
   return {first, combination.threshold, std::get<Metric>(combination.second), {}};
 }
 
@@ -113,7 +106,7 @@ CompositeObjective single_objective(Metric metric) { return {metric, std::numeri
 
 CompositeObjective objective_of(const SmoothingTask& task) {
   CompositeObjective objective =
-      task.combination ? composite_objective(task.metric, *task.combination, task.size) : single_objective(task.metric);
+      task.combination ? composite_objective(task.metric, *task.combination, task.aim) : single_objective(task.metric);
   objective.guard = task.guard;
   return objective;
 }
@@ -131,11 +124,11 @@ CompositeObjective raise_mean_in(const Sweep& sweep, Metric metric, const std::o
 }
 
 std::optional<CompositeObjective> composite_objective_of_visit(Metric metric, const std::optional<CompositeTerms>& combination,
-                                                               const std::shared_ptr<const SizeField>& size, const Sweep& sweep,
+                                                               const std::shared_ptr<const PlaceAim>& aim, const Sweep& sweep,
                                                                const std::optional<Guard>& guard) {
   if (sweep.floor) return raise_mean_in(sweep, metric, combination, guard);
   if (!combination) return std::nullopt;
-  CompositeObjective objective = composite_objective(metric, *combination, size);
+  CompositeObjective objective = composite_objective(metric, *combination, aim);
   objective.guard = guard;
   return objective;
 }
@@ -145,8 +138,8 @@ std::optional<PlainComposite> plain_composite(const CompositeObjective& composit
   if (const auto* metric = std::get_if<Metric>(&composite.second)) {
     aims.second = PlainComposite::Second::Metric;
     aims.metric = *metric;
-  } else if (const auto* size = std::get_if<std::shared_ptr<const SizeField>>(&composite.second)) {
-    const auto formula = (*size)->formula();
+  } else if (const auto* aim = std::get_if<std::shared_ptr<const PlaceAim>>(&composite.second)) {
+    const auto formula = (*aim)->formula();
     if (!formula) return std::nullopt;
     aims.second = PlainComposite::Second::Density;
     aims.size = *formula;
@@ -154,10 +147,6 @@ std::optional<PlainComposite> plain_composite(const CompositeObjective& composit
     aims.mean = std::get<MeanOfStar>(composite.second).kind;
   }
   return aims;
-}
-
-DensityTarget<Plane> density_target(const SizeField& size, const PlanarView& mesh, PositionView positions, Index vertex) {
-  return density_target_by(mesh, positions, vertex, [&size](Index other, Vec3 place) { return size.at(other, place); });
 }
 
 bool is_for_kernels(const CompositeObjective& composite) {
@@ -308,10 +297,10 @@ template class StarScore<Curved>;
 
 template <class Frame>
 DensityTarget<Frame> StarJudge<Frame>::density_of(const Star& star, PositionView positions, Index vertex) const {
-  const auto* size = std::get_if<std::shared_ptr<const SizeField>>(&composite_.second);
-  if (size == nullptr) return {};
+  const auto* aim = std::get_if<std::shared_ptr<const PlaceAim>>(&composite_.second);
+  if (aim == nullptr) return {};
   if constexpr (std::is_same_v<Frame, Plane>) {
-    return density_target(**size, view_, positions, vertex).in_units(star.scale);
+    return (*aim)->target(view_, positions, vertex).in_units(star.scale);
   }
   return {};  // sizes are for planar meshes: see require_possible()
 }
@@ -320,8 +309,8 @@ DensityTarget<Frame> StarJudge<Frame>::density_of(const Star& star, PositionView
 template <class Frame>
 double StarJudge<Frame>::second(PositionView positions, Index vertex, Vec3 place) const {
   if constexpr (std::is_same_v<Frame, Plane>) {
-    if (const auto* size = std::get_if<std::shared_ptr<const SizeField>>(&composite_.second))
-      return density_target(**size, view_, positions, vertex).density(view_.frame.offset(place, positions[vertex]));
+    if (const auto* aim = std::get_if<std::shared_ptr<const PlaceAim>>(&composite_.second))
+      return (*aim)->target(view_, positions, vertex).density(view_.frame.offset(place, positions[vertex]));
   }
   if (const auto* metric = std::get_if<Metric>(&composite_.second)) return state(*metric, positions, vertex, place).quality;
   return mean(positions, vertex, place);
@@ -368,9 +357,10 @@ double StarJudge<Frame>::mean(PositionView positions, Index vertex, Vec3 place) 
   if (other == kNoIndex) return own;
   const MeanKind kind = std::get<MeanOfStar>(composite_.second).kind;
   const auto size = [this](Index v) { return static_cast<double>(view_.star(v).size()); };
-  PowerMean<double> both(kind);
-  both.join(total_of_mean(kind, own, size(vertex)));
-  both.join(total_of_mean(kind, own_mean(positions, other, pairs_->place_of_follower(vertex, place)), size(other)));
+  using Mean = PowerMean<double>;
+  Mean both(kind);
+  both.join(Mean::total_of(kind, own, size(vertex)));
+  both.join(Mean::total_of(kind, own_mean(positions, other, pairs_->place_of_follower(vertex, place)), size(other)));
   return both.value(size(vertex) + size(other));
 }
 

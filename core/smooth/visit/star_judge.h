@@ -12,7 +12,7 @@
 #include "core/smooth/composite_visit.h"
 #include "core/smooth/defined_state.h"
 #include "core/smooth/kernels/composite_kernel.h"
-#include "core/smooth/size_field.h"
+#include "core/smooth/place_aim.h"
 #include "core/smooth/smoother.h"
 #include "core/smooth/visit/star_pieces.h"
 
@@ -30,7 +30,7 @@ struct MeanOfStar {
 struct CompositeObjective {
   Metric first = Metric::MeanRatio;
   double threshold = 0.7;  // at least 0
-  std::variant<Metric, std::shared_ptr<const SizeField>, MeanOfStar> second = MeanOfStar{};
+  std::variant<Metric, std::shared_ptr<const PlaceAim>, MeanOfStar> second = MeanOfStar{};
   std::optional<Guard> guard{};  // for stars without inverted elements
 
   [[nodiscard]] bool raise_mean() const noexcept { return std::holds_alternative<MeanOfStar>(second); }
@@ -40,9 +40,8 @@ struct CompositeObjective {
 
 /// Objective with a metric as the only aim.
 [[nodiscard]] CompositeObjective single_objective(Metric metric);
-/// Objective of a combination; `size`: its size function, null where the second aim is a metric.
-[[nodiscard]] CompositeObjective composite_objective(Metric first, const CompositeTerms& combination,
-                                                     std::shared_ptr<const SizeField> size);
+/// Objective of a combination; `aim`: its second aim, null where that is a metric.
+[[nodiscard]] CompositeObjective composite_objective(Metric first, const CompositeTerms& combination, std::shared_ptr<const PlaceAim> aim);
 /// Objective of a phase that raises a mean of `metric` and keeps its least from falling below `floor`.
 [[nodiscard]] CompositeObjective raise_mean_above(Metric metric, double floor, MeanKind kind = MeanKind::Harmonic);
 /// Objective of a sweep in that phase: with the sweep's floors, of which a combination has two.
@@ -56,8 +55,8 @@ struct CompositeObjective {
 /// Two aims that a visit has; none: one metric alone, maybe with a guard.
 [[nodiscard]] std::optional<CompositeObjective> composite_objective_of_visit(Metric metric,
                                                                              const std::optional<CompositeTerms>& combination,
-                                                                             const std::shared_ptr<const SizeField>& size,
-                                                                             const Sweep& sweep, const std::optional<Guard>& guard = {});
+                                                                             const std::shared_ptr<const PlaceAim>& aim, const Sweep& sweep,
+                                                                             const std::optional<Guard>& guard = {});
 
 /// Star of a vertex in double: Frame is Plane, Space or Curved.
 template <class Frame>
@@ -92,9 +91,6 @@ template <class Frame>
 /// Returns whether all of its metrics are built in, so that kernels know them.
 [[nodiscard]] bool is_for_kernels(const CompositeObjective& composite);
 
-/// Mean of the edge neighbours, weighted by the inverse of the size at their present positions.
-[[nodiscard]] DensityTarget<Plane> density_target(const SizeField& size, const PlanarView& mesh, PositionView positions, Index vertex);
-
 /// Stars by metrics that are defined by formulas or targets; none where the metric is built in.
 template <class Frame>
 struct DefinedStars {
@@ -122,7 +118,7 @@ template <class Frame>
 void take_star(CompositeSearch<Frame>& task, const CompositeObjective& composite, const JudgedStar<Frame>& star,
                const DensityTarget<Frame>& target) {
   task.star = lists_of(star);
-  if (!std::holds_alternative<std::shared_ptr<const SizeField>>(composite.second)) return;
+  if (!std::holds_alternative<std::shared_ptr<const PlaceAim>>(composite.second)) return;
   task.second = CompositeSearch<Frame>::Second::Density;
   task.wanted = target.offset;
   task.edge = target.edge;

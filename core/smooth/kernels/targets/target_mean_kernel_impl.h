@@ -192,46 +192,21 @@ class StarMean {
       least = min(least, quality);
       if (!xsimd::any(least >= out)) return false;
       mean.add(quality);
-      const D inverse = D(1.0) / quality;
-      switch (task_.mean) {
-        case MeanKind::Arithmetic:
-          slopes = slopes + D(1.0);
-          break;
-        case MeanKind::Geometric:
-          slopes = slopes + inverse;
-          break;
-        case MeanKind::InverseSquare:
-          slopes = slopes + D(2.0) * inverse * inverse * inverse;
-          break;
-        case MeanKind::Harmonic:
-          slopes = slopes + inverse * inverse;
-          for (const double step : kMeanSteps) near = min(near, xsimd::abs(quality - D(step)));
-          break;
-      }
+      slopes = slopes + PowerMean<D>::slope(task_.mean, D(1.0) / quality);
+      if (task_.mean == MeanKind::Harmonic)
+        for (const double step : kMeanSteps) near = min(near, xsimd::abs(quality - D(step)));
       return true;
     });
-    return {least, rising(mean.total()), xsimd::select(near > D(task_.doubt), doubt_of(mean.total(), slopes), D(kUnknown))};
+    return {least, rising(mean.total()), xsimd::select(near > D(task_.doubt), doubt_of(mean, slopes), D(kUnknown))};
   }
   /// Sum of the mean's terms as a number that rises with the mean.
-  [[nodiscard]] D rising(const D& total) const {
-    return task_.mean == MeanKind::Harmonic || task_.mean == MeanKind::InverseSquare ? D(0.0) - total : total;
-  }
+  [[nodiscard]] D rising(const D& total) const { return has_falling_total(task_.mean) ? D(0.0) - total : total; }
   /// Most that rounding may change a sum, both here and where the plain search adds the mean to the threshold. `slopes`: sum of the slopes
   /// by its elements' qualities, of a product over it.
-  [[nodiscard]] D doubt_of(const D& total, const D& slopes) const {
-    const D by_elements = D(2.0 * task_.doubt) * slopes, rounding = D(1e-13) * xsimd::abs(total);
-    const D worth(8e-15 * (2.0 + floor())), count(count_);
-    switch (task_.mean) {
-      case MeanKind::Arithmetic:
-        return by_elements + rounding + worth * count;
-      case MeanKind::Geometric:
-        return by_elements * total + rounding + worth;
-      case MeanKind::InverseSquare:
-        return by_elements + rounding + D(2.0) * worth * total * xsimd::sqrt(total / count);
-      case MeanKind::Harmonic:
-        break;
-    }
-    return by_elements + rounding + worth * total * total / count;
+  [[nodiscard]] D doubt_of(const PowerMean<D>& mean, const D& slopes) const {
+    const D by_elements = D(2.0 * task_.doubt) * slopes, rounding = D(1e-13) * xsimd::abs(mean.total());
+    const D worth(8e-15 * (2.0 + floor()));
+    return (is_product(task_.mean) ? by_elements * mean.total() : by_elements) + rounding + worth * mean.slope_of_total(count_);
   }
 
   void search_level(double omega) {
@@ -254,7 +229,7 @@ class StarMean {
       return {task_.box.x, task_.box.y, 0.0};
   }
   void set_needs() {
-    if (task_.mean == MeanKind::Geometric)
+    if (is_product(task_.mean))
       bounds_.set_needs(floor() - task_.doubt, 0.0);
     else
       bounds_.set_needs_of_sum(floor() - task_.doubt, best_ - 4.0 * best_doubt_);

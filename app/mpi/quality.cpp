@@ -16,7 +16,6 @@
 #include "app/mpi/verbs.h"
 #include "core/base/error.h"
 #include "core/base/thread_pool.h"
-#include "mpi/smooth/shared_left_inverted.h"
 #include "mpi/smooth/shared_mesh.h"
 #include "mpi/smooth/shared_statistics.h"
 

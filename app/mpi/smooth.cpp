@@ -25,7 +25,6 @@
 #include "core/run/recipe.h"
 #include "core/smooth/execution/executor.h"
 #include "core/smooth/execution/method_table.h"
-#include "mpi/smooth/shared_left_inverted.h"
 #include "mpi/smooth/shared_mesh.h"
 
 namespace dmoscope::app {
@@ -164,7 +163,7 @@ int smooth(const World& world, const SharedSmoothOptions& options) {
   run.rest();  // frees the smoother's memory for writing
   for (const std::string& sentence : write_results(world, options, run, mesh, *file))
     warn(fmt::format("{}: {}", options.output.string(), sentence));
-  std::optional<LeftInverted> left = find_left_inverted(run, *mesh.share);
+  std::optional<LeftInverted> left = find_left_inverted(run);
   if (left) warn(left->sentence());
 
   const std::uint64_t inside_before = count_inverted(mesh.input->quality_context(), mesh.input->mesh.positions, *mesh.share).inside_alone;

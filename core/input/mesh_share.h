@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "core/mesh/colouring.h"
 #include "core/mesh/faces.h"
@@ -43,6 +45,8 @@ class MeshShare {
   [[nodiscard]] virtual bool any(bool here) const = 0;
   [[nodiscard]] virtual double greatest(double here) const = 0;
   [[nodiscard]] virtual std::uint64_t sum(std::uint64_t here) const = 0;
+  /// Texts of all processes, in the same order on each.
+  [[nodiscard]] virtual std::vector<std::string> all_of(const std::string& here) const = 0;
   /// Joins the parts of all processes, on each of them.
   virtual void join(RegionParts& parts) const = 0;
   /// Turns elements over as normalise_orientation() does; returns the number turned here. `faces`: null for a planar mesh.
@@ -57,5 +61,8 @@ class MeshShare {
   [[nodiscard]] virtual Statistics statistics(const QualityContext& context, std::span<const Vec3> positions, Metric metric,
                                               std::span<const Index> immovable, ThreadPool* pool) const = 0;
 };
+
+/// Counts the inverted elements of the whole mesh, by its numbers; all processes together.
+[[nodiscard]] InvertedCount count_inverted(const QualityContext& context, PositionView positions, const MeshShare& share);
 
 }  // namespace dmoscope

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cstring>
 #include <utility>
 
 #include "core/input/element_findings.h"
@@ -24,6 +26,22 @@ Topology volume_topology(Mesh& mesh, const Geometry& geometry, const MeshShare& 
 }
 
 }  // namespace
+
+InvertedCount count_inverted(const QualityContext& context, PositionView positions, const MeshShare& share) {
+  InvertedCount here;
+  for (Index e = 0; e < context.mesh.elements.size(); ++e)
+    if (share.counts(e)) here.add(context, positions, e, share.element_numbers()[e]);
+  InvertedCount all{share.sum(here.all), share.sum(here.inside_alone)};
+  auto& first = here.first;
+  for (const std::string& bytes : share.all_of({reinterpret_cast<const char*>(first.data()), first.size() * sizeof(first[0])})) {
+    first.resize(bytes.size() / sizeof(first[0]));
+    std::memcpy(first.data(), bytes.data(), bytes.size());
+    all.first.insert(all.first.end(), first.begin(), first.end());
+  }
+  std::ranges::sort(all.first, {}, &InvertedCount::Element::number);
+  all.first.resize(std::min(all.first.size(), InvertedCount::kMostNamed));
+  return all;
+}
 
 std::shared_ptr<const InputMesh> prepare_share(Mesh mesh, const Geometry& geometry, std::shared_ptr<const MeshShare> share,
                                                std::filesystem::path path, Progress& progress) {

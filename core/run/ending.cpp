@@ -1,11 +1,13 @@
 #include "core/run/ending.h"
 
 #include <cmath>
+#include <cstring>
 #include <tuple>
 
 #include <fmt/format.h>
 
 #include "core/base/number_text.h"
+#include "core/input/mesh_share.h"
 #include "core/mesh/geographic.h"
 #include "core/smooth/execution/method_table.h"
 
@@ -21,33 +23,74 @@ std::string LeftInverted::sentence() const {
   return why_fixed.empty() ? text + "." : fmt::format("{}; {}.", text, why_fixed);
 }
 
-std::optional<LeftInverted> find_left_inverted(const Run& run) {
+namespace {
+
+/// Examples that one process knows; numbers are those of the whole mesh. Plain data, which processes exchange as bytes.
+struct Examples {
+  double jacobian = 1.0;
+  std::uint64_t element = kNoIndex, vertex = kNoIndex, around = 0, fixed = 0;
+  bool inverted_inside = false;
+  Vec3 inside{}, place{};
+};
+
+Examples examples_here(const Run& run, std::string& why_fixed) {
   const InputMesh& input = run.input();
+  const MeshShare* const share = input.share.get();
   const QualityContext context = input.quality_context();
   const auto positions = run.positions();
-  LeftInverted found;
-  double least = 0.0;
+  Examples found;
+  Index worst = kNoIndex, vertex = kNoIndex;
   std::vector<Index> around(positions.size());
   for (Index e = 0; e < input.mesh.elements.size(); ++e) {
     const double jacobian = smallest_jacobian(context, positions, e) / input.reference_measure[e];
     if (!(jacobian <= 0.0)) continue;
-    found.all.add(context, positions, e, e);
-    if (found.all.all == 1 || jacobian < least) {
-      least = jacobian;
-      found.element = e;
-    }
     for (const Index v : input.mesh.elements.corners(e)) ++around[v];
+    if ((share == nullptr || share->counts(e)) && jacobian < found.jacobian) worst = e, found.jacobian = jacobian;
   }
-  if (found.all.all == 0) return std::nullopt;
   const auto rank = [&](Index v) { return std::tuple(around[v], run.fixed()[v]); };
-  found.inside = inverted_inside(context, positions, found.element);
-  if (found.inside) found.inside = in_file(input.mesh, *found.inside);
-  found.vertex = 0;
-  for (Index v = 1; v < around.size(); ++v)
-    if (rank(v) > rank(found.vertex)) found.vertex = v;
-  found.around = around[found.vertex];
-  found.place = place_in_file(input.mesh, found.vertex, positions[found.vertex]);
-  found.why_fixed = run.why_fixed(found.vertex);
+  for (Index v = 0; v < around.size(); ++v)
+    if ((share == nullptr || share->owns(v)) && (vertex == kNoIndex || rank(v) > rank(vertex))) vertex = v;
+  if (worst != kNoIndex) {
+    const auto inside = inverted_inside(context, positions, worst);
+    found.element = share != nullptr ? share->element_numbers()[worst] : worst;
+    found.inverted_inside = inside.has_value();
+    if (inside) found.inside = in_file(input.mesh, *inside);
+  }
+  if (vertex != kNoIndex) {
+    found.vertex = share != nullptr ? share->vertex_numbers()[vertex] : vertex;
+    std::tie(found.around, found.fixed) = rank(vertex);
+    found.place = place_in_file(input.mesh, vertex, positions[vertex]);
+    why_fixed = run.why_fixed(vertex);
+  }
+  return found;
+}
+
+Index as_index(std::uint64_t number) { return number < kNoIndex ? static_cast<Index>(number) : kNoIndex; }
+
+}  // namespace
+
+std::optional<LeftInverted> find_left_inverted(const Run& run) {
+  const QualityContext context = run.input().quality_context();
+  const MeshShare* const share = run.input().share.get();
+  LeftInverted found;
+  found.all = share != nullptr ? count_inverted(context, run.positions(), *share) : count_inverted(context, run.positions());
+  if (found.all.all == 0) return std::nullopt;
+  std::string why;
+  const Examples here = examples_here(run, why);
+  const std::string bytes = std::string(reinterpret_cast<const char*>(&here), sizeof(here)) + why;
+  Examples worst, first;
+  for (const std::string& each : share != nullptr ? share->all_of(bytes) : std::vector{bytes}) {
+    Examples there;
+    std::memcpy(&there, each.data(), sizeof(there));
+    if (std::tuple(there.jacobian, there.element) < std::tuple(worst.jacobian, worst.element)) worst = there;
+    if (std::tuple(first.around, first.fixed, there.vertex) < std::tuple(there.around, there.fixed, first.vertex))
+      first = there, found.why_fixed = each.substr(sizeof(there));
+  }
+  found.element = as_index(worst.element);
+  if (worst.inverted_inside) found.inside = worst.inside;
+  found.vertex = as_index(first.vertex);
+  found.around = static_cast<Index>(first.around);
+  found.place = first.place;
   return found;
 }
 

@@ -149,6 +149,12 @@ std::unique_ptr<Smoother> make_halo_smoother(const World& world, const HaloPlan&
 RankShare::RankShare(const World& world, Share share)
     : world_(world), share_(std::move(share)), halo_(world, share_), statistics_(world, share_) {}
 
+std::vector<std::string> RankShare::all_of(const std::string& here) const {
+  std::vector<std::string> all(static_cast<std::size_t>(world_.size()), here);
+  for (int rank = 0; rank < world_.size(); ++rank) world_.broadcast(all[static_cast<std::size_t>(rank)], rank);
+  return all;
+}
+
 void RankShare::join(RegionParts& parts) const {
   const auto on_all = [this](auto& values) {
     values = world_.gather(values);

@@ -60,6 +60,7 @@ class RankShare final : public MeshShare {
   [[nodiscard]] bool any(bool here) const override { return world_.any(here); }
   [[nodiscard]] double greatest(double here) const override { return world_.greatest(here); }
   [[nodiscard]] std::uint64_t sum(std::uint64_t here) const override { return world_.sum(here); }
+  [[nodiscard]] std::vector<std::string> all_of(const std::string& here) const override;
   void join(RegionParts& parts) const override;
   Index orient(Mesh& mesh, const Geometry& geometry, const Topology& topology, const FaceNeighbours* faces) const override;
   [[nodiscard]] Colouring colour(const Mesh& mesh, const Geometry& geometry, const Topology& topology, std::span<const std::uint8_t> fixed,

@@ -5,8 +5,8 @@
 
 #include "core/base/same_bits.h"
 #include "core/input/mesh_region.h"
+#include "core/run/ending.h"
 #include "core/run/run.h"
-#include "mpi/smooth/shared_left_inverted.h"
 #include "tests/mpi/blocks.h"
 #include "tests/support/inside.h"
 #include "tests/support/meshes.h"
@@ -60,7 +60,7 @@ void compare(const World& world, const Sample& sample, const RunParameters& para
   mine.iterate(iterations, progress);
   expect_same_records(mine.history().records(), theirs.history().records());
   expect_same_positions(mesh, mine, theirs);
-  const auto left = find_left_inverted(mine, *mesh.share);
+  const auto left = find_left_inverted(mine);
   const auto left_there = find_left_inverted(theirs);
   ASSERT_EQ(left.has_value(), left_there.has_value());
   if (left) {

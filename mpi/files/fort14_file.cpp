@@ -68,32 +68,19 @@ NumberLookup look_up_numbers(const World& world, std::span<const std::int64_t> n
   return lookup;
 }
 
-class Fort14File final : public TextMeshFile {
+class Fort14File final : public CountedMeshFile {
  public:
   Fort14File(const World& world, const std::filesystem::path& path)
-      : TextMeshFile(world, path, {.components = 2, .syntax = kFort14Syntax}) {}
+      : CountedMeshFile(world, path, {.components = 2, .syntax = kFort14Syntax}) {}
 
   MeshBlock read(const FieldFilter& filter) override {
-    const RangeFile& file = open();
-    world().together([&] { read_head(file); });
-    const LineBlock mine = lines(file);
-    const Ranges data = world().ranges(count_data_lines(mine.text, '\0'));
-    first_ = data.begin(world().rank());
-    world().together([&] {
-      if (data.size() < nodes_ + elements_)
-        throw InputError(name(), 0, fmt::format("the file ends before its {} vertices and {} elements", nodes_, elements_));
-    });
+    const LineBlock mine = read_body("elements");
     Parsed parsed;
     world().together([&] { parsed = parse(mine); });
-    const Strings strings = read_strings(file, mine);
+    const Strings strings = read_strings(mine);
     close();
 
-    MeshBlock block;
-    block.positions = std::move(parsed.positions);
-    block.kinds = std::move(parsed.kinds);
-    block.vertices = world().ranges(block.positions.size());
-    block.elements = world().ranges(block.kinds.size());
-    require_counts(block, nodes_, elements_);
+    MeshBlock block = block_of(std::move(parsed.positions), std::move(parsed.kinds));
     if (filter.wants("depth", Field::On::Vertices)) block.fields.push_back({"depth", Field::On::Vertices, std::move(parsed.depths)});
     resolve(mine, parsed, strings, block);
     return block;
@@ -114,33 +101,19 @@ class Fort14File final : public TextMeshFile {
     std::vector<std::int64_t> numbers;
   };
 
-  [[nodiscard]] LineBlock lines(const RangeFile& file) const override { return read_lines(world(), file, body_, false); }
-
-  void read_head(const RangeFile& file) {
-    with_tokens(file.read(0, kLongestHead), 1, [&](Tokenizer& tokens) {
-      static_cast<void>(tokens.rest_of_line());
-      if (tokens.at_end()) tokens.fail_at_end("number of elements");
-      elements_ = read_count(tokens, "number of elements");
-      nodes_ = read_count(tokens, "number of vertices");
-      tokens.end_line();
-      body_ = tokens.offset();
-    });
-  }
-
-  /// Visits the rank's lines by their numbers among all lines after the head, until visit returns false.
-  template <class Visit>
-  void each_line(const LineBlock& lines, const Visit& visit) const {
-    with_tokens(lines.text, lines.first_line, [&](Tokenizer& tokens) {
-      for (std::uint64_t i = first_; !tokens.at_end() && visit(tokens, i); ++i) {
-      }
-    });
+  void read_head(Tokenizer& tokens, std::uint64_t& nodes, std::uint64_t& elements) override {
+    static_cast<void>(tokens.rest_of_line());
+    if (tokens.at_end()) tokens.fail_at_end("number of elements");
+    elements = read_count(tokens, "number of elements");
+    nodes = read_count(tokens, "number of vertices");
+    tokens.end_line();
   }
 
   [[nodiscard]] Parsed parse(const LineBlock& lines) const {
     Parsed parsed;
     each_line(lines, [&](Tokenizer& tokens, std::uint64_t line) {
-      if (line >= nodes_ + elements_) return false;
-      if (line < nodes_) {
+      if (line >= vertices_ + elements_) return false;
+      if (line < vertices_) {
         const Fort14Node node = read_fort14_node(tokens);
         parsed.positions.push_back(node.position);
         parsed.depths.push_back(node.depth);
@@ -157,7 +130,7 @@ class Fort14File final : public TextMeshFile {
   }
   void vertices(const LineBlock& lines, VertexLines& found) const override {
     each_line(lines, [&](Tokenizer& tokens, std::uint64_t line) {
-      if (line >= nodes_) return false;
+      if (line >= vertices_) return false;
       const Fort14Node node = read_fort14_node(tokens);
       found.positions.push_back(node.position);
       found.places.push_back(node.place);
@@ -166,15 +139,15 @@ class Fort14File final : public TextMeshFile {
   }
 
   /// Reads the boundary strings, on all ranks: all after the elements is short.
-  [[nodiscard]] Strings read_strings(const RangeFile& file, const LineBlock& lines) const {
+  [[nodiscard]] Strings read_strings(const LineBlock& lines) const {
     struct Place {
       std::uint64_t offset, line;
     };
-    Place begin{file.size(), 0};
+    Place begin{file().size(), 0};
     each_line(lines, [&](Tokenizer& tokens, std::uint64_t line) {
-      if (line == nodes_ + elements_) begin = {lines.offset + tokens.offset(), tokens.line()};
-      if (line < nodes_ + elements_) tokens.end_line();
-      return line < nodes_ + elements_;
+      if (line == vertices_ + elements_) begin = {lines.offset + tokens.offset(), tokens.line()};
+      if (line < vertices_ + elements_) tokens.end_line();
+      return line < vertices_ + elements_;
     });
     for (const Place& one : world().all_of(begin))
       if (one.offset < begin.offset) begin = one;
@@ -184,7 +157,7 @@ class Fort14File final : public TextMeshFile {
         strings.numbers.push_back(own.read_integer(what));
         return static_cast<Index>(strings.numbers.size() - 1);
       };
-      with_tokens(file.read(begin.offset, file.size() - begin.offset), begin.line,
+      with_tokens(file().read(begin.offset, file().size() - begin.offset), begin.line,
                   [&](Tokenizer& tokens) { strings.groups = read_fort14_boundaries(tokens, number, nullptr); });
     });
     return strings;
@@ -205,8 +178,8 @@ class Fort14File final : public TextMeshFile {
       found = lookup.found;
     } else {
       for (const std::int64_t number : asked)
-        found.push_back(number >= 1 && static_cast<std::uint64_t>(number) <= nodes_ ? static_cast<std::uint64_t>(number - 1)
-                                                                                    : NumberLookup::kNone);
+        found.push_back(number >= 1 && static_cast<std::uint64_t>(number) <= vertices_ ? static_cast<std::uint64_t>(number - 1)
+                                                                                       : NumberLookup::kNone);
     }
     world().together([&] { require_found(lines, parsed, strings, found); });
     block.corners.assign(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(parsed.corners.size()));
@@ -230,7 +203,7 @@ class Fort14File final : public TextMeshFile {
                        fmt::format("a boundary names vertex {}, which does not exist", strings.numbers[missing - parsed.corners.size()]));
     std::size_t seen = 0;
     each_line(lines, [&](Tokenizer& tokens, std::uint64_t line) {
-      if (line < nodes_) {
+      if (line < vertices_) {
         tokens.end_line();
         return true;
       }
@@ -240,10 +213,6 @@ class Fort14File final : public TextMeshFile {
       return true;
     });
   }
-
-  std::uint64_t nodes_ = 0, elements_ = 0;
-  std::uint64_t body_ = 0;   // start of the lines of nodes
-  std::uint64_t first_ = 0;  // number of the rank's first line among those after the head
 };
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/io/writing/patch_writer.h"
-#include "mpi/files/shared_mesh_file.h"
 
 namespace dmoscope {
 
@@ -45,13 +44,9 @@ std::vector<std::string> TextMeshFile::write(const std::filesystem::path& target
   return output.commit();
 }
 
-void TextMeshFile::require_counts(const MeshBlock& block, std::uint64_t vertices, std::uint64_t elements) const {
-  world_.together([&] {
-    if (block.vertices.size() != vertices || block.elements.size() != elements)
-      throw InputError(name(), 0, "some of its lines end with a carriage return alone, which several ranks cannot read");
-  });
-}
+namespace {
 
+/// Counts lines that hold more than blanks and a comment.
 std::uint64_t count_data_lines(std::string_view text, char comment) {
   std::uint64_t count = 0;
   for (std::size_t at = 0; at < text.size();) {
@@ -61,6 +56,39 @@ std::uint64_t count_data_lines(std::string_view text, char comment) {
     at = end + 1;
   }
   return count;
+}
+
+}  // namespace
+
+LineBlock CountedMeshFile::read_body(std::string_view elements) {
+  const RangeFile& file = open();
+  world().together([&] {
+    with_tokens(file.read(0, kLongestHead), 1, [&](Tokenizer& tokens) {
+      read_head(tokens, vertices_, elements_);
+      body_ = tokens.offset();
+    });
+  });
+  LineBlock mine = lines(file);
+  const Ranges data = world().ranges(count_data_lines(mine.text, syntax().comment));
+  first_ = data.begin(world().rank());
+  world().together([&] {
+    if (data.size() < vertices_ + elements_)
+      throw InputError(name(), 0, fmt::format("the file ends before its {} vertices and {} {}", vertices_, elements_, elements));
+  });
+  return mine;
+}
+
+MeshBlock CountedMeshFile::block_of(std::vector<Vec3> positions, std::vector<ElementKind> kinds) const {
+  MeshBlock block;
+  block.vertices = world().ranges(positions.size());
+  block.elements = world().ranges(kinds.size());
+  block.positions = std::move(positions);
+  block.kinds = std::move(kinds);
+  world().together([&] {
+    if (block.vertices.size() != vertices_ || block.elements.size() != elements_)
+      throw InputError(name(), 0, "some of its lines end with a carriage return alone, which several ranks cannot read");
+  });
+  return block;
 }
 
 }  // namespace dmoscope

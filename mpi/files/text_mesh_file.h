@@ -37,10 +37,9 @@ class TextMeshFile : public SharedMeshFile {
 
   /// Opens the file; read() calls it first.
   [[nodiscard]] const RangeFile& open();
+  [[nodiscard]] const RangeFile& file() const { return *file_; }
   void close() { file_.reset(); }
-  /// Checks the counts of lines: ranks take a line to end with a line feed. Throws InputError (as SharedError on all) if others count
-  /// otherwise.
-  void require_counts(const MeshBlock& block, std::uint64_t vertices, std::uint64_t elements) const;
+  [[nodiscard]] const TextSyntax& syntax() const noexcept { return layout_.syntax; }
   [[nodiscard]] const World& world() const noexcept { return world_; }
   [[nodiscard]] std::string name() const { return path_.string(); }
   /// Calls visit(tokens) with the tokens of a rank's lines.
@@ -66,7 +65,34 @@ class TextMeshFile : public SharedMeshFile {
   std::int64_t stamp_ = 0;
 };
 
-/// Counts lines that hold more than blanks and a comment.
-[[nodiscard]] std::uint64_t count_data_lines(std::string_view text, char comment);
+/// A file whose head says how many lines of vertices and of elements follow.
+class CountedMeshFile : public TextMeshFile {
+ public:
+  using TextMeshFile::TextMeshFile;
+
+ protected:
+  /// Reads the counts of vertices and elements, and the rest of the head.
+  virtual void read_head(Tokenizer& tokens, std::uint64_t& vertices, std::uint64_t& elements) = 0;
+  [[nodiscard]] LineBlock lines(const RangeFile& file) const final { return read_lines(world(), file, body_, false); }
+
+  /// Opens the file, reads the head, and returns the rank's lines after it; all ranks together. `elements`: their name in messages.
+  [[nodiscard]] LineBlock read_body(std::string_view elements);
+  /// Calls visit(tokens, line) for the rank's lines, by their numbers among all lines after the head, until it returns false.
+  template <class Visit>
+  void each_line(const LineBlock& lines, const Visit& visit) const {
+    with_tokens(lines.text, lines.first_line, [&](Tokenizer& tokens) {
+      for (std::uint64_t i = first_; !tokens.at_end() && visit(tokens, i); ++i) {
+      }
+    });
+  }
+  /// Makes a block of what the ranks have read of it.
+  [[nodiscard]] MeshBlock block_of(std::vector<Vec3> positions, std::vector<ElementKind> kinds) const;
+
+  std::uint64_t vertices_ = 0, elements_ = 0;
+
+ private:
+  std::uint64_t body_ = 0;   // start of the lines after the head
+  std::uint64_t first_ = 0;  // number of the rank's first line among those
+};
 
 }  // namespace dmoscope

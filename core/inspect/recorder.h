@@ -1,5 +1,5 @@
 #pragma once
-// Recorder of a search's reports.
+// Recorder of a visit's search.
 
 #include <algorithm>
 #include <memory>
@@ -8,69 +8,66 @@
 #include "core/inspect/visit_trace.h"
 #include "core/quality/defined_quality.h"
 #include "core/quality/element_shape.h"
-#include "core/search/grid_search.h"
+#include "core/smooth/visit/visit_watcher.h"
 
 namespace dmoscope {
 
-/// A trace for grid_search(): records what the search reports, in mesh units. Offset: Vec2<double> or Vec3.
+/// Recorder of the search that a visit tells of last. Offset: Vec2<double> or Vec3.
 template <class Offset>
-class Recorder {
+class Recorder final : public VisitWatcher {
  public:
-  explicit Recorder(double scale) : scale_(scale) {}
+  void begin(const Begin& search) override {
+    search_ = search;
+    levels_.clear();
+    found_ = offset(search.start);
+    halvings_ = 0;
+  }
+  void level(Vec3 centre, Vec3 size, int points) override {
+    TracedLevelIn<Offset>& level = levels_.emplace_back();
+    level.centre = offset(centre);
+    level.size = offset(size);
+    level.points = points;
+  }
+  void candidate(Vec3 at, double score) override {
+    levels_.back().offsets.push_back(offset(at));
+    levels_.back().values.push_back(score);
+  }
+  void found(Vec3 best) override {
+    if (offset(best) == found_) return;
+    found_ = offset(best);
+    TracedLevelIn<Offset>& level = levels_.back();
+    const auto at = std::ranges::find(level.offsets, found_);
+    if (at != level.offsets.end()) level.best = static_cast<int>(at - level.offsets.begin());
+  }
+  void judged(Confirmation found) override { halvings_ += found == Confirmation::TooFar ? 1 : 0; }
 
-  template <class Real>
-  void begin(const Real& objective) {
-    here = static_cast<double>(objective);
-    best_ = at_start = here;
+  /// Moves the recording to a trace. quality(offset): that of a candidate.
+  template <class Quality>
+  void give(VisitTraceIn<Offset>& trace, const Quality& quality) {
+    trace.value_here = search_.here;
+    trace.value_at_start = search_.at_start;
+    trace.levels = std::move(levels_);
+    trace.found = trace.start = offset(search_.start);
+    trace.halvings = halvings_;
+    for (TracedLevelIn<Offset>& level : trace.levels) {
+      for (const Offset& at : level.offsets) level.quality.push_back(quality(at));
+      if (level.best) trace.found = level.at(*level.best);
+    }
   }
-  template <class Real, class Point>
-  void start(const Candidate<Real, Point>& best) {
-    started = in_mesh_units(best.offset);
-    best_ = at_start = static_cast<double>(best.objective);
-  }
-  template <class Real, class Point>
-  void level(const CandidateGrid<Real, Point>& grid) {
-    TracedLevelIn<Offset>& level = levels.emplace_back();
-    level.centre = in_mesh_units(grid.centre);
-    level.size = in_mesh_units(grid.size);
-    level.points = grid.points;
-  }
-  template <class Real, class Point>
-  void candidate(int /*index*/, const Point& offset, const Real& objective) {
-    levels.back().offsets.push_back(in_mesh_units(offset));
-    levels.back().values.push_back(static_cast<double>(objective));
-  }
-  template <class Real, class Point>
-  void found(const Candidate<Real, Point>& best) {
-    if (static_cast<double>(best.objective) > best_) choose(best.offset);
-    best_ = static_cast<double>(best.objective);
-  }
-  /// Marks the level's candidate at this offset, compared by its bits, as the one chosen.
-  template <class Point>
-  void choose(const Point& offset) {
-    const Offset chosen = in_mesh_units(offset);
-    const auto& all = levels.back().offsets;
-    for (std::size_t i = 0; i < all.size() && !levels.back().best; ++i)
-      if (all[i] == chosen) levels.back().best = static_cast<int>(i);
-  }
-
-  std::vector<TracedLevelIn<Offset>> levels;
-  double here = 0.0;
-  Offset started{};       // centre of the first grid
-  double at_start = 0.0;  // objective at that centre
+  [[nodiscard]] const Begin& search() const noexcept { return search_; }
 
  private:
-  template <class Real>
-  [[nodiscard]] Vec2<double> in_mesh_units(Vec2<Real> offset) const {
-    return {static_cast<double>(offset.x) * scale_, static_cast<double>(offset.y) * scale_};
-  }
-  template <class Real>
-  [[nodiscard]] Vec3 in_mesh_units(Vec3Of<Real> offset) const {
-    return {static_cast<double>(offset.x) * scale_, static_cast<double>(offset.y) * scale_, static_cast<double>(offset.z) * scale_};
+  [[nodiscard]] static Offset offset(Vec3 p) {
+    if constexpr (std::is_same_v<Offset, Vec3>)
+      return p;
+    else
+      return {p.x, p.y};
   }
 
-  double scale_;
-  double best_ = 0.0;
+  Begin search_;
+  std::vector<TracedLevelIn<Offset>> levels_;
+  Offset found_{};  // best place so far
+  int halvings_ = 0;
 };
 
 // Qualities of the elements around a vertex before and after a visit, by the statistics' formulas.

@@ -12,8 +12,7 @@
 #include "core/quality/metric_phrase.h"
 #include "core/reference/deviation_bound.h"
 #include "core/reference/overlay.h"
-#include "core/smooth/execution/method_table.h"
-#include "core/smooth/visit/star_judge.h"
+#include "core/smooth/methods/dmo.h"
 
 namespace dmoscope {
 
@@ -25,16 +24,14 @@ class SurfaceLook {
  public:
   SurfaceLook(const SmoothingTask& task, std::span<const Vec3> positions, Index vertex, const Sweep& sweep, CompositeObjective composite)
       : task_(task),
+        objective_(std::move(composite)),
         positions_(positions),
         vertex_(vertex),
         here_(positions[vertex]),
         sweep_(sweep),
         facets_(task.domain->faces().facets()),
         mesh_(task.input->view<Frame>()),
-        judge_(*task.input, std::move(composite)) {
-    judge_.begin(sweep);
-    judge_.gather(positions_, vertex_, star_);
-  }
+        judge_(*task.input, objective_) {}
 
   SurfaceVisit run(bool combined) {
     VisitTrace& trace = visit_.trace;
@@ -43,15 +40,21 @@ class SurfaceLook {
     trace.combined = combined;
     trace.from = trace.to = here_;
     trace.before = trace.after = state(here_);
-    trace.untangling = judge_.is_tangled(star_);
     trace.value_phrase = combined ? "its two aims" : metric_phrase(task_.metric);
+    Recorder<Vec2<double>> recorder;
+    const auto to = watch_visit<Frame>(task_, objective_, sweep_, positions_, vertex_, recorder);
+    trace.untangling = recorder.search().tangled;
     const auto place = task_.domain->faces().place(vertex_, here_);
     const Vec3 normal = place ? facets_.normal(*place) : Vec3{};
     if (place && !(normal == Vec3{})) {
       visit_.grid.plane = tangent_plane(normal);
-      search(*place);
+      recorder.give(trace, [&](Vec2<double> offset) {
+        const auto found = walk(*place, offset, kSteepest);
+        return found ? quality_of(state(facets_.at(*found))) : 0.0;
+      });
+      look_at_surface(*place);
     }
-    settle();
+    settle(to);
     trace.elements = element_changes<Frame>(*task_.input, positions_, trace);
     trace.by_corners = has_corners(mesh_, vertex_);
     return std::move(visit_);
@@ -60,41 +63,28 @@ class SurfaceLook {
  private:
   [[nodiscard]] StarState state(Vec3 at) const { return judge_.state(task_.metric, positions_, vertex_, at); }
 
-  /// Searches like Slide.
-  void search(const FacetPlace& stands) {
-    const Plane& plane = visit_.grid.plane;
-    const auto score = judge_.score_of(star_, positions_, vertex_, visit_.trace.untangling);
-    const auto walk = [&](Vec2<double> way, double least_cosine) { return facets_.walk(stands.facet, plane, here_, way, least_cosine); };
-    const auto worth = [&](Vec2<double> p) {
-      if (p == Vec2<double>{}) return score({});
-      const auto found = walk(times(p, star_.scale), kSteepest);
-      return found ? score(times(mesh_.frame.offset(facets_.at(*found), here_), 1.0 / star_.scale))
-                   : -std::numeric_limits<double>::infinity();
-    };
-    Recorder<Vec2<double>> recorder(star_.scale);
-    (void)grid_search<double>(worth, box(), task_.search, recorder);
-    VisitTrace& trace = visit_.trace;
-    trace.value_here = trace.value_at_start = recorder.here;
-    trace.levels = std::move(recorder.levels);
+  [[nodiscard]] std::optional<FacetPlace> walk(const FacetPlace& stands, Vec2<double> way, double least_cosine) const {
+    return facets_.walk(stands.facet, visit_.grid.plane, here_, way, least_cosine);
+  }
+  /// Finds the candidates' places on the surface, and their fates.
+  void look_at_surface(const FacetPlace& stands) {
     Overlay overlay(*task_.domain, room_);
     const Fit now = overlay.star(positions_, vertex_, here_, &stands, kNoFit);
     const Fit bound{task_.max_deviation, task_.max_deviation, kLeastCosine};
-    for (TracedLevel& level : trace.levels) {
+    for (const TracedLevel& level : visit_.trace.levels) {
       SurfaceGrid::Level& on_surface = visit_.grid.levels.emplace_back();
       for (const Vec2<double> offset : level.offsets) {
-        const auto found = walk(offset, kSteepest);
+        const auto found = walk(stands, offset, kSteepest);
         CandidateFate fate = CandidateFate::Counts;
         if (!found)
-          fate = walk(offset, -1.0) ? CandidateFate::TurnedAway : CandidateFate::Feature;
+          fate = walk(stands, offset, -1.0) ? CandidateFate::TurnedAway : CandidateFate::Feature;
         else if (!(now.deviation == kNoFit.deviation && !task_.domain->faces().are_own()))
           fate = fate_of(overlay.star(positions_, vertex_, facets_.at(*found), &*found, kNoFit), now);
         else if (!overlay.keeps_what_lies(positions_, vertex_, here_, &stands, facets_.at(*found), &*found, bound))
           fate = CandidateFate::Deviates;
         on_surface.fates.push_back(fate);
-        on_surface.places.push_back(found ? facets_.at(*found) - here_ : plane.lift(offset));
-        level.quality.push_back(found ? quality_of(state(facets_.at(*found))) : 0.0);
+        on_surface.places.push_back(found ? facets_.at(*found) - here_ : visit_.grid.plane.lift(offset));
       }
-      if (level.best) trace.found = level.at(*level.best);
     }
   }
   /// Fate of a candidate that lies on the surface: it counts if it is as near as the bound, or no worse than the vertex's present place.
@@ -105,31 +95,10 @@ class SurfaceLook {
                  most_other = lay ? std::max(task_.max_deviation, now.other_split) : task_.max_deviation;
     return there.deviation <= most && there.other_split <= most_other ? CandidateFate::Counts : CandidateFate::Deviates;
   }
-  /// Size of the bounding box of the star's other vertices in the tangent plane, in units of the star's scale.
-  [[nodiscard]] Vec2<double> box() const {
-    Vec2<double> low{}, high{};
-    for (const Incidence& at : mesh_.star(vertex_)) {
-      for (const Index other : mesh_.corners_of(at.element)) {
-        const Vec2<double> p = visit_.grid.plane.offset(positions_[other], here_);
-        low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-        high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-      }
-    }
-    return times(high - low, 1.0 / star_.scale);
-  }
-
-  /// Records the vertex's new place by the smoother itself.
-  void settle() {
-    SmoothingTask alone = task_;
-    alone.colouring = std::make_shared<const Colouring>(Colouring{{vertex_}, {0, 1}});
-    const auto smoother = make_smoother(alone);
-    std::vector<Vec3> moved(positions_.begin(), positions_.end());
-    smoother->positions_replaced();
-    smoother->begin(sweep_);
-    (void)smoother->visit(0, 1, moved, nullptr);
-    smoother->store(moved, nullptr);
+  /// Ends the visit at the place to which the vertex goes.
+  void settle(const std::optional<Vec3>& to) {
     VisitTrace& trace = visit_.trace;
-    trace.to = moved[vertex_];
+    trace.to = to.value_or(here_);
     trace.step = visit_.grid.plane.project(trace.to - here_);
     if (!(trace.to == here_)) {
       trace.end = VisitEnd::Moved;
@@ -152,6 +121,7 @@ class SurfaceLook {
   }
 
   const SmoothingTask& task_;
+  CompositeObjective objective_;
   std::span<const Vec3> positions_;
   Index vertex_;
   Vec3 here_;
@@ -159,7 +129,6 @@ class SurfaceLook {
   const Facets& facets_;
   MeshView<Frame> mesh_;
   StarJudge<Frame> judge_;
-  JudgedStar<Frame> star_;
   OverlayRoom room_;
   SurfaceVisit visit_;
 };
@@ -178,7 +147,7 @@ SurfaceVisit trace_surface_visit(const SmoothingTask& task, std::span<const Vec3
                                  const std::optional<CompositeObjective>& composite) {
   if (!task.domain || vertex >= task.input->mesh.vertex_count() || !task.domain->on_surface(vertex))
     throw UsageError(fmt::format("vertex {} does not slide on a surface", vertex));
-  const CompositeObjective aims = composite.value_or(single_objective(task.metric));
+  const CompositeObjective aims = composite.value_or(objective_of(task));
   if (task.input->is_volume()) return SurfaceLook<Space>(task, positions, vertex, sweep, aims).run(composite.has_value());
   return SurfaceLook<Curved>(task, positions, vertex, sweep, aims).run(composite.has_value());
 }

@@ -11,10 +11,8 @@
 #include "core/quality/formulas.h"
 #include "core/quality/metric_phrase.h"
 #include "core/smooth/kernels/targets/target_visit.h"
-#include "core/smooth/kernels/targets/tetrahedron_targets.h"
-#include "core/smooth/methods/defined_search.h"
+#include "core/smooth/methods/dmo.h"
 #include "core/smooth/methods/star_kernels.h"
-#include "core/smooth/methods/volume_star_search.h"
 
 namespace dmoscope {
 
@@ -55,10 +53,21 @@ std::string untangling_phrase(bool volume, const Untangling& rule) {
          "or the least quality fell); once all are sound the ";
 }
 
-CompositeObjective with_guard(CompositeObjective objective, const std::optional<Guard>& guard) {
-  if (guard) objective.guard = guard;
-  return objective;
-}
+/// Tells a watcher of a search by lanes. See grid_search().
+struct LaneTrace {
+  VisitWatcher& watcher;
+  double scale;  // mesh units
+
+  template <class Real>
+  [[nodiscard]] Vec3 told(Vec2<Real> p) const {
+    return in_space(times(point_of<double>(p), scale));
+  }
+  void begin(float here) const { watcher.begin({.here = here, .at_start = here, .single = true}); }
+  void start(const Candidate<float>& /*centre of the first grid*/) const {}
+  void level(const CandidateGrid<float>& grid) const { watcher.level(told(grid.centre), told(grid.size), grid.points); }
+  void candidate(int /*index*/, Vec2<float> at, float value) const { watcher.candidate(told(at), double{value}); }
+  void found(const Candidate<float>& best) const { watcher.found(told(best.offset)); }
+};
 
 /// Traces the visit of one vertex. Frame: Plane or Space.
 template <class Frame>
@@ -70,14 +79,12 @@ class Look {
 
   Look(const InputMesh& input, PositionView positions, Metric metric, const SearchParameters& parameters, Index vertex,
        const std::optional<CompositeObjective>& composite, const Untangling& untangling, const std::optional<Guard>& guard)
-      : input_(input),
-        metric_(metric),
-        mesh_(input.view<Frame>()),
-        positions_(positions),
-        parameters_(parameters),
-        untangling_(untangling),
-        judge_(input, with_guard(composite.value_or(single_objective(metric)), guard)) {
-    judge_.begin({.untangling = untangling});
+      : input_(input), mesh_(input.view<Frame>()), positions_(positions), untangling_(untangling), judge_(input, single_objective(metric)) {
+    objective_ = composite.value_or(single_objective(metric));
+    if (guard) objective_.guard = guard;
+    task_.input = {std::shared_ptr<const InputMesh>(), &input};
+    task_.metric = metric;
+    task_.search = parameters;
     trace_.vertex = vertex;
     trace_.metric = metric;
     trace_.from = trace_.to = positions[vertex];
@@ -99,204 +106,85 @@ class Look {
   }
 
  private:
+  using Lanes = std::optional<std::optional<Vec3>>;  // none: the star is not for lanes; else the place to which they move it
+
   void search() {
-    judge_.gather(positions_, trace_.vertex, star_);
-    const bool plain = !judge_.composite().is_single() || (parameters_.precision == Precision::Double && is_built_in(metric_));
-    if (plain || !search_fast()) search_plainly(false);
-    if (trace_.end != VisitEnd::Moved || judge_.keeps_guard(positions_, trace_.vertex, trace_.to)) return;
-    trace_.fast = false;
-    trace_.halvings = 0;
-    trace_.to = trace_.from;
-    search_plainly(true);
-  }
-
-  /// Repeats the kernel's search for the objective. False: the star is left to the plain search.
-  bool search_fast() {
-    if (!is_built_in(metric_)) {
-      const auto judge = input_.quality_context().judge(metric_);
-      return (has_target_kernel(input_, metric_, parameters_) && search_by_targets(judge->targets())) || search_by_formula(*judge);
-    }
-    if constexpr (kVolume)
-      return search_by_volume_kernel(VolumeStarSearch(metric_, parameters_), {});
-    else
-      return formulas::with_planar_metric(metric_, [this]<Metric M>() {
-        return search_by_lanes(rank_phrase(metric_), [](const SingleVertexTask& task) {
-          return FastVisit<M, Solo, Stars::All, SingleVertexTask>(task, 0, Solo{});
-        });
-      });
-  }
-
-  bool search_by_targets(const TargetTable& targets) {
-    const auto star = mesh_.star(trace_.vertex);
-    if constexpr (kVolume) {
-      const TetrahedronTargets of_star(targets, input_.mesh, star);
-      std::vector<Incidence> numbered(star.begin(), star.end());
-      for (Index i = 0; i < numbered.size(); ++i) numbered[i].element = i;
-      return of_star.fit(numbered) &&
-             search_by_volume_kernel(VolumeStarSearch(parameters_, of_star.crossed()), {numbered.data(), of_star.numbers()});
+    Lanes by_lanes;
+    if constexpr (!kVolume)
+      if (objective_.is_single() && task_.search.precision == Precision::Float && !untangling_.repair) by_lanes = search_by_lanes();
+    const auto to = by_lanes ? *by_lanes : watch({});
+    const VisitWatcher::Begin& search = recorder_.search();
+    if (by_lanes && search.single) {
+      trace_.value_phrase = rank_phrase(trace_.metric);
+      recorder_.give(trace_, [&](Offset offset) { return quality_of(state(by_lanes_at(offset))); });
     } else {
-      if (has_crossed_targets(targets, static_cast<Index>(input_.mesh.elements.size()))) return search_by_target_lanes<true>(targets);
-      return search_by_target_lanes<false>(targets);
+      trace_.value_phrase = (search.tangled ? untangling_phrase(kVolume, untangling_) : "") + both_phrase(objective_);
+      recorder_.give(trace_, [&](Offset offset) {
+        return quality_of(state(displaced(mesh_.frame, trace_.from, offset, input_.mesh.single_precision)));
+      });
     }
+    trace_.fast = search.single;
+    trace_.combined = !objective_.is_single();
+    trace_.untangling = search.tangled;
+    trace_.to = to.value_or(trace_.from);
+    trace_.end = trace_.found == Offset{} ? VisitEnd::NothingFound : to ? VisitEnd::Moved : VisitEnd::NotConfirmed;
+  }
+  [[nodiscard]] std::optional<Vec3> watch(const std::optional<Vec3>& by_lanes) {
+    return watch_visit<Frame>(task_, objective_, {.untangling = untangling_}, positions_, trace_.vertex, recorder_, by_lanes);
   }
 
   /// State of the star by the statistics' formulas with the vertex at a place.
-  [[nodiscard]] StarState state(Vec3 place) const { return judge_.state(metric_, positions_, trace_.vertex, place); }
+  [[nodiscard]] StarState state(Vec3 place) const { return judge_.state(trace_.metric, positions_, trace_.vertex, place); }
 
-  bool search_by_formula(const DefinedJudge& judge) {
-    if (!(trace_.before.jacobian > 0.0)) return false;
-    const auto star_judge = defined_star_judge<Frame>(input_, judge);
-    const DefinedSearch<Frame> search(star_judge, parameters_);
-    typename DefinedSearch<Frame>::Scratch scratch;
-    trace_.fast = !search.in_double();
-    const auto by_levels = [&]<class Real>() {
-      const auto find = [&](int levels) { return search.find(positions_, trace_.vertex, levels, scratch); };
-      const auto start = find(0);
-      record_levels(start.scale, point_of<Real>(start.box), [&](int levels) { return point_of<Real>(find(levels).offset); });
-    };
-    if (search.in_double())
-      by_levels.template operator()<double>();
-    else
-      by_levels.template operator()<float>();
-    return true;
+  Lanes search_by_lanes() {
+    if (is_built_in(trace_.metric))
+      return formulas::with_planar_metric(trace_.metric, [this]<Metric M>() {
+        return this->run_lane(
+            [](const SingleVertexTask& task) { return FastVisit<M, Solo, Stars::All, SingleVertexTask>(task, 0, Solo{}); });
+      });
+    if (!has_target_kernel(input_, trace_.metric, task_.search)) return {};
+    const auto judge = input_.quality_context().judge(trace_.metric);
+    const TargetTable& targets = judge->targets();
+    if (has_crossed_targets(targets, static_cast<Index>(input_.mesh.elements.size()))) return search_by_target_lanes<true>(targets);
+    return search_by_target_lanes<false>(targets);
   }
-  bool search_by_volume_kernel(const VolumeStarSearch& search, const VolumeTargets& targets) {
-    if (untangling_.looks_inside() && has_inverted(mesh_, positions_, trace_.vertex)) return false;
-    const IndexedStars stars(input_, trace_.vertex);
-    VolumeStarSearch::Points points;
-    const auto find = [&](int levels) { return search.find(stars.of(trace_.vertex), positions_, trace_.vertex, levels, points, targets); };
-    if (!find(0).ready) return false;
-    trace_.fast = true;
-    record_levels(points.scale, points.narrow_box, [&](int levels) { return find(levels).offset; });
-    return true;
-  }
-  /// Records a search that reports no candidates: its choice in level L is what it finds in L levels and not in L - 1. find(levels): an
-  /// offset, in units of `scale`, as the search rounds it.
-  template <class Point, class Find>
-  void record_levels(double scale, Point box, const Find& find) {
-    using Real = decltype(box.x);
-    trace_.value_phrase = metric_phrase(metric_);
-    const auto score = judge_.score_of(star_, positions_, trace_.vertex, false);
-    Recorder<Offset> recorder(scale);
-    recorder.begin(score(Offset{}));
-    Point centre{};
-    double omega = parameters_.omega;
-    for (int level = 1; level <= parameters_.levels; ++level) {
-      const CandidateGrid<Real, Point> grid{centre, times(box, static_cast<Real>(omega)), parameters_.grid_points};
-      recorder.level(grid);
-      for (int i = 0; i < grid.points; ++i)
-        grid.for_slice(i, [&](int index, const Point& p) { recorder.candidate(index, p, score(point_of<double>(p))); });
-      const Point found = find(level);
-      if (!(found == centre)) recorder.choose(found);
-      centre = found;
-      omega *= 2.0 / (parameters_.grid_points - 1);
-    }
-    take(std::move(recorder));
-    end([this](Vec3 target) { return confirm(target); });
-  }
-
   template <bool Crossed>
-  bool search_by_target_lanes(const TargetTable& targets) {
+  Lanes search_by_target_lanes(const TargetTable& targets) {
     std::vector<Index> others;
     std::vector<double> numbers;
     const StarShape shape = star_shape(input_.mesh, input_.topology, trace_.vertex, others);
-    if (shape.kind == StarShape::Kind::Alone) return false;
+    if (shape.kind == StarShape::Kind::Alone) return {};
     append_star_targets(targets, Crossed, input_.mesh, input_.topology, trace_.vertex, shape, others, numbers);
-    return search_by_lanes(metric_phrase(metric_),
-                           [&](const SingleVertexTask& task) { return TargetVisit<Crossed, SingleVertexTask>(task, 0, numbers.data()); });
+    return run_lane([&](const SingleVertexTask& task) { return TargetVisit<Crossed, SingleVertexTask>(task, 0, numbers.data()); });
   }
-  /// Repeats a search by lanes. make_visit(task): the visit that a lane runs.
+  /// Repeats the visit of a lane. make_visit(task): that visit.
   template <class MakeVisit>
-  bool search_by_lanes(std::string value_phrase, const MakeVisit& make_visit) {
-    const SingleVertexTask task(input_, positions_, parameters_, trace_.vertex);
-    if (task.shapes->kind == StarShape::Kind::Alone) return false;
-    Recorder<Offset> recorder(task.frame.scale);
-    const auto outcome = make_visit(task).run(recorder);
-    if (!outcome.ready) return false;
-    trace_.fast = true;
-    trace_.value_phrase = std::move(value_phrase);
-    take(std::move(recorder), [&](Offset offset) {
-      // Recovers the floats exactly, since the offsets are floats times a power of two.
-      const Displacement to = task.frame.displace(&trace_.from.x, static_cast<float>(offset.x * task.frame.inverse),
-                                                  static_cast<float>(offset.y * task.frame.inverse));
-      return Vec3{to.target[0], to.target[1], to.target[2]};
-    });
+  Lanes run_lane(const MakeVisit& make_visit) {
+    const SingleVertexTask task(input_, positions_, task_.search, trace_.vertex);
+    if (task.shapes->kind == StarShape::Kind::Alone) return {};
+    const auto outcome = make_visit(task).run(LaneTrace{recorder_, task.frame.scale});
+    if (!outcome.ready) return {};
     using visit_rules::Verdict;
     const Vec3 target{outcome.to.target[0], outcome.to.target[1], outcome.to.target[2]};
-    end(target, outcome.verdict == Verdict::Move || (outcome.verdict == Verdict::MoveIfExact && confirm(target) == Confirmation::Gains));
-    return true;
+    if (outcome.verdict == Verdict::Stay) return std::optional<Vec3>();
+    return outcome.verdict == Verdict::Move && !objective_.guard ? std::optional(target) : watch(target);
   }
-
-  /// Repeats the plain search, which finds the winner of the packs. `guarded`: see StarScore.
-  void search_plainly(bool guarded) {
-    const CompositeObjective& objective = judge_.composite();
-    Recorder<Offset> recorder(star_.scale);
-    trace_.combined = !objective.is_single();
-    trace_.untangling = judge_.is_tangled(star_);
-    if (!untangling_.repair || trace_.untangling) {
-      const Offset middle = trace_.untangling ? middle_of<Offset>(JudgedStarView<Frame>(star_)) : Offset{};
-      (void)grid_search<double>(judge_.score_of(star_, positions_, trace_.vertex, trace_.untangling, guarded), star_.box, parameters_,
-                                recorder, Solo{}, trace_.untangling ? &middle : nullptr);
-    }
-    trace_.value_phrase = (trace_.untangling ? untangling_phrase(kVolume, untangling_) : "") + both_phrase(objective);
-    take(std::move(recorder));
-    end([&](Vec3 target) {
-      const Confirmation found = confirm(target);
-      const bool kept = !guarded || found != Confirmation::Gains || judge_.keeps_guard(positions_, trace_.vertex, target);
-      return kept ? found : Confirmation::TooFar;
-    });
-  }
-
-  /// Position for an offset, as the smoothers in double store it.
-  [[nodiscard]] Vec3 stored(Offset offset) const { return displaced(mesh_.frame, trace_.from, offset, input_.mesh.single_precision); }
-  [[nodiscard]] Confirmation confirm(Vec3 target) const { return judge_.confirm(positions_, trace_.vertex, target); }
-
-  void take(Recorder<Offset> recorder) {
-    take(std::move(recorder), [this](Offset offset) { return stored(offset); });
-  }
-  /// Takes over a recording. place(offset): position in which the vertex would be stored.
-  template <class Place>
-  void take(Recorder<Offset> recorder, const Place& place) {
-    trace_.value_here = recorder.here;
-    trace_.levels = std::move(recorder.levels);
-    trace_.found = trace_.start = recorder.started;
-    trace_.value_at_start = recorder.at_start;
-    for (TracedLevelIn<Offset>& level : trace_.levels) {
-      level.quality.reserve(level.offsets.size());
-      for (const Offset& offset : level.offsets) level.quality.push_back(quality_of(state(place(offset))));
-      if (level.best) trace_.found = level.at(*level.best);
-    }
-  }
-
-  /// Ends the visit at the longest step that confirm(place) allows, as RuleMesh::moved_if() moves the vertex.
-  template <class Confirm>
-  void end(const Confirm& confirm) {
-    const auto halves = [&](Vec3 target) {
-      const Confirmation found = confirm(target);
-      trace_.halvings += found == Confirmation::TooFar ? 1 : 0;
-      return found;
-    };
-    const ConfirmedMove move = confirmed_move(
-        trace_.found, [this](Offset step) { return stored(step); }, halves);
-    end(move.to, move.gains);
-  }
-  void end(Vec3 target, bool moves) {
-    if (trace_.found == Offset{})
-      trace_.end = VisitEnd::NothingFound;
-    else if (!moves)
-      trace_.end = VisitEnd::NotConfirmed;
-    else
-      trace_.end = VisitEnd::Moved, trace_.to = target;
+  /// Position in which lanes store an offset, of which they have the floats: it is those times a power of two.
+  [[nodiscard]] Vec3 by_lanes_at(Offset offset) const {
+    const SearchFrame frame = make_search_frame(input_);
+    const Displacement to =
+        frame.displace(&trace_.from.x, static_cast<float>(offset.x * frame.inverse), static_cast<float>(offset.y * frame.inverse));
+    return {to.target[0], to.target[1], to.target[2]};
   }
 
   const InputMesh& input_;
-  Metric metric_;
   MeshView<Frame> mesh_;
   PositionView positions_;
-  const SearchParameters& parameters_;
   const Untangling& untangling_;
-  StarJudge<Frame> judge_;
-  JudgedStar<Frame> star_;
+  StarJudge<Frame> judge_;  // judge of states by the metric alone
+  CompositeObjective objective_;
+  SmoothingTask task_;
+  Recorder<Offset> recorder_;
   Trace trace_;
 };
 

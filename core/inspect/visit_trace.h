@@ -88,12 +88,12 @@ struct VisitTraceIn : VisitSummary {
 using VisitTrace = VisitTraceIn<Vec2<double>>;  // trace in the mesh's plane
 using VolumeTrace = VisitTraceIn<Vec3>;         // trace in a volume mesh
 
-/// Traces what DMO with these parameters does to `vertex` while the mesh's vertices are at `positions`. Runs the smoother's own templates
-/// with a trace, so `to` has the bits that the smoother would store. The cost depends on the star's size only. `fixed`: one entry for each
-/// vertex, as Run::fixed. Throws UsageError for a mesh that is not planar, a vertex that does not exist, parameters out of range, or a
-/// metric that is not defined for its star. `composite`: the objective of a visit with two aims, see composite_objective_of_visit; its
-/// first aim is `metric`. `untangling`: that of the iteration, as Run::sweep() has it. `guard`: of a visit by one metric, see Run::guard();
-/// if the winner breaks it, the trace is that of the search that respects it.
+/// Traces what DMO with these parameters does to `vertex` while the mesh's vertices are at `positions`. Watches the smoother's own visit,
+/// so `to` has the bits that the smoother would store. Costs as much as a few visits; in a volume against targets a look at all of them,
+/// too. `fixed`: one entry for each vertex, as Run::fixed. Throws UsageError for a mesh that is not planar, a vertex that does not exist,
+/// parameters out of range, or a metric that is not defined for its star. `composite`: the objective of a visit with two aims, see
+/// composite_objective_of_visit; its first aim is `metric`. `untangling`: that of the iteration, as Run::sweep() has it. `guard`: of a
+/// visit by one metric, see Run::guard(); if the winner breaks it, the trace is that of the search that respects it.
 [[nodiscard]] VisitTrace trace_visit(const InputMesh& input, PositionView positions, std::span<const std::uint8_t> fixed, Metric metric,
                                      const SearchParameters& parameters, Index vertex,
                                      const std::optional<CompositeObjective>& composite = {}, const Untangling& untangling = {},

@@ -94,11 +94,12 @@ void compare(const Specimen& specimen, const std::shared_ptr<const InputMesh>& m
     const bool tangled = judge.is_tangled(star);
     const auto plain = plain_way(judge, star, v, task);
     for (std::size_t i = 0; i < searches.size(); ++i) {
-      const auto fast = searches[i]->find(positions, v, {});
+      const auto fast = searches[i]->find(positions, v, {}, task.search.levels);
       const std::string_view level = name(supported_simd_levels()[i]);
       ASSERT_FALSE(tangled && fast.ready) << specimen.name << ", vertex " << v << ", " << level;
       if (!fast.ready) continue;
-      ASSERT_EQ(std::memcmp(&fast.way, &plain, sizeof(plain)), 0) << specimen.name << ", vertex " << v << ", " << level;
+      const auto way = times(fast.offset, fast.scale);
+      ASSERT_EQ(std::memcmp(&way, &plain, sizeof(plain)), 0) << specimen.name << ", vertex " << v << ", " << level;
       ++count.ready;
     }
     ++count.vertices;
@@ -243,7 +244,7 @@ TEST(CompositeKernel, AStarAtTheFloorIsBeyondIt) {
     if (!(least > 0.0)) continue;
     const CompositeObjective aims = raise_mean_above(Metric::MeanRatio, least);
     const SmoothingTask task = task_of(mesh, {});
-    const auto fast = CompositeStarKernel<Plane>(task, aims).search(star, mesh->mesh.positions, v);
+    const auto fast = CompositeStarKernel<Plane>(task, aims).search(star, mesh->mesh.positions, v, task.search.levels);
     const Vec2<double> way = times(fast.offset, star.scale), plain = plain_way(StarJudge<Plane>(*mesh, aims), star, v, task);
     EXPECT_TRUE(fast.ready) << v;
     EXPECT_EQ(std::memcmp(&way, &plain, sizeof(plain)), 0) << v;

@@ -166,7 +166,7 @@ TEST(TargetKernels, JudgeTetrahedraAsTheStatisticsDo) {
         for (Index v = 0; v < mesh->mesh.vertex_count(); ++v) {
           const auto incidences = mesh->topology.star(v);
           if (mesh->topology.boundary()[v] != 0 || !targets.fit(incidences)) continue;
-          const IndexedStars stars(*mesh, v);
+          const IndexedStars stars(*mesh, Colouring{{v}, {0, 1}}, nullptr);
           const IndexedStars::Star star = stars.of(v);
           std::vector<Vec3> others;
           for (const Index other : star.vertices) others.push_back(mesh->mesh.positions[other]);
@@ -223,7 +223,7 @@ bool is_of_lanes(const InputMesh& mesh, Metric metric, Index vertex) {
 bool is_of_volume_kernel(const InputMesh& mesh, const TetrahedronTargets& targets, Index vertex) {
   const auto star = mesh.topology.star(vertex);
   if (!targets.fit(star)) return false;
-  const IndexedStars stars(mesh, vertex);
+  const IndexedStars stars(mesh, Colouring{{vertex}, {0, 1}}, nullptr);
   VolumeStarSearch::Points points;
   return VolumeStarSearch({}, targets.crossed())
       .find(stars.of(vertex), mesh.mesh.positions, vertex, 0, points, {star.data(), targets.numbers()})
@@ -425,12 +425,12 @@ void expect_plain_winner_of_mean(const std::shared_ptr<const InputMesh>& mesh, c
     const auto plain = Grid(task, mean).choose(places, judge.score_of(star, positions, v, tangled), room);
     ++count.stars;
     for (const auto& search : searches) {
-      const auto fast = search->find(positions, v, {});
+      const auto fast = search->find(positions, v, {}, task.search.levels);
       EXPECT_FALSE(tangled && fast.ready) << "vertex " << v;
       if (!fast.ready) continue;
       ++count.taken;
       count.moved += plain == OffsetIn<Frame, double>{} ? 0 : 1;
-      ASSERT_TRUE(fast.way == plain) << "vertex " << v;
+      ASSERT_TRUE(times(fast.offset, fast.scale) == plain) << "vertex " << v;
       for (const double part : {1.0, 0.37, -0.2}) {
         const auto target = rule.moved(positions[v], times(plain, part));
         if (!target) continue;

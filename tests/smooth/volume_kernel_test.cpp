@@ -212,7 +212,7 @@ TEST_P(Generated, StarsByIndicesAreThoseOfTheMesh) {
   for (Index vertex = 0; vertex < input->mesh.positions.size(); ++vertex) {
     VolumeStar<double> expected;
     gather_star(MeshStar<Space>(input->view<Space>(), input->mesh.positions, vertex), expected);
-    const IndexedStars stars(*input, vertex);
+    const IndexedStars stars(*input, Colouring{{vertex}, {0, 1}}, nullptr);
     const IndexedStars::Star star = stars.of(vertex);
     ASSERT_TRUE(star.fits);
     std::vector<Index> sorted(star.vertices.begin(), star.vertices.end());
@@ -244,7 +244,7 @@ TEST_P(Generated, ComparisonsAreByTheLeastRankAndTheMeanOfTheElements) {
   const auto input = make();
   dmoscope::Random random(11);
   for (Index vertex = 0; vertex < input->mesh.positions.size(); vertex += 7) {
-    const IndexedStars stars(*input, vertex);
+    const IndexedStars stars(*input, Colouring{{vertex}, {0, 1}}, nullptr);
     const IndexedStars::Star star = stars.of(vertex);
     std::vector<Vec3> others;
     for (const Index other : star.vertices) others.push_back(input->mesh.positions[other]);

@@ -72,13 +72,13 @@ void IndexedStars::Chunk::add(const InputMesh& input, Index vertex) {
 
 IndexedStars::IndexedStars(const InputMesh& input, const Colouring& colouring, ThreadPool* pool)
     : chunks_((colouring.order.size() + kStarsAtOnce - 1) / kStarsAtOnce),
-      visit_of_vertex_(large_vector<Index>(input.mesh.positions.size())) {
+      visit_of_vertex_(large_vector<Index>(colouring.order.size() > 1 ? input.mesh.positions.size() : 0)) {
   for_chunks(pool, colouring.order.size(), kStarsAtOnce, [&](std::size_t first, std::size_t last) {
     Chunk made;
     made.shapes.reserve(last - first);
     for (std::size_t visit = first; visit < last; ++visit) {
       const Index vertex = colouring.order[visit];
-      visit_of_vertex_[vertex] = static_cast<Index>(visit);
+      if (!visit_of_vertex_.empty()) visit_of_vertex_[vertex] = static_cast<Index>(visit);
       made.add(input, vertex);
     }
     made.vertices.shrink_to_fit();
@@ -86,7 +86,5 @@ IndexedStars::IndexedStars(const InputMesh& input, const Colouring& colouring, T
     chunks_[first / kStarsAtOnce] = std::move(made);
   });
 }
-
-IndexedStars::IndexedStars(const InputMesh& input, Index vertex) : chunks_(1) { chunks_[0].add(input, vertex); }
 
 }  // namespace dmoscope

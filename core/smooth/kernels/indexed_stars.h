@@ -26,8 +26,6 @@ class IndexedStars {
 
   /// Makes the stars of a colouring's vertices, which are visited in its order, in a planar mesh or a volume, which need not outlive it.
   IndexedStars(const InputMesh& input, const Colouring& colouring, ThreadPool* pool);
-  /// Makes the star of one vertex.
-  IndexedStars(const InputMesh& input, Index vertex);
 
   /// Star of one of those vertices.
   [[nodiscard]] Star of(Index vertex) const {

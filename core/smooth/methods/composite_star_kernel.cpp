@@ -49,23 +49,24 @@ typename CompositeStarKernel<Frame>::Room& CompositeStarKernel<Frame>::room() {
 }
 
 template <class Frame>
-CompositeFound<Frame> CompositeStarKernel<Frame>::search(const Star& star, PositionView positions, Index vertex) const {
+CompositeFound<Frame> CompositeStarKernel<Frame>::search(const Star& star, PositionView positions, Index vertex, int levels) const {
   CompositeSearch<Frame> task = aims_;
   task.box = star.box;
+  task.levels = levels;
   take_star(task, judge_.composite(), star, judge_.density_of(star, positions, vertex));
   return kernel_(task);
 }
 
 template <class Frame>
 typename CompositeStarKernel<Frame>::Found CompositeStarKernel<Frame>::find(PositionView positions, Index vertex,
-                                                                            const Untangling& /*untangling*/) const {
+                                                                            const Untangling& /*untangling*/, int levels) const {
   const IndexedStars::Star star = stars_.of(vertex);
   if (!star.fits) return {};
   Room& room = this->room();
   gather_points(judge_.mesh().frame, star, positions, vertex, room.points);
   fill_star(star, room.points, room.star);
-  const CompositeFound<Frame> found = search(room.star, positions, vertex);
-  return {found.ready, times(found.offset, room.star.scale), {}};
+  const CompositeFound<Frame> found = search(room.star, positions, vertex, levels);
+  return {found.ready, found.offset, room.star.scale, room.star.box};
 }
 
 /// Compares the two places by the star as it was searched.

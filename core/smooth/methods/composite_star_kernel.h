@@ -58,13 +58,13 @@ class CompositeStarKernel final : public StarKernel<Frame> {
   /// Takes an objective whose metrics are all built in: see is_for_kernels().
   CompositeStarKernel(const SmoothingTask& task, const CompositeObjective& objective);
 
-  [[nodiscard]] Found find(PositionView positions, Index vertex, const Untangling& untangling) const override;
+  [[nodiscard]] Found find(PositionView positions, Index vertex, const Untangling& untangling, int levels) const override;
   [[nodiscard]] std::optional<bool> gains(PositionView positions, Index vertex, Vec3 target) const override;
   [[nodiscard]] bool valid_at(Index vertex, Vec3 target) const override;
   [[nodiscard]] std::span<const Index> others(Index vertex) const override { return stars_.of(vertex).vertices; }
 
-  /// Winner of a vertex's star, in units of its scale.
-  [[nodiscard]] CompositeFound<Frame> search(const Star& star, PositionView positions, Index vertex) const;
+  /// Winner of the first levels in a vertex's star, in units of its scale.
+  [[nodiscard]] CompositeFound<Frame> search(const Star& star, PositionView positions, Index vertex, int levels) const;
 
  private:
   struct Room {

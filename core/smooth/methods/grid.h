@@ -27,10 +27,13 @@ class Grid {
       if (offset)
         if (const double there = score(*offset); there > worth) worth = there, best = *middle;
     }
+    if (room.watcher != nullptr) room.watcher->begin({score({}), in_space(places.way(best)), worth, score.tangled()});
     double omega = parameters_.omega;
     for (int level = 0; level < parameters_.levels; ++level) {
-      const auto candidates = [&](const auto& take) { places.for_grid(best, omega, parameters_.grid_points, take); };
+      const auto centre = best;
+      const auto candidates = [&](const auto& take) { places.for_grid(centre, omega, parameters_.grid_points, take); };
       look(places, score, room, candidates, best, worth);
+      if (room.watcher != nullptr) tell_level(places, score, centre, omega, best, *room.watcher);
       omega *= 2.0 / (Places::candidates_per_axis(parameters_.grid_points) - 1);
     }
     return places.way(best);
@@ -57,6 +60,20 @@ class Grid {
   [[nodiscard]] std::optional<Vec2<double>> from_above(const SurfacePlaces<Curved>& places, const SurfaceStar& star) const;
 
  private:
+  /// Tells a watcher of a level, with the scores of its candidates; not on a curve, where they lie on a line.
+  template <class Places, class Frame>
+  void tell_level(const Places& places, const StarScore<Frame>& score, typename Places::Coordinates centre, double omega,
+                  typename Places::Coordinates best, VisitWatcher& watcher) const {
+    if constexpr (!std::is_same_v<typename Places::Coordinates, double>) {
+      watcher.level(in_space(places.way(centre)), in_space(places.way(times(places.box(), omega))), parameters_.grid_points);
+      places.for_grid(centre, omega, parameters_.grid_points, [&](const auto& at) {
+        const auto offset = places.offset(at);
+        watcher.candidate(in_space(places.way(at)), offset ? score(*offset) : StarScore<Frame>::kAll);
+      });
+      watcher.found(in_space(places.way(best)));
+    }
+  }
+
   SearchParameters parameters_;
   CompositeKernel<Plane> flat_kernel_ = nullptr;  // kernel for curved surfaces
   CompositeSearch<Plane> flat_aims_;

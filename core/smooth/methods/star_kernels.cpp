@@ -22,21 +22,19 @@ class DefinedKernel final : public StarKernel<Frame> {
   DefinedKernel(const SmoothingTask& task, Metric metric)
       : judge_(task.input->quality_context().judge(metric)),
         star_judge_(defined_star_judge<Frame>(*task.input, *judge_)),
-        levels_(task.search.levels),
         search_(star_judge_, task.search) {}
 
-  [[nodiscard]] Found find(PositionView positions, Index vertex, const Untangling& /*untangling*/) const override {
+  [[nodiscard]] Found find(PositionView positions, Index vertex, const Untangling& /*untangling*/, int levels) const override {
     thread_local typename DefinedSearch<Frame>::Scratch scratch;  // kept: a visit allocates nothing
     const StarState before = defined_star_state(star_judge_, positions, vertex, positions[vertex]);
     if (!(before.jacobian > 0.0)) return {};
-    const auto found = search_.find(positions, vertex, levels_, scratch);
-    return {true, times(found.offset, found.scale), before};
+    const auto found = search_.find(positions, vertex, levels, scratch);
+    return {true, found.offset, found.scale, found.box, !search_.in_double(), before};
   }
 
  private:
   std::shared_ptr<const DefinedJudge> judge_;
   DefinedStarJudge<Frame> star_judge_;
-  int levels_;
   DefinedSearch<Frame> search_;
 };
 
@@ -45,8 +43,7 @@ VolumeStarSearch::Points& points() {
   return points;
 }
 typename StarKernel<Space>::Found found_by(const VolumeFound& found) {
-  const Vec3 offset{found.offset.x, found.offset.y, found.offset.z};
-  return {found.ready, times(offset, points().scale), {}};
+  return {found.ready, point_of<double>(found.offset), points().scale, point_of<double>(points().narrow_box), true};
 }
 
 /// Kernel for a built-in metric, for stars that the search can handle: not with inverted or nearly inverted elements, nor too many.
@@ -54,14 +51,13 @@ class FastVolumeKernel final : public StarKernel<Space> {
  public:
   FastVolumeKernel(const SmoothingTask& task, Metric metric)
       : mesh_(task.input->view<Space>()),
-        levels_(task.search.levels),
         search_(metric, task.search),
         has_inside_(std::ranges::any_of(task.input->mesh.elements.kinds(), &has_inside)),
         stars_(*task.input, *task.colouring, task.pool) {}
 
-  [[nodiscard]] Found find(PositionView positions, Index vertex, const Untangling& untangling) const override {
+  [[nodiscard]] Found find(PositionView positions, Index vertex, const Untangling& untangling, int levels) const override {
     if (has_inside_ && untangling.looks_inside() && has_inverted(mesh_, positions, vertex)) return {};
-    return found_by(search_.find(stars_.of(vertex), positions, vertex, levels_, points()));
+    return found_by(search_.find(stars_.of(vertex), positions, vertex, levels, points()));
   }
   [[nodiscard]] std::optional<bool> gains(PositionView positions, Index vertex, Vec3 target) const override {
     return search_.gains(stars_.of(vertex), points(), positions[vertex], target);
@@ -71,7 +67,6 @@ class FastVolumeKernel final : public StarKernel<Space> {
 
  private:
   MeshView<Space> mesh_;
-  int levels_;
   VolumeStarSearch search_;
   bool has_inside_;
   IndexedStars stars_;
@@ -84,15 +79,14 @@ class TargetVolumeKernel final : public StarKernel<Space> {
       : others_(task, metric),
         mesh_(task.input->view<Space>()),
         targets_(std::move(targets)),
-        levels_(task.search.levels),
         search_(task.search, targets_.crossed()),
         stars_(*task.input, *task.colouring, task.pool) {}
 
-  [[nodiscard]] Found find(PositionView positions, Index vertex, const Untangling& untangling) const override {
+  [[nodiscard]] Found find(PositionView positions, Index vertex, const Untangling& untangling, int levels) const override {
     if (targets_.fit(mesh_.star(vertex)))
-      if (const VolumeFound found = search_.find(stars_.of(vertex), positions, vertex, levels_, points(), targets_of(vertex)); found.ready)
+      if (const VolumeFound found = search_.find(stars_.of(vertex), positions, vertex, levels, points(), targets_of(vertex)); found.ready)
         return found_here() = true, found_by(found);
-    return found_here() = false, others_.find(positions, vertex, untangling);
+    return found_here() = false, others_.find(positions, vertex, untangling, levels);
   }
   [[nodiscard]] std::optional<bool> gains(PositionView positions, Index vertex, Vec3 target) const override {
     if (!found_here()) return std::nullopt;
@@ -112,7 +106,6 @@ class TargetVolumeKernel final : public StarKernel<Space> {
   DefinedKernel<Space> others_;
   MeshView<Space> mesh_;
   TetrahedronTargets targets_;
-  int levels_;
   VolumeStarSearch search_;
   IndexedStars stars_;
 };

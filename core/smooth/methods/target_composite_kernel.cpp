@@ -102,7 +102,6 @@ TargetCompositeKernel<Frame>::TargetCompositeKernel(const SmoothingTask& task, c
       kernel_(kernels(task.search).in<Frame>().target_mean(targets_.crossed())),
       stars_(*task.input, *task.colouring, task.pool) {
   aims_.points = task.search.grid_points;
-  aims_.levels = task.search.levels;
   aims_.omega = task.search.omega;
   aims_.threshold = objective.threshold;
   aims_.mean = std::get<MeanOfStar>(objective.second).kind;
@@ -116,7 +115,7 @@ typename TargetCompositeKernel<Frame>::Room& TargetCompositeKernel<Frame>::room(
 
 template <class Frame>
 typename TargetCompositeKernel<Frame>::Found TargetCompositeKernel<Frame>::find(PositionView positions, Index vertex,
-                                                                                const Untangling& /*untangling*/) const {
+                                                                                const Untangling& /*untangling*/, int levels) const {
   const IndexedStars::Star star = stars_.of(vertex);
   if (!star.fits) return {};
   const PlanarStarTargets::Star targets = targets_.of(vertex);
@@ -133,8 +132,9 @@ typename TargetCompositeKernel<Frame>::Found TargetCompositeKernel<Frame>::find(
   task.here = mesh_.frame.project(positions[vertex]);
   task.scale = room.star.scale;
   task.box = room.star.box;
+  task.levels = levels;
   const CompositeFound<Frame> found = kernel_.search(task);
-  return {found.ready, times(found.offset, room.star.scale), {}};
+  return {found.ready, found.offset, room.star.scale, room.star.box};
 }
 
 template <class Frame>

@@ -55,7 +55,7 @@ class TargetCompositeKernel final : public StarKernel<Frame> {
   TargetCompositeKernel(const SmoothingTask& task, const CompositeObjective& objective);
   [[nodiscard]] static bool is_for(const SmoothingTask& task, const CompositeObjective& objective);
 
-  [[nodiscard]] Found find(PositionView positions, Index vertex, const Untangling& untangling) const override;
+  [[nodiscard]] Found find(PositionView positions, Index vertex, const Untangling& untangling, int levels) const override;
   [[nodiscard]] std::optional<bool> gains(PositionView positions, Index vertex, Vec3 target) const override;
   [[nodiscard]] bool valid_at(Index /*vertex*/, Vec3 /*target*/) const override { return true; }  // tetrahedra have no inside
   [[nodiscard]] std::span<const Index> others(Index vertex) const override { return stars_.of(vertex).vertices; }

@@ -7,6 +7,7 @@
 #include "core/reference/facet_walk.h"
 #include "core/reference/overlay.h"
 #include "core/smooth/visit/star_judge.h"
+#include "core/smooth/visit/visit_watcher.h"
 
 namespace dmoscope {
 
@@ -17,6 +18,7 @@ struct SearchRoom {
   std::vector<StarPiece<Frame>> pieces;
   FacetWalks::Room walks;
   OverlayRoom overlay;
+  VisitWatcher* watcher = nullptr;  // null: nobody looks on
 
   /// List of coordinates of one type: double on a curve, Vec2 in a plane and on a surface, Vec3 in space.
   template <class Coordinates>

@@ -16,7 +16,10 @@ class StarKernel {
   using Offset = OffsetIn<Frame, double>;
   struct Found {
     bool ready = false;                 // false: the plain search must take the star
-    Offset way{};                       // way to the winner, in mesh units; 0: the vertex is at its best place
+    Offset offset{};                    // offset of the winner; 0: the vertex is at its best place
+    double scale = 1.0;                 // unit of the offset, in mesh units
+    Offset box{};                       // box of the star's other vertices, in units of `scale`
+    bool single = false;                // whether candidates are rounded to float
     std::optional<StarState> before{};  // star at the vertex's present place, where known
   };
   StarKernel() = default;
@@ -24,7 +27,8 @@ class StarKernel {
   StarKernel& operator=(const StarKernel&) = delete;
   virtual ~StarKernel() = default;
 
-  [[nodiscard]] virtual Found find(PositionView positions, Index vertex, const Untangling& untangling) const = 0;
+  /// Finds the winner of the first `levels` levels: a search of fewer levels begins like one of more.
+  [[nodiscard]] virtual Found find(PositionView positions, Index vertex, const Untangling& untangling, int levels) const = 0;
   /// Returns whether the vertex gains at `target` for which the same thread has just found a winner, where rounding does not decide. None:
   /// the statistics' formulas have to.
   [[nodiscard]] virtual std::optional<bool> gains(PositionView /*positions*/, Index /*vertex*/, Vec3 /*target*/) const {

@@ -35,6 +35,7 @@ class Visit {
         mesh_(*task.input),
         domain_(task),
         method_(std::move(method)),
+        search_(task.search),
         kernel_(std::move(kernel)),
         has_inside_(task.input->is_volume() && std::ranges::any_of(task.input->mesh.elements.kinds(), &has_inside)) {}
 
@@ -48,7 +49,7 @@ class Visit {
   /// Place of a free vertex for which a kernel has found a target: another one where the guard does not let it go there.
   [[nodiscard]] std::optional<Vec3> confirmed(Index vertex, Vec3 target, PositionView positions, Scratch& scratch) const {
     bool breaks_guard = false;
-    if (confirmation(positions, vertex, &breaks_guard)(target) == Confirmation::Gains) return target;
+    if (confirmation(positions, vertex, scratch, &breaks_guard)(target) == Confirmation::Gains) return target;
     if constexpr (!std::is_same_v<Frame, Curved>)
       if (breaks_guard) return search_guarded(FreePlaces<Frame>(mesh_, positions, vertex, scratch.star), positions, vertex, scratch);
     return std::nullopt;
@@ -76,14 +77,17 @@ class Visit {
   }
   /// Function that tells whether the statistics' formulas let the vertex go to a place. `breaks_guard`: becomes true where the guard alone
   /// does not; null: a place nearer to its present one may do then.
-  [[nodiscard]] auto confirmation(PositionView positions, Index vertex, bool* breaks_guard, const StarState* before = nullptr) const {
-    return [this, positions, vertex, breaks_guard, before](Vec3 target) {
+  [[nodiscard]] auto confirmation(PositionView positions, Index vertex, const Scratch& scratch, bool* breaks_guard,
+                                  const StarState* before = nullptr) const {
+    return [this, positions, vertex, watcher = scratch.room.watcher, breaks_guard, before](Vec3 target) {
       if (!method_.must_gain()) return Confirmation::Gains;
-      const Confirmation found = judge_.confirm(positions, vertex, target, before);
-      if (found != Confirmation::Gains || judge_.keeps_guard(positions, vertex, target)) return found;
-      if (breaks_guard == nullptr) return Confirmation::TooFar;
-      *breaks_guard = true;
-      return Confirmation::GainsNothing;
+      Confirmation found = judge_.confirm(positions, vertex, target, before);
+      if (found == Confirmation::Gains && !judge_.keeps_guard(positions, vertex, target)) {
+        found = breaks_guard != nullptr ? Confirmation::GainsNothing : Confirmation::TooFar;
+        if (breaks_guard != nullptr) *breaks_guard = true;
+      }
+      if (watcher != nullptr) watcher->judged(found);
+      return found;
     };
   }
   /// Goes to the place that the method chooses or, where the guard forbids that, to the one that it chooses among places that the guard
@@ -92,27 +96,32 @@ class Visit {
   [[nodiscard]] std::optional<Vec3> go(const Places& places, PositionView positions, Index vertex, bool tangled, Scratch& scratch) const {
     bool breaks_guard = false;
     const auto target =
-        places.go(choose(places, positions, vertex, tangled, false, scratch), confirmation(positions, vertex, &breaks_guard));
+        places.go(choose(places, positions, vertex, tangled, false, scratch), confirmation(positions, vertex, scratch, &breaks_guard));
     return breaks_guard ? go_guarded(places, positions, vertex, tangled, scratch) : target;
   }
   template <class Places>
   [[nodiscard]] std::optional<Vec3> go_guarded(const Places& places, PositionView positions, Index vertex, bool tangled,
                                                Scratch& scratch) const {
-    return places.go(choose(places, positions, vertex, tangled, true, scratch), confirmation(positions, vertex, nullptr));
+    return places.go(choose(places, positions, vertex, tangled, true, scratch), confirmation(positions, vertex, scratch, nullptr));
   }
 
   [[nodiscard]] std::optional<Vec3> slide(PositionView positions, Index vertex, Scratch& scratch) const {
     judge_.gather(positions, vertex, scratch.star);
     const bool tangled = judge_.is_tangled(scratch.star);
-    if (waits(tangled)) return std::nullopt;
+    const bool waits = this->waits(tangled);
+    if (waits && scratch.room.watcher == nullptr) return std::nullopt;
     const auto go = [&](const auto& places) -> std::optional<Vec3> {
       if (!places) return std::nullopt;
+      // Tells of the search itself, whether or not one from above goes before it.
+      if (scratch.room.watcher != nullptr) (void)choose(*places, positions, vertex, tangled, false, scratch);
+      scratch.room.watcher = nullptr;
+      if (waits) return std::nullopt;
       if constexpr (requires { method_.from_above(*places, scratch.star); }) {
         if (!tangled) {
           if (const auto way = method_.from_above(*places, scratch.star)) {
             if (*way == Vec2<double>{}) return std::nullopt;
             bool breaks_guard = false;
-            if (const auto target = places->go(*way, confirmation(positions, vertex, &breaks_guard))) return target;
+            if (const auto target = places->go(*way, confirmation(positions, vertex, scratch, &breaks_guard))) return target;
           }
         }
       }
@@ -130,10 +139,20 @@ class Visit {
   [[nodiscard]] std::optional<Vec3> move(PositionView positions, Index vertex, Scratch& scratch) const {
     const FreePlaces<Frame> places(mesh_, positions, vertex, scratch.star);
     if (kernel_ && !judge_.untangling().repair) {
-      const auto found = kernel_->find(positions, vertex, judge_.untangling());
+      const auto found = kernel_->find(positions, vertex, judge_.untangling(), search_.levels);
+      if (found.ready && scratch.room.watcher != nullptr) tell_kernel(found, positions, vertex, scratch);
       if (found.ready) return move_to(places, found, positions, vertex, scratch);
     }
     return search(places, positions, vertex, scratch);
+  }
+  /// Tells the watcher of the search of a kernel, which has found the best place of the star.
+  void tell_kernel(const typename StarKernel<Frame>::Found& star, PositionView positions, Index vertex, Scratch& scratch) const {
+    judge_.gather(positions, vertex, scratch.star);
+    const auto score = judge_.score_of(scratch.star, positions, vertex, false);
+    const auto find = [&](int levels) { return kernel_->find(positions, vertex, judge_.untangling(), levels).offset; };
+    const auto tell = star.single ? tell_levels<float, OffsetIn<Frame, double>, decltype(score), decltype(find)>
+                                  : tell_levels<double, OffsetIn<Frame, double>, decltype(score), decltype(find)>;
+    tell(*scratch.room.watcher, search_, star.scale, star.box, score, find);
   }
   /// Searches again with the guard, of which the first search did not know.
   [[nodiscard]] std::optional<Vec3> search_guarded(const FreePlaces<Frame>& places, PositionView positions, Index vertex,
@@ -152,8 +171,9 @@ class Visit {
   }
   [[nodiscard]] std::optional<Vec3> move_to(const FreePlaces<Frame>& places, const typename StarKernel<Frame>::Found& found,
                                             PositionView positions, Index vertex, Scratch& scratch) const {
-    if (found.way == OffsetIn<Frame, double>{}) return std::nullopt;
-    const auto target = mesh_.moved(positions[vertex], found.way);
+    if (found.offset == OffsetIn<Frame, double>{}) return std::nullopt;
+    const auto way = times(found.offset, found.scale);
+    const auto target = mesh_.moved(positions[vertex], way);
     if (!target) return std::nullopt;
     const std::optional<bool> known = kernel_->gains(positions, vertex, *target);
     if (known && !*known) return std::nullopt;
@@ -161,8 +181,8 @@ class Visit {
         judge_.keeps_guard(positions, vertex, *target))
       return target;
     bool breaks_guard = false;
-    const auto confirm = confirmation(positions, vertex, &breaks_guard, found.before ? &*found.before : nullptr);
-    const auto confirmed = places.go(found.way, confirm);
+    const auto confirm = confirmation(positions, vertex, scratch, &breaks_guard, found.before ? &*found.before : nullptr);
+    const auto confirmed = places.go(way, confirm);
     return breaks_guard ? search_guarded(places, positions, vertex, scratch) : confirmed;
   }
 
@@ -175,6 +195,7 @@ class Visit {
   std::conditional_t<std::is_same_v<Frame, Curved>, NoMesh, RuleMesh<Frame>> mesh_;
   SlidingDomain domain_;
   Method method_;
+  SearchParameters search_;
   std::shared_ptr<const StarKernel<Frame>> kernel_;
   bool has_inside_;
 };

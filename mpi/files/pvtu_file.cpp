@@ -33,46 +33,6 @@ struct SharedNumbers {
   Ranges ranges;                     // ranges of the numbers
 };
 
-/// Sends each rank's keys to their keepers, and the keepers' answers back.
-template <Plain Key>
-class Keepers {
- public:
-  template <class KeeperOf>
-  Keepers(const World& world, std::span<const Key> keys, const KeeperOf& keeper_of) : world_(world) {
-    Dealer<Key> dealer(world.size());
-    for (const Key& key : keys) dealer.count(keeper_of(key));
-    dealer.begin();
-    place_.reserve(keys.size());
-    for (const Key& key : keys) place_.push_back(dealer.put(keeper_of(key), key));
-    offsets_ = dealer.parts().offsets;
-    kept_ = world.exchange(dealer.take());
-  }
-  /// Keys that arrived, in the order of the ranks and of their things.
-  [[nodiscard]] const std::vector<Key>& kept() const noexcept { return kept_.values; }
-  /// Sends answers back to each rank and returns those for this rank's things, by thing. `answers`: one for each of kept().
-  template <Plain Answer>
-  [[nodiscard]] std::vector<Answer> give_back(const std::vector<Answer>& answers) const {
-    std::vector<Answer> back(place_.size()), in_order;
-    world_.exchange<Answer>(answers, kept_.offsets, back, offsets_);
-    in_order.reserve(place_.size());
-    for (const std::uint64_t at : place_) in_order.push_back(back[at]);
-    return in_order;
-  }
-  /// Sends other values of the things to the keys' keepers. `values`: one a thing. Returns those that arrived, in the order of kept().
-  template <Plain Value>
-  [[nodiscard]] std::vector<Value> take_along(const std::vector<Value>& values) const {
-    std::vector<Value> to(place_.size()), there(kept_.values.size());
-    for (std::size_t i = 0; i < values.size(); ++i) to[place_[i]] = values[i];
-    world_.exchange<Value>(to, offsets_, there, kept_.offsets);
-    return there;
-  }
-
- private:
-  const World& world_;
-  std::vector<std::uint64_t> place_, offsets_;
-  Parts<Key> kept_;
-};
-
 /// Finds for each of `keys` the least place of an equal one.
 template <class Key>
 std::vector<std::uint64_t> first_of_equals(const std::vector<Key>& keys) {
@@ -311,16 +271,12 @@ class PvtuFile final : public SharedMeshFile {
       WholeIndex number;
       T value;
     };
-    Dealer<HeldValue> dealer(world_.size());
-    const auto pass = [&](const auto& give) {
+    const Parts<HeldValue> to = deal<HeldValue>(world_, [&](const auto& give) {
       for (std::size_t i = 0; i < numbers.of_thing.size(); ++i)
         if (numbers.first[i] != 0) give(numbers.ranges.holder(numbers.of_thing[i]), HeldValue{numbers.of_thing[i], of(i)});
-    };
-    pass([&](int rank, const HeldValue&) { dealer.count(rank); });
-    dealer.begin();
-    pass([&](int rank, const HeldValue& one) { dealer.put(rank, one); });
+    });
     std::vector<T> held(numbers.ranges.count(world_.rank()));
-    for (const HeldValue& one : world_.exchange(dealer.take()).values) held[one.number - numbers.ranges.begin(world_.rank())] = one.value;
+    for (const HeldValue& one : world_.exchange(to).values) held[one.number - numbers.ranges.begin(world_.rank())] = one.value;
     return held;
   }
 

@@ -111,17 +111,13 @@ class ElementDealer {
   /// Sends the values that `of(element, put)` puts for each element to the ranks that get the element.
   template <Plain T, class Of>
   [[nodiscard]] std::vector<T> deal(const Of& of) const {
-    Dealer<T> dealer(world_.size());
-    const auto pass = [&](const auto& give) {
+    const auto each = [&](const auto& give) {
       for (std::size_t e = 0; e < block_.kinds.size(); ++e)
         of(e, [&](const T& value) {
           for (std::size_t i = to_offsets_[e]; i < to_offsets_[e + 1]; ++i) give(to_[i], value);
         });
     };
-    pass([&](int rank, const T&) { dealer.count(rank); });
-    dealer.begin();
-    pass([&](int rank, const T& value) { dealer.put(rank, value); });
-    return world_.exchange(dealer.parts()).values;
+    return world_.exchange(dmoscope::deal<T>(world_, each)).values;
   }
 
  private:
@@ -179,11 +175,10 @@ class ShareMaker {
   /// Collects the owned vertices and the other corners of elements.
   void vertices() {
     const WholeIndex first = block_.vertices.begin(world_.rank());
-    Dealer<WholeIndex> dealer(world_.size());
-    for (const int rank : part_) dealer.count(rank);
-    dealer.begin();
-    for (std::size_t v = 0; v < part_.size(); ++v) dealer.put(part_[v], first + v);
-    const std::vector<WholeIndex> owned = world_.exchange(dealer.take()).values;
+    const auto each = [&](const auto& give) {
+      for (std::size_t v = 0; v < part_.size(); ++v) give(part_[v], first + v);
+    };
+    const std::vector<WholeIndex> owned = world_.exchange(deal<WholeIndex>(world_, each)).values;
     share_.vertices = sorted_once({owned, corners_}, block_.vertices.size());
     world_.together([&] {
       if (share_.vertices.size() >= kNoIndex || corners_.size() >= kNoIndex)
@@ -264,18 +259,16 @@ Share make_share(const World& world, MeshBlock& block, const std::vector<int>& p
 }
 
 Halo::Halo(const World& world, const Share& share) : world_(world) {
-  Dealer<WholeIndex> wanted(world.size());
-  for (const int owner : share.owner)
-    if (owner != world.rank()) wanted.count(owner);
-  wanted.begin();
-  for (std::size_t v = 0; v < share.owner.size(); ++v)
-    if (share.owner[v] != world.rank()) wanted.put(share.owner[v], share.vertices[v]);
-  const Parts<WholeIndex> asked = world.exchange(wanted.parts());
+  const Parts<WholeIndex> wanted = deal<WholeIndex>(world, [&](const auto& give) {
+    for (std::size_t v = 0; v < share.owner.size(); ++v)
+      if (share.owner[v] != world.rank()) give(share.owner[v], share.vertices[v]);
+  });
+  const Parts<WholeIndex> asked = world.exchange(wanted);
   std::size_t most = 0;
   for (int rank = 0; rank < world.size(); ++rank) {
     Neighbour neighbour{rank, {}, {}};
     for (const WholeIndex v : asked.of(rank)) neighbour.send.push_back(share.find_vertex(v));
-    for (const WholeIndex v : wanted.parts().of(rank)) neighbour.receive.push_back(share.find_vertex(v));
+    for (const WholeIndex v : wanted.of(rank)) neighbour.receive.push_back(share.find_vertex(v));
     size_ += neighbour.receive.size();
     most = std::max({most, neighbour.send.size(), neighbour.receive.size()});
     if (!neighbour.send.empty() || !neighbour.receive.empty()) neighbours_.push_back(std::move(neighbour));

@@ -96,19 +96,15 @@ class Orienter {
       SetName set;
       std::uint64_t against;
     };
-    Dealer<Known> dealer(world_.size());
-    const auto pass = [&](const auto& give) {
+    const auto each = [&](const auto& give) {
       for (Index e = 0; e < mesh_.elements.size(); ++e) {
         if (share_.home[e] != 0) continue;
         const auto place = sets_.find(e);
         give(share_.owner[std::ranges::min(mesh_.elements.corners(e))], Known{share_.elements[e], name(place.root), place.against});
       }
     };
-    pass([&](int rank, const Known&) { dealer.count(rank); });
-    dealer.begin();
-    pass([&](int rank, const Known& known) { dealer.put(rank, known); });
     std::vector<Common> all;
-    for (const Known& known : world_.exchange(dealer.parts()).values) {
+    for (const Known& known : world_.exchange(deal<Known>(world_, each)).values) {
       const auto at = std::ranges::lower_bound(share_.elements, known.element) - share_.elements.begin();
       const auto place = sets_.find(static_cast<Index>(at));
       all.push_back({name(place.root), known.set, place.against ^ known.against});

@@ -156,16 +156,13 @@ std::vector<Vec3> positions_of_block(const SharedMesh& mesh, std::span<const Vec
   };
   const World& world = mesh.share->world();
   const Share& share = mesh.share->share();
-  Dealer<Placed> dealer(world.size());
-  const auto each = [&](const auto& visit) {
+  const auto each = [&](const auto& give) {
     for (Index v = 0; v < share.vertices.size(); ++v)
-      if (mesh.share->owns(v)) visit(v, mesh.vertices.holder(share.vertices[v]));
+      if (mesh.share->owns(v)) give(mesh.vertices.holder(share.vertices[v]), Placed{share.vertices[v], positions[v]});
   };
-  each([&](Index, int rank) { dealer.count(rank); });
-  dealer.begin();
-  each([&](Index v, int rank) { dealer.put(rank, {share.vertices[v], positions[v]}); });
   std::vector<Vec3> block(mesh.vertices.count(world.rank()));
-  for (const Placed& one : world.exchange(dealer.take()).values) block[one.vertex - mesh.vertices.begin(world.rank())] = one.position;
+  for (const Placed& one : world.exchange(deal<Placed>(world, each)).values)
+    block[one.vertex - mesh.vertices.begin(world.rank())] = one.position;
   return block;
 }
 

@@ -77,19 +77,16 @@ std::uint64_t up_to(std::uint64_t elements, std::uint64_t size) { return (elemen
 
 SharedStatistics::SharedStatistics(const World& world, const Share& share)
     : world_(world), share_(&share), stretches_(share.element_count, world.size(), Tally::kStretch) {
-  Dealer<std::uint32_t> dealer(world.size());
-  for (Index e = 0; e < share.home.size(); ++e) {
-    if (share.home[e] == 0) continue;
-    to_.push_back(e);  // ascending, hence by rank
-    dealer.count(stretches_.holder(share.elements[e]));
-  }
-  dealer.begin();
-  to_offsets_ = dealer.parts().offsets;
-  for (const Index e : to_) {
-    const int rank = stretches_.holder(share.elements[e]);
-    dealer.put(rank, static_cast<std::uint32_t>(share.elements[e] - stretches_.begin(rank)));
-  }
-  places_ = world.exchange(dealer.take());
+  for (Index e = 0; e < share.home.size(); ++e)
+    if (share.home[e] != 0) to_.push_back(e);  // ascending, hence by rank
+  const Parts<std::uint32_t> to = deal<std::uint32_t>(world, [&](const auto& give) {
+    for (const Index e : to_) {
+      const int rank = stretches_.holder(share.elements[e]);
+      give(rank, static_cast<std::uint32_t>(share.elements[e] - stretches_.begin(rank)));
+    }
+  });
+  to_offsets_ = to.offsets;
+  places_ = world.exchange(to);
 
   // The stretches that a rank has and those that it adds up are both consecutive: it sends the intersection.
   const std::uint64_t stretches = up_to(share.element_count, Tally::kStretch);

@@ -177,49 +177,72 @@ class World {
   int rank_ = 0, size_ = 1;
 };
 
-/// Sorts many things by the rank that gets them: fills Parts without a vector for each rank. Two passes: count(), then put().
-template <Plain T>
-class Dealer {
+/// Sorts things by the rank that gets them, without a vector for each rank. each(give): calls give(rank, thing) for all of them, the same
+/// in both of its passes. `places`: gets the place of each thing in the parts; null: not wanted.
+template <Plain T, class Each>
+[[nodiscard]] Parts<T> deal(const World& world, const Each& each, std::vector<std::uint64_t>* places = nullptr) {
+  std::vector<std::uint64_t> next(static_cast<std::size_t>(world.size()) + 1, 0);
+  each([&next](int rank, const T& /*thing*/) { ++next[static_cast<std::size_t>(rank) + 1]; });
+  for (std::size_t r = 1; r < next.size(); ++r) next[r] += next[r - 1];
+  Parts<T> parts{std::vector<T>(next.back()), next};
+  each([&](int rank, const T& thing) {
+    const std::uint64_t at = next[static_cast<std::size_t>(rank)]++;
+    parts.values[at] = thing;
+    if (places != nullptr) places->push_back(at);
+  });
+  return parts;
+}
+
+/// Sends each rank's keys to their keepers, and the keepers' answers back. The world must outlive it.
+template <Plain Key>
+class Keepers {
  public:
-  explicit Dealer(int ranks) : next_(static_cast<std::size_t>(ranks) + 1, 0) {}
-  void count(int rank, std::uint64_t how_many = 1) { next_[static_cast<std::size_t>(rank) + 1] += how_many; }
-  /// Starts the second pass.
-  void begin() {
-    for (std::size_t r = 1; r < next_.size(); ++r) next_[r] += next_[r - 1];
-    parts_.offsets = next_;
-    parts_.values.resize(next_.back());
+  /// Takes a key for each of this rank's things; all ranks together.
+  template <class KeeperOf>
+  Keepers(const World& world, std::span<const Key> keys, const KeeperOf& keeper_of) : world_(world) {
+    place_.reserve(keys.size());
+    const auto each = [&](const auto& give) {
+      for (const Key& key : keys) give(keeper_of(key), key);
+    };
+    Parts<Key> to = deal<Key>(world, each, &place_);
+    kept_ = world.exchange(to);
+    offsets_ = std::move(to.offsets);
   }
-  /// Puts a value and returns its place.
-  std::uint64_t put(int rank, const T& value) {
-    const std::uint64_t at = next_[static_cast<std::size_t>(rank)]++;
-    parts_.values[at] = value;
-    return at;
+  /// Keys that arrived, in the order of the ranks and of their things.
+  [[nodiscard]] const std::vector<Key>& kept() const noexcept { return kept_.values; }
+  /// Sends answers back to each rank and returns those for this rank's things, by thing. `answers`: one for each of kept().
+  template <Plain Answer>
+  [[nodiscard]] std::vector<Answer> give_back(const std::vector<Answer>& answers) const {
+    std::vector<Answer> back(place_.size()), in_order;
+    world_.exchange<Answer>(answers, kept_.offsets, back, offsets_);
+    in_order.reserve(place_.size());
+    for (const std::uint64_t at : place_) in_order.push_back(back[at]);
+    return in_order;
   }
-  [[nodiscard]] const Parts<T>& parts() const noexcept { return parts_; }
-  [[nodiscard]] Parts<T> take() { return std::move(parts_); }
+  /// Sends other values of the things to the keys' keepers. `values`: one a thing. Returns those that arrived, in the order of kept().
+  template <Plain Value>
+  [[nodiscard]] std::vector<Value> take_along(const std::vector<Value>& values) const {
+    std::vector<Value> to(place_.size()), there(kept_.values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) to[place_[i]] = values[i];
+    world_.exchange<Value>(to, offsets_, there, kept_.offsets);
+    return there;
+  }
 
  private:
-  std::vector<std::uint64_t> next_;
-  Parts<T> parts_;
+  const World& world_;
+  std::vector<std::uint64_t> place_, offsets_;
+  Parts<Key> kept_;
 };
 
 /// Asks the holders of numbered things about them: answer(i) of the holder, for each i of `asked`, in its order. `asked`: numbers below
 /// ranges.size().
 template <Plain T, class Answer>
 [[nodiscard]] std::vector<T> ask_holders(const World& world, const Ranges& ranges, std::span<const std::uint64_t> asked, Answer answer) {
-  Dealer<std::uint64_t> questions(world.size());
-  for (const std::uint64_t i : asked) questions.count(ranges.holder(i));
-  questions.begin();
-  std::vector<std::uint64_t> place(asked.size());
-  for (std::size_t k = 0; k < asked.size(); ++k) place[k] = questions.put(ranges.holder(asked[k]), asked[k]);
-  const Parts<std::uint64_t> here = world.exchange(questions.parts());
-  std::vector<T> answers(here.values.size());
-  for (std::size_t k = 0; k < answers.size(); ++k) answers[k] = answer(here.values[k]);
-  std::vector<T> back(asked.size());
-  world.exchange<T>(answers, here.offsets, back, questions.parts().offsets);
-  std::vector<T> in_order(asked.size());
-  for (std::size_t k = 0; k < asked.size(); ++k) in_order[k] = back[place[k]];
-  return in_order;
+  const Keepers<std::uint64_t> holders(world, asked, [&](std::uint64_t i) { return ranges.holder(i); });
+  std::vector<T> answers;
+  answers.reserve(holders.kept().size());
+  for (const std::uint64_t i : holders.kept()) answers.push_back(answer(i));
+  return holders.give_back(answers);
 }
 
 }  // namespace dmoscope

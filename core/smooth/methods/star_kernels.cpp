@@ -46,68 +46,56 @@ typename StarKernel<Space>::Found found_by(const VolumeFound& found) {
   return {found.ready, point_of<double>(found.offset), points().scale, point_of<double>(points().narrow_box), true};
 }
 
-/// Kernel for a built-in metric, for stars that the search can handle: not with inverted or nearly inverted elements, nor too many.
+/// Kernel for a built-in metric, for stars that the search can handle: not with inverted or nearly inverted elements, nor too many. Against
+/// targets for the mean ratio, for stars of tetrahedra; all others by the kernel for formulas.
 class FastVolumeKernel final : public StarKernel<Space> {
  public:
-  FastVolumeKernel(const SmoothingTask& task, Metric metric)
-      : mesh_(task.input->view<Space>()),
-        search_(metric, task.search),
-        has_inside_(std::ranges::any_of(task.input->mesh.elements.kinds(), &has_inside)),
-        stars_(*task.input, *task.colouring, task.pool) {}
+  FastVolumeKernel(const SmoothingTask& task, Metric metric) : FastVolumeKernel(task, VolumeStarSearch(metric, task.search)) {}
+  FastVolumeKernel(const SmoothingTask& task, Metric metric, TetrahedronTargets targets)
+      : FastVolumeKernel(task, VolumeStarSearch(task.search, targets.crossed())) {
+    targets_ = std::move(targets);
+    others_.emplace(task, metric);
+  }
 
   [[nodiscard]] Found find(PositionView positions, Index vertex, const Untangling& untangling, int levels) const override {
-    if (has_inside_ && untangling.looks_inside() && has_inverted(mesh_, positions, vertex)) return {};
-    return found_by(search_.find(stars_.of(vertex), positions, vertex, levels, points()));
-  }
-  [[nodiscard]] std::optional<bool> gains(PositionView positions, Index vertex, Vec3 target) const override {
-    return search_.gains(stars_.of(vertex), points(), positions[vertex], target);
-  }
-  [[nodiscard]] bool valid_at(Index vertex, Vec3 target) const override { return search_.valid_at(stars_.of(vertex), points(), target); }
-  [[nodiscard]] std::span<const Index> others(Index vertex) const override { return stars_.of(vertex).vertices; }
-
- private:
-  MeshView<Space> mesh_;
-  VolumeStarSearch search_;
-  bool has_inside_;
-  IndexedStars stars_;
-};
-
-/// Kernel for the mean ratio against targets, for stars of tetrahedra; all others by the kernel for formulas.
-class TargetVolumeKernel final : public StarKernel<Space> {
- public:
-  TargetVolumeKernel(const SmoothingTask& task, Metric metric, TetrahedronTargets targets)
-      : others_(task, metric),
-        mesh_(task.input->view<Space>()),
-        targets_(std::move(targets)),
-        search_(task.search, targets_.crossed()),
-        stars_(*task.input, *task.colouring, task.pool) {}
-
-  [[nodiscard]] Found find(PositionView positions, Index vertex, const Untangling& untangling, int levels) const override {
-    if (targets_.fit(mesh_.star(vertex)))
-      if (const VolumeFound found = search_.find(stars_.of(vertex), positions, vertex, levels, points(), targets_of(vertex)); found.ready)
-        return found_here() = true, found_by(found);
-    return found_here() = false, others_.find(positions, vertex, untangling, levels);
+    const bool fits = targets_ ? targets_->fit(mesh_.star(vertex))
+                               : !(has_inside_ && untangling.looks_inside() && has_inverted(mesh_, positions, vertex));
+    VolumeFound found{};
+    if (fits) found = search_.find(stars_.of(vertex), positions, vertex, levels, points(), targets_of(vertex));
+    found_here() = found.ready;
+    return found.ready || !others_ ? found_by(found) : others_->find(positions, vertex, untangling, levels);
   }
   [[nodiscard]] std::optional<bool> gains(PositionView positions, Index vertex, Vec3 target) const override {
     if (!found_here()) return std::nullopt;
     return search_.gains(stars_.of(vertex), points(), positions[vertex], target, targets_of(vertex));
   }
-  [[nodiscard]] bool valid_at(Index /*vertex*/, Vec3 /*target*/) const override { return found_here(); }  // tetrahedra have no inside
+  [[nodiscard]] bool valid_at(Index vertex, Vec3 target) const override {
+    return targets_ ? found_here() : search_.valid_at(stars_.of(vertex), points(), target);  // tetrahedra have no inside
+  }
   [[nodiscard]] std::span<const Index> others(Index vertex) const override { return stars_.of(vertex).vertices; }
 
  private:
-  /// Returns whether this thread's last winner belongs to a star of tetrahedra.
+  FastVolumeKernel(const SmoothingTask& task, VolumeStarSearch search)
+      : mesh_(task.input->view<Space>()),
+        search_(std::move(search)),
+        has_inside_(std::ranges::any_of(task.input->mesh.elements.kinds(), &has_inside)),
+        stars_(*task.input, *task.colouring, task.pool) {}
+
+  /// Returns whether this thread's last winner is that of the fast search.
   static bool& found_here() {
     thread_local bool found = false;
     return found;
   }
-  [[nodiscard]] VolumeTargets targets_of(Index vertex) const { return {mesh_.star(vertex).data(), targets_.numbers()}; }
+  [[nodiscard]] VolumeTargets targets_of(Index vertex) const {
+    return targets_ ? VolumeTargets{mesh_.star(vertex).data(), targets_->numbers()} : VolumeTargets{};
+  }
 
-  DefinedKernel<Space> others_;
   MeshView<Space> mesh_;
-  TetrahedronTargets targets_;
   VolumeStarSearch search_;
+  bool has_inside_;
   IndexedStars stars_;
+  std::optional<TetrahedronTargets> targets_;   // none: ideal ones
+  std::optional<DefinedKernel<Space>> others_;  // against targets
 };
 
 }  // namespace
@@ -135,7 +123,7 @@ std::shared_ptr<const StarKernel<Frame>> star_kernel(const SmoothingTask& task, 
   if constexpr (std::is_same_v<Frame, Space>) {
     if (has_target_kernel(*task.input, objective.first, task.search)) {
       TetrahedronTargets targets(task.input->quality_context().judge(objective.first)->targets(), task.input->mesh);
-      if (targets.any()) return std::make_shared<const TargetVolumeKernel>(task, objective.first, std::move(targets));
+      if (targets.any()) return std::make_shared<const FastVolumeKernel>(task, objective.first, std::move(targets));
     }
   }
   return std::make_shared<const DefinedKernel<Frame>>(task, objective.first);

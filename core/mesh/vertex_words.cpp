@@ -14,9 +14,8 @@
 #include "core/mesh/thin.h"
 
 namespace dmoscope {
-namespace {
 
-std::vector<std::string_view> split(std::string_view text) {
+std::vector<std::string_view> split_at_commas(std::string_view text) {
   std::vector<std::string_view> words;
   while (true) {
     const std::size_t comma = text.find(',');
@@ -25,6 +24,45 @@ std::vector<std::string_view> split(std::string_view text) {
     text.remove_prefix(comma + 1);
   }
 }
+
+std::vector<NumberRange> parse_number_list(std::string_view list, std::string_view word) {
+  std::vector<NumberRange> ranges;
+  for (const std::string_view part : split_at_commas(list)) {
+    const std::size_t dash = part.find('-');
+    const auto first = number_in<std::uint64_t>(part.substr(0, dash));
+    const auto last = dash == std::string_view::npos ? first : number_in<std::uint64_t>(part.substr(dash + 1));
+    if (!first || !last) throw UsageError(fmt::format("{}: no list of vertices like 3,7-9", word));
+    if (*last < *first) throw UsageError(fmt::format("{}: the range {} runs backwards", word, part));
+    ranges.push_back({*first, *last});
+  }
+  return ranges;
+}
+
+NamedBox parse_box(std::string_view text, std::string_view word) {
+  const auto fail = [&](const std::string& what) { throw UsageError(fmt::format("{}: {}", word, what)); };
+  NamedBox box;
+  for (const std::string_view part : split_at_commas(text)) {
+    const auto value = number_in<double>(part);
+    if (!value || std::isnan(*value)) fail(fmt::format("'{}' is no number", part));
+    box.limits.push_back(*value);
+  }
+  if (box.limits.size() != 4 && box.limits.size() != 6) fail("a box is box:X0,Y0,X1,Y1 or box:X0,Y0,Z0,X1,Y1,Z1");
+  const std::size_t axes = box.limits.size() / 2;
+  for (std::size_t a = 0; a < axes; ++a)
+    if (box.limits[a + axes] < box.limits[a])
+      fail(fmt::format("the box ends at {} before it begins at {}", box.limits[a + axes], box.limits[a]));
+  return box;
+}
+
+bool NamedBox::has(Vec3 p) const {
+  const std::array<double, 3> at{p.x, p.y, p.z};
+  const std::size_t axes = limits.size() / 2;
+  bool inside = axes > 0;
+  for (std::size_t a = 0; a < axes; ++a) inside = inside && at[a] >= limits[a] && at[a] <= limits[a + axes];
+  return inside;
+}
+
+namespace {
 
 /// Enumeration of names that ends with a count: "inlet, wall and 7 more".
 std::string some_of(const std::vector<std::string>& names) {
@@ -86,21 +124,12 @@ class VertexWord {
     return !text.empty() && text.find_first_not_of("0123456789,-") == std::string_view::npos;
   }
 
-  Index id(std::string_view text) const {
-    const auto value = number_in<std::uint64_t>(text);
-    if (!value) fail("no list of vertices like 3,7-9");
-    if (*value >= mesh_.vertex_count())
-      fail(fmt::format("there is no vertex {} (the mesh has {}, counted from 0)", *value, mesh_.vertex_count()));
-    return static_cast<Index>(*value);
-  }
-
   void list(std::string_view text) {
-    for (const std::string_view part : split(text)) {
-      const std::size_t dash = part.find('-');
-      const Index first = id(part.substr(0, dash));
-      const Index last = dash == std::string_view::npos ? first : id(part.substr(dash + 1));
-      if (last < first) fail(fmt::format("the range {} runs backwards", part));
-      for (Index v = first; v <= last; ++v) found_.push_back(v);
+    for (const NumberRange& range : parse_number_list(text, word_)) {
+      for (const std::uint64_t end : {range.first, range.last})
+        if (end >= mesh_.vertex_count())
+          fail(fmt::format("there is no vertex {} (the mesh has {}, counted from 0)", end, mesh_.vertex_count()));
+      for (std::uint64_t v = range.first; v <= range.last; ++v) found_.push_back(static_cast<Index>(v));
     }
   }
 
@@ -174,7 +203,7 @@ class VertexWord {
     }
     if (called.size() > 1 && called[0]->on != called[1]->on)
       fail_choice({fmt::format("point-data:{}", text), fmt::format("cell-data:{}", text)});
-    for (const std::string_view value : split(text.substr(equals + 1))) with_value(*called.front(), value);
+    for (const std::string_view value : split_at_commas(text.substr(equals + 1))) with_value(*called.front(), value);
   }
 
   void with_value(const Field& field, std::string_view text) {
@@ -204,23 +233,9 @@ class VertexWord {
   // --- Names by place ---
 
   void box(std::string_view text) {
-    std::vector<double> limits;
-    for (const std::string_view part : split(text)) {
-      const auto value = number_in<double>(part);
-      if (!value || std::isnan(*value)) fail(fmt::format("'{}' is no number", part));
-      limits.push_back(*value);
-    }
-    if (limits.size() != 4 && limits.size() != 6) fail("a box is box:X0,Y0,X1,Y1 or box:X0,Y0,Z0,X1,Y1,Z1");
-    const std::size_t axes = limits.size() / 2;
-    for (std::size_t a = 0; a < axes; ++a)
-      if (limits[a + axes] < limits[a]) fail(fmt::format("the box ends at {} before it begins at {}", limits[a + axes], limits[a]));
-    for (Index v = 0; v < mesh_.vertex_count(); ++v) {
-      const Vec3& p = mesh_.degrees ? (*mesh_.degrees)[v] : mesh_.positions[v];
-      const std::array<double, 3> at{p.x, p.y, p.z};
-      bool inside = true;
-      for (std::size_t a = 0; a < axes; ++a) inside = inside && at[a] >= limits[a] && at[a] <= limits[a + axes];
-      if (inside) found_.push_back(v);
-    }
+    const NamedBox box = parse_box(text, word_);
+    for (Index v = 0; v < mesh_.vertex_count(); ++v)
+      if (box.has(mesh_.degrees ? (*mesh_.degrees)[v] : mesh_.positions[v])) found_.push_back(v);
     if (found_.empty()) fail("no vertex lies in this box");
   }
 

@@ -1,7 +1,6 @@
 #include "mpi/mesh/vertex_marks.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
@@ -10,16 +9,6 @@
 
 namespace dmoscope {
 namespace {
-
-/// Calls visit(part) for each part between commas.
-template <class Visit>
-void each_part(std::string_view text, const Visit& visit) {
-  for (std::size_t at = 0; at <= text.size();) {
-    const std::size_t comma = std::min(text.find(',', at), text.size());
-    visit(text.substr(at, comma - at));
-    at = comma + 1;
-  }
-}
 
 [[noreturn]] void fail(const std::string& word, const std::string& what) { throw UsageError(fmt::format("--fix {}: {}", word, what)); }
 
@@ -36,9 +25,9 @@ SharedVertexWords::Word SharedVertexWords::read(const std::string& text) {
   const std::string_view rest = whole.substr(colon == std::string::npos ? 0 : colon + 1);
   const bool is_list = !whole.empty() && whole.find_first_not_of("0123456789,-") == std::string_view::npos;
   if (head == "vertices" || is_list)
-    read_list(word, is_list ? whole : rest);
+    word.ranges = parse_number_list(is_list ? whole : rest, "--fix " + text);
   else if (head == "box")
-    read_box(word, rest);
+    word.box = parse_box(rest, "--fix " + text);
   else if (head == "data" || head == "point-data" || head == "cell-data")
     read_data(word, rest);
   else if (head == "group" || head == "points")
@@ -50,39 +39,15 @@ SharedVertexWords::Word SharedVertexWords::read(const std::string& text) {
   return word;
 }
 
-void SharedVertexWords::read_list(Word& word, std::string_view list) {
-  each_part(list, [&](std::string_view part) {
-    const std::size_t dash = part.find('-');
-    const auto first = number_in<WholeIndex>(part.substr(0, dash));
-    const auto last = dash == std::string_view::npos ? first : number_in<WholeIndex>(part.substr(dash + 1));
-    if (!first || !last) fail(word.text, "no list of vertices like 3,7-9");
-    if (*last < *first) fail(word.text, fmt::format("the range {} runs backwards", part));
-    word.ranges.push_back({*first, *last});
-  });
-}
-
 void SharedVertexWords::read_data(Word& word, std::string_view text) {
   const std::size_t equals = text.rfind('=');
   if (equals == std::string_view::npos) fail(word.text, "data are named as in mat_id=3 or mat_id=3,5");
   word.field = text.substr(0, equals);
-  each_part(text.substr(equals + 1), [&](std::string_view part) {
+  for (const std::string_view part : split_at_commas(text.substr(equals + 1))) {
     const auto value = number_in<double>(part);
     if (!value) fail(word.text, fmt::format("'{}' is no number", part));
     word.values.push_back(*value);
-  });
-}
-
-void SharedVertexWords::read_box(Word& word, std::string_view text) {
-  each_part(text, [&](std::string_view part) {
-    const auto value = number_in<double>(part);
-    if (!value || std::isnan(*value)) fail(word.text, fmt::format("'{}' is no number", part));
-    word.box.push_back(*value);
-  });
-  if (word.box.size() != 4 && word.box.size() != 6) fail(word.text, "a box is box:X0,Y0,X1,Y1 or box:X0,Y0,Z0,X1,Y1,Z1");
-  const std::size_t axes = word.box.size() / 2;
-  for (std::size_t a = 0; a < axes; ++a)
-    if (word.box[a + axes] < word.box[a])
-      fail(word.text, fmt::format("the box ends at {} before it begins at {}", word.box[a + axes], word.box[a]));
+  }
 }
 
 FieldFilter SharedVertexWords::fields() const {
@@ -102,7 +67,7 @@ BlockMarks SharedVertexWords::find(const World& world, const MeshBlock& block) c
     world.together([&] { any = mark(world, block, word, marks); });
     const bool anywhere = world.any(any);
     world.together([&] {
-      if (!anywhere) fail(word.text, word.box.empty() ? "it names no vertex of this mesh" : "no vertex lies in this box");
+      if (!anywhere) fail(word.text, word.box.limits.empty() ? "it names no vertex of this mesh" : "no vertex lies in this box");
     });
   }
   return marks;
@@ -116,7 +81,7 @@ bool SharedVertexWords::mark(const World& world, const MeshBlock& block, const W
     marks.vertices[v - first] = 1;
     any = true;
   };
-  for (const Range& range : word.ranges) {
+  for (const NumberRange& range : word.ranges) {
     if (range.last >= block.vertices.size())
       fail(word.text, fmt::format("there is no vertex {} (the mesh has {}, counted from 0)", range.last, block.vertices.size()));
     for (WholeIndex v = std::max(range.first, first); v <= range.last && v < end; ++v) take(v);
@@ -128,13 +93,8 @@ bool SharedVertexWords::mark(const World& world, const MeshBlock& block, const W
       fail(word.text, "neither a list of vertices like 3,7-9 nor one of the mesh's boundary strings nor its data with a number (mat_id=3)");
     for (const WholeIndex v : found->vertices) take(v);
   }
-  const std::size_t axes = word.box.size() / 2;
-  for (std::size_t v = 0; axes > 0 && v < block.positions.size(); ++v) {
-    const std::array<double, 3> at{block.positions[v].x, block.positions[v].y, block.positions[v].z};
-    bool inside = true;
-    for (std::size_t a = 0; a < axes; ++a) inside = inside && at[a] >= word.box[a] && at[a] <= word.box[a + axes];
-    if (inside) take(first + v);
-  }
+  for (std::size_t v = 0; v < block.positions.size(); ++v)
+    if (word.box.has(block.positions[v])) take(first + v);
   return mark_field(block, word, marks) || any;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/mesh/vertex_words.h"
 #include "mpi/mesh/share.h"
 
 namespace dmoscope {
@@ -26,21 +27,16 @@ class SharedVertexWords {
   [[nodiscard]] BlockMarks find(const World& world, const MeshBlock& block) const;
 
  private:
-  struct Range {
-    WholeIndex first, last;
-  };
   /// One word; one of the members is set.
   struct Word {
     std::string text;
-    std::vector<Range> ranges{};
+    std::vector<NumberRange> ranges{};
     std::string group{}, field{};
     std::vector<double> values{};  // values of the field
-    std::vector<double> box{};     // low corner, then high corner: 4 or 6 numbers
+    NamedBox box{};
   };
   static Word read(const std::string& text);
-  static void read_list(Word& word, std::string_view list);
   static void read_data(Word& word, std::string_view text);
-  static void read_box(Word& word, std::string_view text);
   [[nodiscard]] static bool mark(const World& world, const MeshBlock& block, const Word& word, BlockMarks& marks);
   static bool mark_field(const MeshBlock& block, const Word& word, BlockMarks& marks);
 

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -35,14 +37,14 @@ Mesh stripped(Mesh mesh) {
   return mesh;
 }
 
-/// Old files name numbers without a dimension; saved again by Gmsh such names have the dimension -1.
+/// Old files name numbers without a dimension; saved again by Gmsh such names have the dimension -1. No blank need stand before a quote.
 TEST(Gmsh, NamesWithoutADimensionAreOfWhateverHasTheNumber) {
-  for (const char* const dimension : {"", "-1 "}) {
-    const std::string d(dimension);
-    const Mesh mesh =
-        read_bytes("a.msh", "$MeshFormat\n2.0 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n" + d + "1 \"left wall\"\n" + d +
-                                "2 \"steel\"\n2 3 \"glass\"\n$EndPhysicalNames\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n"
-                                "$EndNodes\n$Elements\n3\n1 1 2 1 1 4 1\n2 2 2 2 1 1 2 3\n3 2 2 3 1 1 3 4\n$EndElements\n");
+  const std::vector<std::pair<std::string, std::string>> ways{{"", " "}, {"-1 ", " "}, {"", ""}, {"-1 ", ""}, {"", "\t"}};
+  for (const auto& [d, blank] : ways) {
+    const Mesh mesh = read_bytes("a.msh", "$MeshFormat\n2.0 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n" + d + "1" + blank +
+                                              "\"left wall\"\n" + d + "2" + blank + "\"steel\"\n2 3" + blank +
+                                              "\"glass\"\n$EndPhysicalNames\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n"
+                                              "$EndNodes\n$Elements\n3\n1 1 2 1 1 4 1\n2 2 2 2 1 1 2 3\n3 2 2 3 1 1 3 4\n$EndElements\n");
     EXPECT_EQ(group(mesh, "left wall").dimension, 1);
     EXPECT_THAT(group(mesh, "left wall").members, ElementsAre(3, 0));
     EXPECT_THAT(group(mesh, "steel").members, ElementsAre(0));
@@ -338,6 +340,8 @@ TEST(Gmsh, Malformed) {
       {head + nodes + "$Notes\njunk\n", 11, "$EndNotes"},
       {head + "$PhysicalNames\n1\n-2 1 \"a\"\n$EndPhysicalNames\n", 6, "a physical group of -2 dimensions"},
       {head + "$PhysicalNames\n1\n4 1 \"a\"\n$EndPhysicalNames\n", 6, "a physical group of 4 dimensions"},
+      {head + "$PhysicalNames\n1\n\"a\"\n$EndPhysicalNames\n", 6, "the dimension of a physical group"},
+      {head + "$PhysicalNames\n1\n1x\"a\"\n$EndPhysicalNames\n", 6, "got \"1x\""},
       {head + nodes + "$NodeData\n1\n\"a\"\n1\n0\n2\n0\n1\n", 15, "3 integer tags"},
       {head + nodes + "$NodeData\n1\n\"a\"\n1\n0\n3\n0\n1\n1\n9 1\n$EndNodeData\n", 19, "values of node 9, which"},
       {head + nodes + "$NodeData\n1\n\"a\"\n1\n0\n3\n0\n99999\n1\n1 1\n$EndNodeData\n", 17, "99999 components"},

@@ -33,13 +33,13 @@ constexpr std::array kHigherOrder{
 void GmshCells::physical_names() {
   const std::size_t count = in_.words.count("the number of physical names", 5.0);
   for (std::size_t i = 0; i < count; ++i) {
-    std::int64_t dimension = in_.words.integer("the dimension of a physical group");
+    std::int64_t dimension = in_.words.integer_before('"', "the dimension of a physical group");
     std::int64_t number = dimension;
     // Accepts a missing dimension of old files, and -1, which Gmsh writes for it: the name then belongs to any group with the number.
     if (in_.words.peek_word().starts_with('"')) {
       dimension = kAnyDimension;
     } else {
-      number = in_.words.integer("the number of a physical group");
+      number = in_.words.integer_before('"', "the number of a physical group");
     }
     if (dimension < kAnyDimension || dimension > 3) in_.words.fail(fmt::format("a physical group of {} dimensions", dimension));
     if (!std::in_range<int>(number)) in_.words.fail(fmt::format("the number of a physical group is too large: {}", number));

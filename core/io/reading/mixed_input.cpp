@@ -91,6 +91,12 @@ std::int64_t MixedInput::integer(std::string_view what) {
   return parsed([&] { return text_.parse_integer(found, what); });
 }
 
+std::int64_t MixedInput::integer_before(char next, std::string_view what) {
+  const std::string_view found = word(what), number = found.substr(0, found.find(next));
+  text_.seek(token_ + number.size(), text_.line());
+  return parsed([&] { return text_.parse_integer(number, what); });
+}
+
 std::size_t MixedInput::count(std::string_view what, double bytes_each) {
   const std::int64_t n = integer(what);
   if (n < 0) fail(fmt::format("{} is negative: {}", what, n));

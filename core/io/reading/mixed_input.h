@@ -35,6 +35,8 @@ class MixedInput {
   /// Takes a finite number. Throws InputError.
   double coordinate();
   std::int64_t integer(std::string_view what);
+  /// Takes an integer that this character may follow without a blank. Throws InputError.
+  std::int64_t integer_before(char next, std::string_view what);
   /// Takes a count: not negative, and with at least `bytes_each` bytes left in the file for each. Throws InputError.
   std::size_t count(std::string_view what, double bytes_each);
   /// Throws InputError if fewer than n * bytes_each bytes are left.

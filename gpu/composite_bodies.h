@@ -124,7 +124,7 @@ struct VisitComposite {
     }
     return confirm_composite(
         task.aims, before, after, task.untangling,
-        [&](bool tangled) DMOSCOPE_INLINE_LAMBDA { return confirm_soundness(mesh, positions, vertex, target, tangled, task.untangling); },
+        [&](bool tangled) DMOSCOPE_INLINE_LAMBDA { return confirm_soundness(mesh, positions, vertex, target, tangled); },
         [&]() DMOSCOPE_INLINE_LAMBDA { return second_rises(task, mesh, vertex, target); });
   }
   static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE bool second_rises(const Task& task, const MeshView<Frame>& mesh, Index vertex, Vec3 target) {

@@ -98,6 +98,8 @@ class FoldoverFree {
   void derive(std::size_t element, const Corners& corners, Derivatives& result) const;
   void derive_springs(std::size_t element, const Corners& corners, Derivatives& result) const;
   template <class Derive>
+  void weighted(std::size_t element, const Derive& derive_one, Derivatives& result) const;
+  template <class Derive>
   void assemble(const Derive& derive_one);
   void assemble() {
     assemble([this](std::size_t e, const Corners& at, Derivatives& result) { derive(e, at, result); });
@@ -231,7 +233,7 @@ double FoldoverFree<D>::energy(const Places& displacements) const {
       for_watched(e, [&](const Sample& sample, bool) {
         const Matrix t = matrix(sample, at);
         const double j = t.determinant, chi = Wall(j, epsilon_).value;
-        sum += t.square / (D * scale_of<D>(chi)) + options_.theta * (j * j + 1.0) / chi;
+        sum += problem_.elements[e].weight * (t.square / (D * scale_of<D>(chi)) + options_.theta * (j * j + 1.0) / chi);
       });
     }
   });
@@ -301,6 +303,19 @@ void FoldoverFree<D>::derive_springs(std::size_t index, const Corners& at, Deriv
   });
 }
 
+/// Derivatives of an element times its weight.
+template <int D>
+template <class Derive>
+void FoldoverFree<D>::weighted(std::size_t element, const Derive& derive_one, Derivatives& result) const {
+  derive_one(element, corners(element, at_), result);
+  const double weight = problem_.elements[element].weight;
+  if (weight == 1.0) return;
+  for (auto& gradient : result.gradient)
+    for (double& x : gradient) x *= weight;
+  for (auto& block : result.hessian)
+    for (double& x : block) x *= weight;
+}
+
 template <int D>
 template <class Derive>
 void FoldoverFree<D>::assemble(const Derive& derive_one) {
@@ -310,7 +325,7 @@ void FoldoverFree<D>::assemble(const Derive& derive_one) {
   for (std::size_t begin = 0; begin < count; begin += kAtOnce) {
     const std::size_t size = std::min(kAtOnce, count - begin);
     for_chunks(options_.pool, size, kGrain, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) derive_one(begin + i, corners(begin + i, at_), derivatives_[i]);
+      for (std::size_t i = first; i < last; ++i) weighted(begin + i, derive_one, derivatives_[i]);
     });
     for (std::size_t i = 0; i < size; ++i) system_.add(begin + i, derivatives_[i]);
   }

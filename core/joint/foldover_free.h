@@ -26,6 +26,7 @@ struct FoldoverFreeProblem {
     ElementKind kind;
     std::array<Index, 8> vertices{};
     std::array<Place, 8> corners{};  // undisplaced positions, from any origin near them
+    double weight = 1.0;             // factor of its part of the energy
   };
   std::size_t free_vertices = 0;
   std::vector<Place> places;      // rough positions of the free vertices

@@ -53,13 +53,29 @@ Untangler<D>::Untangler(const JointMesh<D>& mesh, Metric metric, const JointSlid
 
 template <int D>
 Untangler<D>::~Untangler() {
-  if (finished_) return;
+  if (!finished_) take_back();
+}
+
+template <int D>
+void Untangler<D>::take_back() {
   for (auto move = moved_from_.rbegin(); move != moved_from_.rend(); ++move) positions_[move->first] = move->second;
+  moved_from_.clear();
+  vertices_.clear();
+  before_ = after_ = kInfinity;
 }
 
 template <int D>
 std::optional<JointCluster> Untangler<D>::run() {
-  if (state_.untanglings < kMostCalls) grow(inverted_elements());
+  if (const std::vector<Index> inverted = inverted_elements(); !inverted.empty() && state_.untanglings < kMostCalls) {
+    ++state_.untanglings;
+    grow(inverted);
+    if (loses_sound()) {
+      take_back();
+      keeps_sound_ = true;
+      grow(inverted);
+    }
+    if (moved_from_.empty()) state_.untanglings = kMostCalls;
+  }
   finished_ = true;
   if (moved_from_.empty()) return std::nullopt;
   state_.atoms.clear();  // it describes the elements before the moves
@@ -74,8 +90,6 @@ std::optional<JointCluster> Untangler<D>::run() {
 /// where nothing helps.
 template <int D>
 void Untangler<D>::grow(std::vector<Index> inverted) {
-  if (inverted.empty()) return;
-  ++state_.untanglings;
   std::vector<Patch> before;
   for (const int rings : kRings)
     for (const bool sliding : {false, true}) {
@@ -88,7 +102,6 @@ void Untangler<D>::grow(std::vector<Index> inverted) {
       if (inverted.empty()) return;
       before = std::move(groups);
     }
-  if (moved_from_.empty()) state_.untanglings = kMostCalls;
 }
 
 /// Inverted elements that could be turned: the corners at fault have free vertices, or none is and it is inverted inside.
@@ -270,26 +283,90 @@ template <int D>
 Index Untangler<D>::untangle(const Patch& patch, bool springs_first) {
   const LocalProblem<D> local = local_problem(patch);
   FoldoverFreeProblem<D> problem = pose(local);
-  std::unique_ptr<SlidingPath<D>> path;
-  if (slides_) path = std::make_unique<SlidingPath<D>>(mesh_, local, positions_, *domain_, *limit_);
-  if (path && path->any()) problem.path = path.get();
-  const FoldoverFreeSolution<D> solution = solve_foldover_free<D>(
-      problem, {.springs_first = springs_first, .pool = options_.pool},
-      [&](const FoldoverFreeIterate<D>& at) { show(local, at.displacements, at.steps, at.least); }, progress_);
-  newton_steps_ += solution.steps;
-  ++solutions_;
-  if (!(solution.inverted < solution.start_inverted)) return static_cast<Index>(solution.start_inverted);
-  const bool moved = move(local, problem.path != nullptr ? path.get() : nullptr, solution.best);
-  return static_cast<Index>(moved ? solution.inverted : solution.start_inverted);
+  for (int round = 0;; ++round) {
+    std::unique_ptr<SlidingPath<D>> path;
+    if (slides_) path = std::make_unique<SlidingPath<D>>(mesh_, local, positions_, *domain_, *limit_);
+    problem.path = path && path->any() ? path.get() : nullptr;
+    const FoldoverFreeSolution<D> solution = solve_foldover_free<D>(
+        problem, {.springs_first = springs_first, .pool = options_.pool},
+        [&](const FoldoverFreeIterate<D>& at) { show(local, at.displacements, at.steps, at.least); }, progress_);
+    newton_steps_ += solution.steps;
+    ++solutions_;
+    const auto start = static_cast<Index>(solution.start_inverted);
+    if (!(solution.inverted < solution.start_inverted)) return start;
+    std::vector<Vec3> targets = targets_of(local, solution.best);
+    if (problem.path != nullptr) (void)path->settle(1.0, local.free(), positions_, targets);
+    if (keeps_sound_) {
+      if (const std::vector<Index> lost = lost_by(local, targets); !lost.empty() && round < kMostRounds) {
+        const std::vector<Index> around = elements_of(patch);
+        for (std::size_t i = 0; i < around.size(); ++i)
+          if (std::ranges::binary_search(lost, around[i])) problem.elements[i].weight *= kHeavier;
+        continue;
+      }
+      spare(local, targets);
+    }
+    return move(local, targets) ? static_cast<Index>(solution.inverted) : start;
+  }
+}
+
+/// Places of a patch's vertices after displacements.
+template <int D>
+std::vector<Vec3> Untangler<D>::targets_of(const LocalProblem<D>& local, const Offsets& displacements) const {
+  std::vector<Vec3> targets;
+  targets.reserve(displacements.size());
+  for (std::size_t i = 0; i < displacements.size(); ++i)
+    targets.push_back(mesh_.placed(positions_[local.vertices[i]], displacements[i], local.scale));
+  return targets;
+}
+
+/// Elements that are sound now and inverted with a patch's vertices at their targets, ascending.
+template <int D>
+std::vector<Index> Untangler<D>::lost_by(const LocalProblem<D>& local, std::span<const Vec3> targets) const {
+  const QualityContext context = mesh_.input().quality_context();
+  std::vector<Vec3> there(positions_.begin(), positions_.end());
+  for (std::size_t i = 0; i < targets.size(); ++i) there[local.vertices[i]] = targets[i];
+  std::vector<Index> lost = mesh_.elements_at(local.free());
+  std::erase_if(lost, [&](Index e) {
+    return smallest_jacobian(context, std::span<const Vec3>(there), e) > 0.0 ||
+           smallest_jacobian(context, std::span<const Vec3>(positions_), e) <= 0.0;
+  });
+  return lost;
+}
+
+/// Lets vertices stay until no element is inverted that is sound now.
+template <int D>
+void Untangler<D>::spare(const LocalProblem<D>& local, std::span<Vec3> targets) const {
+  for (;;) {
+    const std::vector<Index> lost = lost_by(local, targets);
+    if (lost.empty()) return;
+    for (const Index e : lost)
+      for (const Index v : mesh_.input().mesh.elements.corners(e))
+        if (const auto at = std::ranges::lower_bound(local.free(), v); at != local.free().end() && *at == v)
+          targets[static_cast<std::size_t>(at - local.free().begin())] = positions_[v];
+  }
+}
+
+/// Returns whether an element is inverted now that was sound when the call began.
+template <int D>
+bool Untangler<D>::loses_sound() const {
+  const QualityContext context = mesh_.input().quality_context();
+  std::vector<Vec3> begin(positions_.begin(), positions_.end());
+  std::vector<Index> moved;
+  for (auto move = moved_from_.rbegin(); move != moved_from_.rend(); ++move) {
+    begin[move->first] = move->second;
+    moved.push_back(move->first);
+  }
+  std::ranges::sort(moved);
+  moved.erase(std::unique(moved.begin(), moved.end()), moved.end());
+  return std::ranges::any_of(mesh_.elements_at(moved), [&](Index e) {
+    return smallest_jacobian(context, std::span<const Vec3>(positions_), e) <= 0.0 &&
+           smallest_jacobian(context, std::span<const Vec3>(begin), e) > 0.0;
+  });
 }
 
 /// Moves the vertices if that is better by the program's own judgement.
 template <int D>
-bool Untangler<D>::move(const LocalProblem<D>& local, SlidingPath<D>* path, const Offsets& displacements) {
-  std::vector<Vec3> targets;
-  for (std::size_t i = 0; i < displacements.size(); ++i)
-    targets.push_back(mesh_.placed(positions_[local.vertices[i]], displacements[i], local.scale));
-  if (path != nullptr) (void)path->settle(1.0, local.free(), positions_, targets);
+bool Untangler<D>::move(const LocalProblem<D>& local, std::span<const Vec3> targets) {
   const JudgedMove move = mesh_.move_to(local, targets, positions_, metric_);
   const bool better = move.inverted_after < move.inverted_before && move.after >= move.before;
   for (std::size_t i = 0; i < move.moved_from.size(); ++i) {
@@ -308,10 +385,7 @@ bool Untangler<D>::move(const LocalProblem<D>& local, SlidingPath<D>* path, cons
 template <int D>
 void Untangler<D>::show(const LocalProblem<D>& local, const Offsets& displacements, int steps, double least) {
   if (!options_.on_step) return;
-  std::vector<Vec3> places;
-  for (std::size_t i = 0; i < displacements.size(); ++i)
-    places.push_back(mesh_.placed(positions_[local.vertices[i]], displacements[i], local.scale));
-  options_.on_step({newton_steps_ + steps, least, 1.0, local.free(), places});
+  options_.on_step({newton_steps_ + steps, least, 1.0, local.free(), targets_of(local, displacements)});
 }
 
 template <int D>

@@ -4,6 +4,8 @@
 // Patches are the free vertices within some rings of elements around the inverted ones, each connected one a problem of its own, with its
 // rim held. Elements that a patch leaves inverted are tried again with more rings, up to the whole mesh. A patch moves where it has fewer
 // inverted elements than before and the least quality of the elements that it changed is no lower, by the program's own judgement.
+// A call that ends with an element inverted that was sound is made again from its begin, and no patch may invert one then: elements
+// that would be weigh more, and where that does not do, vertices around them stay.
 
 #include <array>
 #include <memory>
@@ -40,6 +42,8 @@ class Untangler {
   static constexpr std::array<int, 4> kRings{2, 6, 20, kWhole};
   static constexpr int kMostSliding = 6;  // rings of patches whose vertices slide
   static constexpr std::uint32_t kMostCalls = 3;
+  static constexpr int kMostRounds = 6;  // further solutions of a patch, in each of which the elements that the last inverted weigh more
+  static constexpr double kHeavier = 4.0;
 
   void grow(std::vector<Index> inverted);
   [[nodiscard]] std::vector<Index> inverted_elements() const;
@@ -53,7 +57,12 @@ class Untangler {
   [[nodiscard]] double size(const std::vector<Index>& elements) const;
   void untangle(const Patch& patch);
   [[nodiscard]] Index untangle(const Patch& patch, bool springs_first);
-  [[nodiscard]] bool move(const LocalProblem<D>& local, SlidingPath<D>* path, const Offsets& displacements);
+  [[nodiscard]] std::vector<Vec3> targets_of(const LocalProblem<D>& local, const Offsets& displacements) const;
+  [[nodiscard]] std::vector<Index> lost_by(const LocalProblem<D>& local, std::span<const Vec3> targets) const;
+  void spare(const LocalProblem<D>& local, std::span<Vec3> targets) const;
+  [[nodiscard]] bool loses_sound() const;
+  void take_back();
+  [[nodiscard]] bool move(const LocalProblem<D>& local, std::span<const Vec3> targets);
   void show(const LocalProblem<D>& local, const Offsets& displacements, int steps, double least);
   [[nodiscard]] JointCluster told() const;
 
@@ -70,7 +79,8 @@ class Untangler {
   std::vector<Index> vertices_;                     // vertices of the patches that rose
   double before_, after_;                           // least quality of the elements that changed
   int newton_steps_ = 0, solutions_ = 0;
-  bool slides_ = false;  // whether vertices that can slide do; else they stay
+  bool keeps_sound_ = false;  // whether no move may invert a sound element
+  bool slides_ = false;       // whether vertices that can slide do; else they stay
   bool finished_ = false;
 };
 

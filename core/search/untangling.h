@@ -3,7 +3,7 @@
 //
 // The least Jacobian alone is not enough: it stalls where several corners hold each other, and in a hexahedron that is nearly everywhere (a
 // cube of 125, 36 of them inverted, ended with 3). So it must not fall, and a mean over all corners rises, in which a corner that is good
-// enough gains nothing more. Nor may the number of inverted elements rise, or a metric fall below the worst of the whole mesh: otherwise,
+// enough gains nothing more. Nor may a sound element become inverted, or a metric fall below the worst of the whole mesh: otherwise,
 // if a fixed vertex makes untangling impossible, neighbours would pass the damage on for ever. For the same reason attempts are limited in
 // time: between them the sound elements of a star are raised as if the inverted ones were not there. Before all this a repair brings back
 // vertices that are far from their star: their neighbours must not follow them.
@@ -23,8 +23,8 @@ struct Untangling {
   /// Whether only vertices of inverted elements move, and only if that makes all of their star sound, with a least metric of at least
   /// kRepaired.
   bool repair = false;
-  /// Whether sound elements of such a star may get worse, though no more of them inverted, for the sake of the inverted ones; else the
-  /// sound ones are raised and no inverted one may get worse.
+  /// Whether sound elements of such a star may get worse, though not inverted, for the sake of the inverted ones; else the sound ones are
+  /// raised and no inverted one may get worse.
   bool attempt = true;
   /// The least metric of the movable elements at the begin of the iteration: no element may fall below it, or below the least of its star.
   double floor = -std::numeric_limits<double>::infinity();
@@ -167,10 +167,9 @@ class InvertedSet {
 /// The worth of a star with its vertex at a place. If no corner that changes with the vertex is inverted, it is the least metric, which is
 /// positive. Else in a repair: the least Jacobian, mapped into (-1, 0]; for simplices it has a single maximum. Else at an allowed place: in
 /// an attempt the mean, mapped into (-1, 0]; without one (least metric of the sound elements - 1) / 2, less the number of inverted ones. At
-/// other places: kForbidden. Allowed in an attempt are places with no more inverted elements, no lesser least Jacobian and no metric below
-/// the floor; without one, places that leave sound elements sound and do not lower the least metric of all. If elements are inverted only
-/// inside, and the rule looks there: the least metric, less 2 for each of them; allowed are places without inverted corners and without a
-/// metric below the floor.
+/// other places: kForbidden. Allowed are places that leave sound elements sound; in an attempt if there is no lesser least Jacobian and no
+/// metric below the floor, without one if the least metric of all is no lower. If elements are inverted only inside, and the rule looks
+/// there: the least metric, less 2 for each of them; allowed are places without inverted corners and without a metric below the floor.
 template <Metric M, class StarT, class Point>
 class UntanglingObjective {
  public:
@@ -183,7 +182,6 @@ class UntanglingObjective {
       const auto least = corner_jacobians(shape, each.kMoving, [](double) {});
       const double quality = formulas::metric_around<M>(shape, each.kMoving);
       inverted_.add(element++, least.whole <= 0.0);
-      count_ += least.whole <= 0.0 ? 1 : 0;
       jacobian_ = scalar::min(jacobian_, least.around / each.reference);
       quality_ = scalar::min(quality_, quality);
       if constexpr (kHasInside<decltype(shape)>)
@@ -254,8 +252,7 @@ class UntanglingObjective {
       found.count += is_inverted ? 1 : 0;
       found.least = scalar::min(found.least, relative);
       if (rule_.repair) return;
-      found.allowed =
-          rule_.attempt ? found.count <= count_ && relative >= scalar::min(jacobian_, 0.0) : !is_inverted || was_inverted(i, each);
+      found.allowed = (!rule_.attempt || relative >= scalar::min(jacobian_, 0.0)) && (!is_inverted || was_inverted(i, each));
     });
     mean[0].add(mean[1]);
     found.mean = mean[0].value();
@@ -297,7 +294,6 @@ class UntanglingObjective {
   StarT star_;
   Untangling rule_;
   InvertedSet inverted_;
-  int count_ = 0;
   double jacobian_ = kMost, quality_ = kMost;  // least values with the vertex in its present place, the Jacobian over its reference
   double floor_ = 0.0;
   bool inside_ = false;

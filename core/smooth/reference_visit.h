@@ -122,15 +122,14 @@ template <class Frame>
 enum class Confirmation : std::uint8_t { GainsNothing, Gains, TooFar };
 
 /// Confirms the soundness at a place that is better. `tangled`: whether an element of the star is inverted at a corner that the vertex
-/// changes. Where none is, none may become inverted, not inside either; an attempt to untangle may lose one for another.
+/// changes. None may become inverted, not inside either.
 template <class Frame>
 [[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE Confirmation confirm_soundness(const MeshView<Frame>& mesh, PositionView positions,
-                                                                               Index vertex, Vec3 target, bool tangled,
-                                                                               const Untangling& rule) {
+                                                                               Index vertex, Vec3 target, bool tangled) {
   // Accepts planar stars whose corners were judged before: without volume the corners tell all.
-  if (!std::is_same_v<Frame, Space> && (!tangled || rule.attempt)) return Confirmation::Gains;
-  const SoundnessChange change = soundness_change(mesh, positions, vertex, target, tangled && rule.attempt);
-  if (change.lost <= change.won) return Confirmation::Gains;
+  if (!std::is_same_v<Frame, Space> && !tangled) return Confirmation::Gains;
+  const SoundnessChange change = soundness_change(mesh, positions, vertex, target, false);
+  if (change.lost == 0) return Confirmation::Gains;
   return change.lost_inside ? Confirmation::TooFar : Confirmation::GainsNothing;
 }
 
@@ -140,13 +139,13 @@ template <class Frame, class After>
                                                                           Vec3 target, const Untangling& rule, const StarState& before,
                                                                           const After& after) {
   const StarState there = after();
-  if (there.better_than(before, rule)) return confirm_soundness(mesh, positions, vertex, target, !(before.jacobian > 0.0), rule);
+  if (there.better_than(before, rule)) return confirm_soundness(mesh, positions, vertex, target, !(before.jacobian > 0.0));
   // Decides as UntanglingObjective does for elements that are inverted inside alone.
   if (!std::is_same_v<Frame, Space> || !rule.looks_inside() || !(before.jacobian > 0.0) || !(there.jacobian > 0.0) ||
       there.quality < scalar::min(before.quality, rule.floor))
     return Confirmation::GainsNothing;
   const SoundnessChange change = soundness_change(mesh, positions, vertex, target, true);
-  return change.lost < change.won ? Confirmation::Gains : Confirmation::GainsNothing;
+  return change.lost == 0 && change.won > 0 ? Confirmation::Gains : Confirmation::GainsNothing;
 }
 
 /// Confirms a place exactly: a search may be in float and in other rounding than the statistics.

@@ -62,9 +62,9 @@ struct Ended {
   Index inverted;
 };
 Ended raised(const InputMesh& mesh, std::span<const std::uint8_t> fixed, const JointOptions& options, Metric metric = Metric::MeanRatio,
-             std::optional<Guard> guard = {}) {
+             std::optional<Guard> guard = {}, const JointSliding& sliding = {}) {
   const JointObjective guarded = guard ? JointObjective(guard->metric, CompositeTerms{guard->floor, metric}) : JointObjective(metric);
-  JointClusters clusters(mesh, guarded, fixed);
+  JointClusters clusters(mesh, guarded, fixed, sliding);
   std::vector<Vec3> positions = mesh.mesh.positions;
   JointState state;
   Progress progress;
@@ -111,7 +111,9 @@ TEST(ClusterMean, RaisesTheMeanAndGivesUpNoMoreOfTheMinimumThanTheGap) {
       {"quadrilaterals", roughened(lattice(10, 0.3, 6, Cells::Quadrilaterals), 0.1)},
       {"both", roughened(lattice(10, 0.3, 7, Cells::Mixed), 0.1)},
       {"tetrahedra", roughened(test::volume_grid(5, test::Fill::Tetrahedra, 0.2, 2), 0.2)},
-      {"hexahedra", roughened(test::volume_grid(5, test::Fill::Hexahedra, 0.2, 3), 0.2)}};
+      {"hexahedra", roughened(test::volume_grid(5, test::Fill::Hexahedra, 0.2, 3), 0.2)},
+      {"wedges", roughened(test::volume_grid(4, test::Fill::Wedges, 0.2, 3), 0.25)},
+      {"all solids", roughened(test::volume_grid(4, test::Fill::Mixed, 0.2, 3), 0.25)}};
   for (const auto& [name, mesh] : meshes) {
     SCOPED_TRACE(name);
     const auto held = input(mesh);
@@ -122,6 +124,24 @@ TEST(ClusterMean, RaisesTheMeanAndGivesUpNoMoreOfTheMinimumThanTheGap) {
     EXPECT_GE(both.minimum, (1.0 - 1.01 * kGap) * tight.minimum);
     EXPECT_GT(both.mean, plain.mean);
     EXPECT_EQ(both.inverted, 0U);
+  }
+}
+
+TEST(ClusterMean, RisesWhereVerticesSlide) {
+  constexpr double kGap = 0.01;
+  for (const test::Fill fill : {test::Fill::Tetrahedra, test::Fill::Hexahedra, test::Fill::Wedges}) {
+    Mesh leaning = test::volume_grid(3, fill, 0.2, 3);
+    for (Vec3& p : leaning.positions) p.x += 0.6 * p.y + 0.3 * p.z;
+    const auto mesh = input(std::move(leaning));
+    const dmoscope::Run run = make_run(mesh, {.boundary = BoundaryRule::Slide});
+    const JointSliding sliding{run.domain(), run.parameters().max_deviation * mesh->geometry.size};
+    ASSERT_TRUE(sliding.domain);
+    const Ended held = raised(*mesh, make_run(mesh, {}).fixed(), {.gap = 0.5 * kGap});
+    const Ended plain = raised(*mesh, run.fixed(), {.gap = 0.5 * kGap}, Metric::MeanRatio, {}, sliding);
+    const Ended both = raised(*mesh, run.fixed(), {.gap = kGap, .mean = MeanKind::Harmonic}, Metric::MeanRatio, {}, sliding);
+    EXPECT_GT(plain.minimum, held.minimum) << "else nothing slides";
+    EXPECT_GE(both.minimum, (1.0 - 2.0 * kGap) * plain.minimum);
+    EXPECT_GT(both.mean, plain.mean);
   }
 }
 

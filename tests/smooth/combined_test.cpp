@@ -1,6 +1,7 @@
 // Two aims at once: the search against one written apart, its optimum, and its promises.
 
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <functional>
 #include <memory>
@@ -214,7 +215,7 @@ void expect_gains_as_promised(const CompositeObjective& composite, const SecondA
     const Plain plain{*wheel, wheel->mesh.positions};
     struct At {
       double jacobian, first, second;
-      int inverted = 0;
+      std::uint32_t inverted = 0;  // bits of the elements
       double flattest = INFINITY;  // the least size of a quality
     };
     const auto look = [&](Vec3 p) {
@@ -222,10 +223,12 @@ void expect_gains_as_promised(const CompositeObjective& composite, const SecondA
       std::vector<Vec3> positions = wheel->mesh.positions;
       positions[0] = p;
       At found{star_state(*wheel, positions, Metric::MeanRatio, 0).jacobian, INFINITY, second(plain.star(0, at), at)};
+      std::uint32_t bit = 1;
       for (const auto& triangle : plain.star(0, at)) {
         const double quality = Plain::mean_ratio(triangle);
         found.first = std::min(found.first, quality);
-        found.inverted += quality <= 0.0 ? 1 : 0;
+        found.inverted |= quality <= 0.0 ? bit : 0;
+        bit <<= 1U;
         found.flattest = std::min(found.flattest, std::abs(quality));
       }
       return found;
@@ -237,7 +240,7 @@ void expect_gains_as_promised(const CompositeObjective& composite, const SecondA
     const bool rises = after.second > before.second;
     bool expected = after.jacobian > 0.0 && (beyond(before.first) ? beyond(after.first) && rises : after.first > before.first);
     if (before.jacobian <= 0.0)
-      expected = after.jacobian > before.jacobian && after.inverted <= before.inverted &&
+      expected = after.jacobian > before.jacobian && (after.inverted & ~before.inverted) == 0 &&
                  (!composite.raise_mean() || (after.first >= before.first && rises));
     const bool gains = StarJudge<Plane>(*wheel, composite).confirm(wheel->mesh.positions, 0, there) == Confirmation::Gains;
     EXPECT_EQ(gains, expected) << trial;

@@ -427,10 +427,10 @@ Confirmation StarJudge<Frame>::confirm(PositionView positions, Index vertex, Vec
 
 template <class Frame>
 Confirmation StarJudge<Frame>::soundness(PositionView positions, Index vertex, Vec3 target, bool tangled) const {
-  const Confirmation own = confirm_soundness(view_, positions, vertex, target, tangled, untangling_);
+  const Confirmation own = confirm_soundness(view_, positions, vertex, target, tangled);
   const Index other = follower(vertex);
   if (own != Confirmation::Gains || other == kNoIndex) return own;
-  return confirm_soundness(view_, positions, other, pairs_->place_of_follower(vertex, target), tangled, untangling_);
+  return confirm_soundness(view_, positions, other, pairs_->place_of_follower(vertex, target), tangled);
 }
 
 template <class Frame>

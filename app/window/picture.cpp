@@ -60,10 +60,12 @@ std::pair<double, double> range_of(const PictureLook& look, const JudgedElements
   InputSpread spread;
   for (std::size_t e = 0; e < judged.quality.size(); ++e)
     if (judged.inverted[e] == 0) spread.add(static_cast<double>(judged.quality[e]));
-  const bool all = look.spans != PictureLook::Spans::Percentiles;
-  const auto range = all ? spread.range() : spread.percentiles(look.percent.first, look.percent.second);
+  using Spans = PictureLook::Spans;
+  const auto range = look.spans == Spans::Own           ? spread.range()
+                     : look.spans == Spans::Percentiles ? spread.percentiles(look.percent.first, look.percent.second)
+                                                        : spread.range_without_tail();
   if (!range) return {0.0, 1.0};
-  if (look.spans != PictureLook::Spans::Own) return tidy_range(*range);
+  if (look.spans != Spans::Own) return tidy_range(*range);
   return range->second > range->first ? *range : std::pair{0.0, 1.0};
 }
 

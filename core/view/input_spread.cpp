@@ -25,6 +25,13 @@ std::optional<std::pair<double, double>> InputSpread::range() const {
   return count > 0 ? std::optional(std::pair{lowest, highest}) : std::nullopt;
 }
 
+std::optional<std::pair<double, double>> InputSpread::range_without_tail() const {
+  constexpr double kOthers = 95.0;
+  if (count == 0) return std::nullopt;
+  const double high = percentiles(0.0, kOthers)->second;
+  return std::pair{lowest, high < std::min(1.0, 0.5 * (lowest + highest)) ? high : highest};
+}
+
 std::optional<std::pair<double, double>> InputSpread::percentiles(double low, double high) const {
   if (count == 0) return std::nullopt;
   const auto bin_of = [this](double percent) {

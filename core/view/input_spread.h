@@ -25,6 +25,8 @@ struct InputSpread {
   void add(const InputSpread& other);
   /// Least and greatest quality. None if no element has a quality.
   [[nodiscard]] std::optional<std::pair<double, double>> range() const;
+  /// Range as above, but without the best 5 % where all others lie in its lower half: few elements must not take most of the colours.
+  [[nodiscard]] std::optional<std::pair<double, double>> range_without_tail() const;
   /// Qualities at the percentiles `low` and `high`, accurate to a bin; the extreme ones are exact.
   [[nodiscard]] std::optional<std::pair<double, double>> percentiles(double low, double high) const;
 };

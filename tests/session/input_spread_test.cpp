@@ -50,6 +50,18 @@ TEST(InputSpread, IsOfTheSoundElements) {
   EXPECT_FALSE(InputSpread{}.percentiles(2, 98).has_value());
 }
 
+TEST(InputSpread, FewGoodElementsTakeNoColoursFromAllOthers) {
+  InputSpread poor;
+  for (int k = 1; k <= 96; ++k) poor.add(0.004 * k);
+  for (int k = 0; k < 4; ++k) poor.add(0.7 + 0.1 * k);
+  EXPECT_EQ(*poor.range(), (Pair{0.004, 1.0}));
+  EXPECT_EQ(poor.range_without_tail()->first, 0.004) << "the worst always has a colour of its own";
+  EXPECT_NEAR(poor.range_without_tail()->second, 0.38, 0.0015) << "the upper edge of its bin";
+  for (int k = 0; k < 3; ++k) poor.add(0.7);  // more than 5 % are good now
+  EXPECT_EQ(poor.range_without_tail(), poor.range());
+  EXPECT_FALSE(InputSpread{}.range_without_tail().has_value());
+}
+
 TEST(TidyRange, IsRoundedOutwards) {
   EXPECT_EQ(tidy_range({0.65283, 0.99998}), (Pair{0.65, 1.0}));
   EXPECT_EQ(tidy_range({0.0036, 0.9999}), (Pair{0.0, 1.0}));

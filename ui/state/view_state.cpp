@@ -82,7 +82,7 @@ std::pair<double, double> colour_range(const ViewState& state, std::optional<std
   std::optional<std::pair<double, double>> wanted;
   if (state.range_mode == RangeMode::Auto) wanted = own;
   if (state.range_mode == RangeMode::Expanding) wanted = seen;
-  if (state.range_mode == RangeMode::Input && input != nullptr) wanted = input->range();
+  if (state.range_mode == RangeMode::Input && input != nullptr) wanted = input->range_without_tail();
   if (state.range_mode == RangeMode::Percentile && input != nullptr)
     wanted = input->percentiles(state.range_low_percent, state.range_high_percent);
   const bool tidied = state.range_mode == RangeMode::Input || state.range_mode == RangeMode::Percentile;

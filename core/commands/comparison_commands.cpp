@@ -158,31 +158,6 @@ std::vector<RunParameters> orders(const RunParameters& like, std::uint64_t count
   return wanted;
 }
 
-/// Adds the runs that are named, and takes all to the same iteration, or until they converge.
-void compare_with(CommandContext& context, Arguments arguments) {
-  const Run& active = context.session.active();
-  const RunParameters like = active.parameters();
-  const bool to_end = arguments.back() == "converged",
-             counted = !to_end && arguments.back().find_first_not_of("0123456789") == std::string::npos;
-  const Arguments names = arguments.subspan(1, arguments.size() - 1 - (to_end || counted ? 1 : 0));
-  if (names.empty()) throw WrongArguments("name the runs to compare with: METHOD[:METRIC]...");
-  std::vector<RunParameters> wanted;
-  std::string added = "compare with";
-  for (const std::string& words : names) {
-    wanted.push_back(beside(run_like(like, words), like));
-    added.append(" ").append(quote_word(words));
-  }
-  const std::uint64_t reached = active.moment().iteration;
-  add_missing(context, wanted);
-  context.done.push_back(added + " 0");
-  if (!to_end) return bring_to(context, counted ? to_count(arguments.back()) : reached > 0 ? reached : kUsualIterations);
-  for_runs(context, [&](Run& run) {
-    (void)run.until_converged({}, context.progress);
-    run.end_at_best(context.progress);
-    tell(context, fmt::format("{}: {}", run.title(), run.last_outcome()->sentence()));
-  });
-}
-
 void save_report(CommandContext& context, Arguments arguments) {
   (void)context.session.active();
   if (!context.report) throw UsageError("no reports are written here");
@@ -191,30 +166,44 @@ void save_report(CommandContext& context, Arguments arguments) {
   tell(context, fmt::format("wrote {}", arguments[0]));
 }
 
-void compare(CommandContext& context, Arguments arguments) {
-  if (arguments[0] == "with") return compare_with(context, arguments);
-  const Run& active = context.session.active();
+/// Runs like the active one that a comparison asks for. Throws WrongArguments.
+std::vector<RunParameters> runs_wanted(const Run& active, Arguments words) {
   const RunParameters like = active.parameters();
-  const bool of_orders = arguments[0] == "orders";
-  require(arguments, of_orders ? 2 : 1, of_orders ? 3 : 2);
-  std::vector<RunParameters> wanted;
-  std::string added = "compare " + arguments[0];
-  if (arguments[0] == "methods") {
-    wanted = every_method(like);
-  } else if (arguments[0] == "metrics") {
-    wanted = every_metric(like, active.input().mesh);
-  } else if (of_orders) {
-    wanted = orders(like, to_count(arguments[1], 1));
-    added += ' ' + arguments[1];
-  } else {
-    throw WrongArguments(
-        unknown_value("comparison", arguments[0], std::array<std::string_view, 4>{"methods", "metrics", "orders", "with"}));
+  if (words[0] == "with") {
+    if (words.size() < 2) throw WrongArguments("name the runs to compare with: METHOD[:METRIC]...");
+    std::vector<RunParameters> wanted;
+    for (const std::string& run : words.subspan(1)) wanted.push_back(beside(run_like(like, run), like));
+    return wanted;
   }
+  const bool of_orders = words[0] == "orders";
+  require(words, of_orders ? 2 : 1, of_orders ? 2 : 1);
+  if (of_orders) return orders(like, to_count(words[1], 1));
+  if (words[0] == "methods") return every_method(like);
+  if (words[0] == "metrics") return every_metric(like, active.input().mesh);
+  throw WrongArguments(unknown_value("comparison", words[0], std::array<std::string_view, 4>{"methods", "metrics", "orders", "with"}));
+}
+
+/// Adds runs, and takes all to the same iteration, or until they converge: see the last word.
+void compare(CommandContext& context, Arguments arguments) {
+  const Run& active = context.session.active();
+  const std::string& last = arguments.back();
+  const bool to_end = last == "converged";
+  const std::size_t least = arguments[0] == "orders" ? 2 : 1;  // words that say which runs
+  const bool counted = !to_end && arguments.size() > least && last.find_first_not_of("0123456789") == std::string::npos;
+  const Arguments words = arguments.first(arguments.size() - (to_end || counted ? 1 : 0));
+  if (words.empty()) throw WrongArguments("name what to compare");
+  const std::vector<RunParameters> wanted = runs_wanted(active, words);
+  std::string added = "compare";
+  for (const std::string& word : words) added.append(" ").append(quote_word(word));
   const std::uint64_t reached = active.moment().iteration;
-  const std::uint64_t iterations = count_or(arguments, of_orders ? 2 : 1, reached > 0 ? reached : kUsualIterations);
   add_missing(context, wanted);
   context.done.push_back(added + " 0");
-  bring_to(context, iterations);
+  if (!to_end) return bring_to(context, counted ? to_count(last) : reached > 0 ? reached : kUsualIterations);
+  for_runs(context, [&](Run& run) {
+    (void)run.until_converged({}, context.progress);
+    run.end_at_best(context.progress);
+    tell(context, fmt::format("{}: {}", run.title(), run.last_outcome()->sentence()));
+  });
 }
 
 }  // namespace
@@ -224,7 +213,8 @@ std::span<const CommandRow> comparison_commands() {
       {{"each", "each step|run|back|until-converged [best]|seek|reset [N [MAX]]", "Does that with every run, iterations by turns."},
        {1, 4, each, true, CommandReach::Paths}},
       {{"compare",
-        "compare methods|metrics [ITERATIONS] | compare orders N [ITERATIONS] | compare with METHOD[:METRIC]... [ITERATIONS|converged]",
+        "compare methods|metrics [ITERATIONS|converged] | compare orders N [ITERATIONS|converged] | compare with METHOD[:METRIC]... "
+        "[ITERATIONS|converged]",
         "Adds runs like the active one by every method, for every metric, in N shuffled orders or as they are named, and takes all to the "
         "same iteration, or until they converge. Other methods go alone, without the active run's phases."},
        {1, kAnyWords, compare, true, CommandReach::Paths}},

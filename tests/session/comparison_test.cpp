@@ -160,6 +160,18 @@ TEST_F(Comparison, OrdersDifferInNothingElse) {
   EXPECT_EQ(session_.run_count(), 4U);
 }
 
+TEST_F(Comparison, EveryComparisonGoesOnUntilConverged) {
+  for (const char* line :
+       {"compare methods converged", "compare metrics converged", "compare orders 2 converged", "compare with laplace converged"}) {
+    say("generate random 60");
+    say(line);
+    ASSERT_GT(session_.run_count(), 1U) << line;
+    for (std::size_t k = 0; k < session_.run_count(); ++k) EXPECT_TRUE(session_.run(k).last_outcome().has_value()) << line << k;
+  }
+  EXPECT_TRUE(fails("compare converged"));
+  EXPECT_TRUE(fails("compare methods 2 converged"));
+}
+
 TEST_F(Comparison, NothingIsComparedWithoutAMesh) {
   EXPECT_TRUE(fails("each run 1"));
   EXPECT_TRUE(fails("compare metrics"));

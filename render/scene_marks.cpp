@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/mesh/faces.h"
+#include "core/mesh/element_edges.h"
 #include "render/framebuffer.h"
 #include "render/mark_painter.h"
 #include "render/scene.h"
@@ -32,17 +32,10 @@ struct Inks {
 /// Draws all edges of an element whose corners are drawn at `points`.
 void outline(const ElementTable& elements, Index element, std::span<const Vec3> points, const SceneView& view, const Style& style,
              const Inks& inks, MarkPainter& painter) {
-  const auto faces = faces_of(elements.kind(element));
-  for (const bool casing : {true, false}) {
-    for (const LocalFace& face : faces) {
-      for (std::size_t i = 0; i < face.count; ++i) {
-        const auto a = face.corners[i], b = face.corners[(i + 1) % face.count];
-        // Each edge of a solid belongs to two faces, which run it in opposite directions.
-        if (faces.size() > 1 && a > b) continue;
-        line(view, points[a], points[b], (casing ? 4.4F : 2.0F) * style.scale, casing ? inks.casing : inks.highlight, painter);
-      }
-    }
-  }
+  for (const bool casing : {true, false})
+    for_edges(elements.kind(element), [&](Index a, Index b) {
+      line(view, points[a], points[b], (casing ? 4.4F : 2.0F) * style.scale, casing ? inks.casing : inks.highlight, painter);
+    });
 }
 
 void ring(std::span<const Vec3> points, const SceneView& view, const Style& style, const Inks& inks, MarkPainter& painter) {

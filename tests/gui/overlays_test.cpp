@@ -1,6 +1,7 @@
 // One source of marks for plane and space: a planar mesh seen from above, and the same mesh as a surface in space seen from there.
 #include <gtest/gtest.h>
 
+#include "core/mesh/element_edges.h"
 #include "core/mesh/faces.h"
 #include "render/context.h"
 #include "render/planar_scene.h"

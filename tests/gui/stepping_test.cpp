@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/engine/engine.h"
+#include "core/mesh/element_edges.h"
 #include "render/context.h"
 #include "render/planar_scene.h"
 #include "tests/gui/headless_test.h"

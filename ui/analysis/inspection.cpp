@@ -9,6 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/drawing/ticks.h"
+#include "core/mesh/element_edges.h"
 #include "core/quality/quality.h"
 #include "core/reference/domain.h"
 #include "core/run/sweep_after.h"
@@ -65,24 +66,8 @@ SmoothingTask task_of(const RunView& run, const Frame& frame) {
 /// Edges of the star, each once.
 std::vector<std::array<Index, 2>> edges_of(const InputMesh& input, Index vertex) {
   std::vector<std::array<Index, 2>> edges;
-  for (const Incidence& incidence : input.topology.star(vertex)) {
-    const auto corners = input.mesh.elements.corners(incidence.element);
-    const auto add_around = [&edges](std::span<const Index> polygon) {
-      for (std::size_t k = 0; k < polygon.size(); ++k) {
-        const Index a = polygon[k], b = polygon[(k + 1) % polygon.size()];
-        edges.push_back({std::min(a, b), std::max(a, b)});
-      }
-    };
-    if (!input.is_volume()) {
-      add_around(corners);
-      continue;
-    }
-    const auto faces = static_cast<Index>(faces_of(input.mesh.elements.kind(incidence.element)).size());
-    for (Index f = 0; f < faces; ++f) {
-      const auto face = vertices_of(input.mesh.elements, {incidence.element, f});
-      add_around(std::span(face).first(face[3] == kNoIndex ? 3 : 4));
-    }
-  }
+  for (const Incidence& incidence : input.topology.star(vertex))
+    for_edges(input.mesh.elements, incidence.element, [&](Index a, Index b) { edges.push_back({std::min(a, b), std::max(a, b)}); });
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   return edges;

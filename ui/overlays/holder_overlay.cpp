@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/inspect/joint_hold.h"
+#include "core/mesh/element_edges.h"
 #include "ui/analysis/run_colours.h"
 #include "ui/overlays/moves.h"
 #include "ui/overlays/overlay.h"

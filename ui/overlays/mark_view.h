@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/input/input_mesh.h"
-#include "core/mesh/faces.h"
+#include "core/reference/kinds.h"
 #include "render/marks.h"
 #include "render/scene.h"
 #include "ui/analysis/scene_points.h"
@@ -49,19 +49,6 @@ class PlacesTaken {
   std::size_t columns_, rows_;
   std::vector<bool> taken_;
 };
-
-/// Calls visit(a, b) once for every edge of an element, with its vertices.
-template <class Visit>
-void for_edges(const ElementTable& elements, Index element, Visit&& visit) {
-  const auto faces = faces_of(elements.kind(element));
-  const auto corners = elements.corners(element);
-  for (const LocalFace& face : faces) {
-    for (std::size_t i = 0; i < face.count; ++i) {
-      const Index a = face.corners[i], b = face.corners[(i + 1) % face.count];
-      if (faces.size() == 1 || a < b) visit(corners[a], corners[b]);
-    }
-  }
-}
 
 /// Colours of lines, and of the casings below them.
 struct Inks {

@@ -12,7 +12,10 @@ void LivePicture::update(Scene& scene, const Wish& wish) {
   if (key_ != key) {
     key_.reset();
     base_.resize(wish.width, wish.height);
-    complete_ = scene.draw_elements(base_, wish.camera, wish.style, wish.detail);
+    Style style = wish.style;
+    style.occlusion = style.occlusion && !wish.plain;
+    whole_ = scene.draw_elements(base_, wish.camera, style, wish.detail);
+    complete_ = whole_ && style == wish.style;
     progress_ = {};
     key_ = key;
     ++serial_;
@@ -42,6 +45,7 @@ void LivePicture::refine(Scene& scene, const Wish& wish) {
     // machine.
     slice_ = std::clamp<Index>(slice_, 20'000, 4'000'000);
   }
+  whole_ = whole_ || complete_;
   if (complete_) std::swap(base_, finer_);
 }
 

@@ -19,6 +19,7 @@ class LivePicture {
     Marks marks;
     double detail = 1.0;  // share that can be drawn in a moment, see Scene::draw_elements
     bool refine = true;   // whether to go on towards the full picture
+    bool plain = false;   // corners are darkened only in the full picture
   };
   /// Brings the picture up to date, as far as a moment goes. Throws Error.
   void update(Scene& scene, const Wish& wish);
@@ -26,7 +27,8 @@ class LivePicture {
   void forget() { key_.reset(); }
   /// Grows whenever the elements look otherwise than before.
   [[nodiscard]] std::uint64_t serial() const noexcept { return serial_; }
-  /// Whether every element in view is drawn.
+  /// Whether every element in view is drawn; and whether it is the full picture.
+  [[nodiscard]] bool whole() const noexcept { return whole_; }
   [[nodiscard]] bool complete() const noexcept { return complete_; }
   /// OpenGL's name of the picture, see Framebuffer::texture.
   [[nodiscard]] unsigned texture() const noexcept { return shown_.texture(); }
@@ -49,7 +51,7 @@ class LivePicture {
   Marks marks_;             // marks that shown_ has
   SliceProgress progress_;  // progress of finer_
   Index slice_ = 50'000;    // elements drawn in a moment
-  bool complete_ = true;
+  bool whole_ = true, complete_ = true;
   std::uint64_t serial_ = 0;
 };
 

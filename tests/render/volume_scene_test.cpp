@@ -347,6 +347,28 @@ TEST_F(VolumePicture, ALivePictureComesToRestAtTheFullOne) {
   EXPECT_TRUE(compare(live.picture(), shot(Style::dark())).alike(0.0005));
 }
 
+TEST_F(VolumePicture, APlainLivePictureDarkensCornersWhenItComesToRest) {
+  show();
+  camera.look_from(ViewPreset::Isometric);
+  camera.fit(space->bounds(), kViewport, 10.0);
+  plain.triad = true;
+  Style style = flat_style();
+  const Image light = shot(style);
+  style.occlusion = true;
+  const Image dark = shot(style);
+  ASSERT_NE(light.rgba, dark.rgba);
+  LivePicture live;
+  LivePicture::Wish wish{static_cast<int>(kWidth), static_cast<int>(kHeight), camera, style, Marks{}, 1.0, false, true};
+  live.update(*space, wish);
+  EXPECT_TRUE(live.whole()) << "no element is left out";
+  EXPECT_FALSE(live.complete());
+  EXPECT_TRUE(compare(live.picture(), light).alike(0.0005));
+  wish.refine = true;
+  wish.plain = false;
+  for (int turn = 0; turn < 100 && !live.complete(); ++turn) live.update(*space, wish);
+  EXPECT_TRUE(compare(live.picture(), dark).alike(0.0005));
+}
+
 TEST_F(VolumePicture, AFrameIsShownAndTheViewStays) {
   Progress progress;
   const auto input = prepare_input(mesh, {}, Need::QualityOnly, progress);

@@ -42,6 +42,7 @@ App::App(Options options)
     if (std::exchange(state_.timeline.shown, Shown::Now) != Shown::Now)
       add_message(state_, {Message::Kind::Info, "showing the current mesh again: commands do not apply to a mark", 0});
     if (reach_of(line) != CommandReach::Look) state_.timeline.play.kind = Playback::Kind::Off;
+    if (leaves_inspection(line)) close_inspection(state_);
     post_by_itself(line);
   };
   host_.busy = [this] { return engine_.busy(); };
@@ -250,7 +251,7 @@ void App::update_viewports(PanelContext& context, const Rect& rect) {
   // A live run counts as movement: its next frame comes soon.
   const bool live = activity_.busy && activity_.busy_seconds > kRestAfter;
   const std::vector<Rect> places = pane_places(context, rect);
-  if (viewports_.draw(state_, derived_, inspection_, places, {static_cast<double>(context.em()), moved, live}))
+  if (viewports_.draw(state_, derived_, inspection_, places, {static_cast<double>(context.em()), moved, live, widgets_.note_lines}))
     state_.commands.keep_look(look());
   if (viewports_.loading()) redraw_in_ = 0.1;
   activity_.reduced = viewports_.refining();

@@ -187,6 +187,11 @@ TEST_F(ComparisonWindow, TheMatrixOfTwoMetricsIsWhole) {
   const ui::Comparison comparison = ui::compare_runs(*session());
   ASSERT_LT(comparison.rows[0].cells[0].value, 0.01);
   EXPECT_LT(box("compared:min-angle:Mean")[2], box("run-list")[0]) << "no column is cut off";
+  const ui::Items::Box first = box("legend:1 dmo · mean ratio"), second = box("legend:2 dmo · minimum angle");
+  EXPECT_EQ(first[1], second[1]) << "one row";
+  EXPECT_LT(box("plot")[1] - first[3], 15.0F) << "the plot begins below it";
+  good("size 800 600");
+  EXPECT_LT(box("compared:min-angle:Mean")[2], box("run-list")[0]) << "no column is cut off";
 }
 
 TEST_F(ComparisonWindow, TheMatrixIsSavedWithAllItsDigits) {

@@ -255,6 +255,17 @@ TEST_F(InspectionView, TheViewGoesToAStarThatIsTooSmallAndStaysAtOneThatIsNot) {
   EXPECT_TRUE(state().camera == near);
 }
 
+TEST_F(InspectionView, ALongRunClosesIt) {
+  for (const char* line : {"key U", "make-good", "each until-converged best", "compare with laplace 2"}) {
+    good("generate annulus 300");
+    good("inspect-next");
+    good("step iteration");
+    EXPECT_TRUE(inspection().open) << "single steps go on under it";
+    good(line);
+    EXPECT_FALSE(inspection().open) << line;
+  }
+}
+
 TEST_F(InspectionView, AnotherMeshClosesIt) {
   good("generate annulus");
   good("inspect-next");

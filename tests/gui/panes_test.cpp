@@ -41,6 +41,54 @@ class PanesTest : public HeadlessTest {
 
 using Words = std::vector<std::string>;
 
+TEST_F(PanesTest, TheActiveViewportHasButtons) {
+  good("generate tetrahedra 200");
+  const auto flips = [&](const char* item, const auto& value) {
+    const bool before = value();
+    good(std::string("click ") + item);
+    EXPECT_NE(value(), before) << item;
+    good(std::string("click ") + item);
+    EXPECT_EQ(value(), before) << item;
+  };
+  flips("wireframe", [&] { return state().wireframe; });
+  flips("worst-marker", [&] { return state().worst_marker; });
+  flips("shading", [&] { return state().shading; });
+  flips("inside-clip", [&] { return state().inside.clip.on; });
+  flips("inside-worst", [&] { return state().inside.worst > 0; });
+  EXPECT_EQ(state().picked.kind, ui::Picked::Kind::None) << "no click reached the mesh";
+  good("generate annulus");
+  EXPECT_FALSE(window_->app().items().boxes().contains("inside-clip")) << "for meshes in space";
+  const render::Camera2D fitted = state().camera;
+  good("zoom 3");
+  good("click fit");
+  EXPECT_TRUE(state().camera == fitted);
+  good("viewports 2");
+  for (const char* pane : {"1", "2"}) {
+    good(std::string("focus-pane ") + pane);
+    const auto at = box("fit"), viewport = box(std::string("viewport:") + pane);
+    EXPECT_GT(at[0], viewport[0]);
+    EXPECT_LT(at[2], viewport[2]);
+    EXPECT_LT(box(std::string("pane-title:") + pane)[2], at[0]) << "beside the title";
+  }
+  good("click palette");
+  EXPECT_EQ(state().dialog, ui::Dialog::Palette);
+}
+
+TEST_F(PanesTest, ALabelWithALineNamesThePickedElement) {
+  for (const char* mesh : {"generate annulus 400", "generate tetrahedra 200"}) {
+    good(mesh);
+    const Index element = session()->frame->worst.front().element;
+    good("pick element " + std::to_string(element));
+    const auto label = box("pick-label"), viewport = box("viewport");
+    EXPECT_GT(label[0], viewport[0]);
+    EXPECT_LT(label[2], viewport[2]);
+    EXPECT_GT(label[1], viewport[1]);
+    EXPECT_LT(label[3], viewport[3]);
+    good("pick none");
+    EXPECT_FALSE(window_->app().items().boxes().contains("pick-label"));
+  }
+}
+
 TEST_F(PanesTest, FillThemselvesWithTheRunsAndTheInput) {
   good("generate annulus 400");
   EXPECT_EQ(all(), Words{"active"});

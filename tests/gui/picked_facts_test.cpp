@@ -8,7 +8,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/io/mesh_io.h"
 #include "tests/gui/headless_test.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/volume_grids.h"
 #include "ui/analysis/facts.h"
 #include "ui/analysis/step_report.h"
 #include "ui/state/format.h"
@@ -40,8 +43,31 @@ TEST_F(SaidInTheWindow, AnglesInDegreesOfTheWorstElement) {
   const double a = side(0, 1), b = side(1, 2), c = side(2, 0), longest = std::max({a, b, c});
   const double others = a * a + b * b + c * c - longest * longest, product = a * b * c / longest;
   EXPECT_NEAR(angles->largest, std::acos((others - longest * longest) / (2 * product)) * 180 / std::numbers::pi, 1e-6);
+}
+
+TEST_F(SaidInTheWindow, AnglesBetweenFacesOfVolumeElements) {
   good("generate tetrahedra 60");
-  EXPECT_FALSE(ui::angles_of(*window_->app().frame(), 0).has_value());
+  good("show min-angle");
+  const Frame& frame = *window_->app().frame();
+  const double regular = std::acos(1.0 / 3.0) * 180 / std::numbers::pi;
+  for (Index e = 0; e < frame.element_count(); ++e) {
+    const auto angles = ui::angles_of(frame, e);
+    ASSERT_TRUE(angles.has_value());
+    EXPECT_NEAR(angles->smallest, regular * static_cast<double>(frame.quality[e]), 1e-4)
+        << "the metric is the least angle over the regular one's";
+    EXPECT_GT(angles->largest, regular);
+  }
+  good(fmt::format("pick element {}", frame.worst.front().element));
+  EXPECT_TRUE(shows("metric:min-angle"));
+  EXPECT_FALSE(shows("metric:rectangularity")) << "it is not defined for tetrahedra";
+  const test::TemporaryFolder folder;
+  Progress progress;
+  const Mesh bricks = test::volume_grid(2, test::Fill::Hexahedra, 0.0);
+  write_mesh(folder.path() / "bricks.vtk", bricks, bricks.positions, progress);
+  good("open \"" + (folder.path() / "bricks.vtk").string() + "\"");
+  const auto angles = ui::angles_of(*window_->app().frame(), 0);
+  EXPECT_NEAR(angles->smallest, 90.0, 1e-9);
+  EXPECT_NEAR(angles->largest, 90.0, 1e-9);
 }
 
 TEST_F(SaidInTheWindow, TheWorstElementsAreWalkedFromTheirFacts) {

@@ -128,8 +128,8 @@ TEST_F(PlotWindow, TheLegendHidesAndIsolates) {
 TEST_F(PlotWindow, AxesAreChosenAndKeptByTab) {
   good("generate annulus");
   good("run 3");
-  good("click plot-axis");
-  good("click \"plot-axis:log 1 − q\"");
+  good("click plot-axes");
+  good("click \"plot-menu:log 1 − q\"");
   EXPECT_EQ(view().axis, ui::ValueAxis::LogDistance);
   good("plot histogram");
   EXPECT_EQ(view().axis, ui::ValueAxis::Linear);
@@ -138,8 +138,8 @@ TEST_F(PlotWindow, AxesAreChosenAndKeptByTab) {
   EXPECT_EQ(view().axis, ui::ValueAxis::Log);
   good("key Alt+L");
   EXPECT_EQ(view().axis, ui::ValueAxis::Linear);
-  good("click plot-along");
-  good("click \"plot-along:16 bars\"");
+  good("click plot-axes");
+  good("click \"plot-menu:16 bars\"");
   EXPECT_EQ(window_->app().state().plot_options.bins, 16);
 }
 
@@ -151,12 +151,12 @@ TEST_F(PlotWindow, ARightClickOffersWhatCanBeChosen) {
   good("right-click " + at(0.5, 0.5));
   good("click \"plot-menu:x: last change\"");
   EXPECT_EQ(options.x_axis, ui::XAxis::Changes);
-  good("click plot-x");
-  good("click \"plot-x:x: linear\"");
+  good("click plot-axes");
+  good("click \"plot-menu:x: linear\"");
   EXPECT_EQ(options.x_axis, ui::XAxis::Linear);
   good("plot histogram");
-  good("click plot-x");
-  good("click \"plot-x:0 to 1\"");
+  good("click plot-axes");
+  good("click \"plot-menu:0 to 1\"");
   EXPECT_EQ(options.histogram_range, ui::HistogramRange::Whole);
   good("right-click " + at(0.5, 0.5));
   good("click \"plot-menu:its data\"");
@@ -190,11 +190,9 @@ TEST_F(PlotWindow, ControlsStayInTheWindowWhateverItsSizeAndScale) {
     for (const char* tab : {"convergence", "histogram", "sorted"}) {
       good(std::string("plot ") + tab);
       const float width = box("viewport")[2];
-      const bool roomy = window_->app().items().boxes().contains("plot-copy");
-      const auto& last = box(roomy ? "plot-save" : "plot-more");
-      EXPECT_LE(last[2], width) << size << " " << tab;
-      const bool has_axis = window_->app().items().boxes().contains("plot-axis");  // otherwise it is in the menu of the last one
-      EXPECT_GT((has_axis ? box("plot-axis") : last)[0], box("plot-time")[2]) << size << " " << tab;
+      const bool roomy = window_->app().items().boxes().contains("plot-save");  // otherwise it is in the menu
+      EXPECT_LE(box(roomy ? "plot-save" : "plot-axes")[2], width) << size << " " << tab;
+      EXPECT_GT(box("plot-axes")[0], box("plot-compare")[2]) << size << " " << tab;
     }
   }
 }

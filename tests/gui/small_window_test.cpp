@@ -1,5 +1,6 @@
 // 800 x 600: everything can still be reached.
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include <fmt/format.h>
@@ -57,6 +58,31 @@ TEST_F(SmallWindow, FactsDoNotCoverWhatTheyAreAbout) {
     EXPECT_FALSE(covered(last)) << mesh;
     good(fmt::format("goto vertex {}", last / 2));
     EXPECT_FALSE(covered(last / 2)) << mesh;
+  }
+}
+
+TEST_F(SmallWindow, NotesAreWholeAndBesideTheMesh) {
+  for (const double scale : {1.0, 2.0}) {
+    if (scale > 1) open(1280, 800);
+    good(fmt::format("scale {}", scale));
+    good("generate tetrahedra 300");
+    const auto& positions = session()->frame->positions;
+    good("pick element 0");
+    good("view-from iso");
+    good("clip -x:0.6");
+    good("fit");
+    const ui::PaneFacts& pane = window_->app().panes().front();
+    ASSERT_TRUE(pane.stepping_note.starts_with("hidden: ") && pane.stepping_note.ends_with("element 0")) << pane.stepping_note;
+    const auto& note = box("note");
+    const auto em = static_cast<float>(15 * scale);
+    const float lines = std::round((note[3] - note[1] - em / 2) / em), letters = static_cast<float>(pane.stepping_note.size());
+    EXPECT_GE((note[2] - note[0]) * lines, 0.42F * letters * em) << "no letter is left out";
+    EXPECT_LE(note[2], pane.rect.x + pane.rect.w);
+    float top = pane.rect.y + pane.rect.h;
+    for (const Vec3& p : positions)
+      top = std::min(
+          top, pane.rect.y + pane.rect.h / 2 - static_cast<float>(pane.view->place(ui::ScenePoints::of(*pane.frame()->input).at(p))->y));
+    EXPECT_LT(note[3], top) << "at scale " << scale;
   }
 }
 

@@ -137,16 +137,16 @@ TEST_F(VolumeStepping, WhatIsMarkedAndTakenAwayIsNamed) {
   good("clip -x:0.6");
   EXPECT_EQ(note(), "");
   good("clip x:0.6");
-  EXPECT_EQ(note(), "hidden, marked faintly: vertex 124");
+  EXPECT_EQ(note(), "hidden: vertex 124");
   good("clip -x:0.6");
   good("pick element 0");
-  EXPECT_EQ(note(), "hidden, marked faintly: element 0");
+  EXPECT_EQ(note(), "hidden: element 0");
   good("worst on");
   good("show-all");
   EXPECT_EQ(note(), "");
   good("pick none");
   good("keep-quality 0.99 1");
-  EXPECT_EQ(note(), "hidden, marked faintly: the worst element");
+  EXPECT_EQ(note(), "hidden: the worst element");
   good("worst-cells 1");
   good("keep-quality off");
   EXPECT_EQ(note(), "") << worst;
@@ -159,7 +159,7 @@ TEST_F(VolumeStepping, AWorstElementBehindOthersIsNamed) {
   for (std::size_t side = 0; side < kSides.size(); ++side) {
     good(std::string("view-from ") + kSides[side]);
     const bool lies_there = place[side / 2] == (side % 2 == 0 ? 0U : 3U);
-    EXPECT_EQ(note(), lies_there ? "" : "hidden, marked faintly: the worst element") << kSides[side] << " of " << worst;
+    EXPECT_EQ(note(), lies_there ? "" : "hidden: the worst element") << kSides[side] << " of " << worst;
   }
 }
 

@@ -249,6 +249,7 @@ TEST_F(Window, MetricNamesFitOnOneLineWhateverTheKindAndScale) {
       good("step iteration");
       good("pick element 3");
       for (const MetricInfo& metric : metric_table()) {
+        if (!metric.defined_for(window_->app().frame()->input->mesh.elements.kind(3))) continue;
         const auto& box = window_->app().items().find("metric:" + std::string(metric.name));
         EXPECT_LT(box[3] - box[1], 1.5F * 15.0F * static_cast<float>(state().scale)) << metric.name << " " << mesh << " " << scale;
         EXPECT_GT(box[2] - box[0], 3.0F * 15.0F * static_cast<float>(state().scale)) << metric.name;

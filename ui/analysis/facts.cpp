@@ -7,6 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/inspect/target_shape.h"
+#include "core/mesh/faces.h"
 #include "core/mesh/geographic.h"
 #include "core/view/patch.h"
 
@@ -31,16 +32,43 @@ void read_vertex(PickedFacts& facts, const Frame& frame, Index vertex) {
   }
 }
 
-/// Least and greatest angle between corners in order.
-AngleSpan angles_between(std::span<const Vec3> places, const Plane& plane) {
-  AngleSpan span{180.0, 0.0};
+void include(AngleSpan& span, double radians) {
+  const double degrees = radians * 180.0 / std::numbers::pi;
+  span = {std::min(span.smallest, degrees), std::max(span.largest, degrees)};
+}
+
+/// Least and greatest angle at the corners of a planar element, which are in order. None: it has not three different ones.
+std::optional<AngleSpan> angles_between(const Frame& frame, std::span<const Index> corners) {
+  std::vector<Vec3> places;
+  for (std::size_t i = 0; i < corners.size(); ++i)  // a corner that appears twice counts once
+    if (corners[i] != corners[(i + 1) % corners.size()]) places.push_back(frame.positions[corners[i]]);
   const std::size_t n = places.size();
+  if (n < 3) return std::nullopt;
+  const Plane& plane = frame.input->geometry.plane;
+  AngleSpan span{180.0, 0.0};
   for (std::size_t i = 0; i < n; ++i) {
     const Vec3 out = plane.difference(places[(i + 1) % n], places[i]), in = plane.difference(places[(i + n - 1) % n], places[i]);
-    const double angle = std::atan2(length(cross(out, in)), dot(out, in)) * 180.0 / std::numbers::pi;
-    span.smallest = std::min(span.smallest, angle);
-    span.largest = std::max(span.largest, angle);
+    include(span, std::atan2(length(cross(out, in)), dot(out, in)));
   }
+  return span;
+}
+
+/// Least and greatest angle between two faces of a volume element that share an edge, each as flat as it is on average.
+AngleSpan angles_between(const Frame& frame, std::span<const Index> corners, std::span<const LocalFace> faces) {
+  const auto normal = [&](const LocalFace& face) {
+    const auto edge = [&](Index i) { return frame.positions[corners[face.corners[i]]] - frame.positions[corners[face.corners[0]]]; };
+    return face.count == 3 ? cross(edge(1), edge(2)) : cross(edge(1), edge(2)) + cross(edge(2), edge(3));
+  };
+  const auto shared = [](const LocalFace& a, const LocalFace& b) {
+    return std::ranges::count_if(a.span(), [&](Index corner) { return std::ranges::count(b.span(), corner) > 0; });
+  };
+  AngleSpan span{180.0, 0.0};
+  for (const LocalFace& a : faces)
+    for (const LocalFace& b : faces)
+      if (&a < &b && shared(a, b) == 2) {
+        const Vec3 n = normal(a), m = normal(b);
+        include(span, std::numbers::pi - std::atan2(length(cross(n, m)), dot(n, m)));
+      }
   return span;
 }
 
@@ -54,7 +82,8 @@ void read_element(PickedFacts& facts, const Frame& frame, Index element) {
     facts.metrics.push_back(
         {&metric, patch.quality(metric.metric, 0), element_quality(input.quality_context(), input.mesh.positions, metric.metric, element)});
   };
-  for (const MetricInfo& metric : metric_table()) add(metric);
+  for (const MetricInfo& metric : metric_table())
+    if (metric.metric == frame.shown || metric.defined_for(input.mesh.elements.kind(element))) add(metric);
   if (is_built_in(frame.shown)) return;
   add(info(frame.shown));
   if (frame.positions.empty()) return;
@@ -68,13 +97,10 @@ void read_element(PickedFacts& facts, const Frame& frame, Index element) {
 
 std::optional<AngleSpan> angles_of(const Frame& frame, Index element) {
   const ElementTable& elements = frame.input->mesh.elements;
-  if (frame.positions.empty() || element >= elements.size() || info(elements.kind(element)).dimension != 2) return std::nullopt;
-  std::vector<Vec3> places;
+  if (frame.positions.empty() || element >= elements.size()) return std::nullopt;
   const auto corners = elements.corners(element);
-  for (std::size_t i = 0; i < corners.size(); ++i)  // a corner that appears twice counts once
-    if (corners[i] != corners[(i + 1) % corners.size()]) places.push_back(frame.positions[corners[i]]);
-  if (places.size() < 3) return std::nullopt;
-  return angles_between(places, frame.input->geometry.plane);
+  const auto faces = faces_of(elements.kind(element));
+  return faces.size() > 1 ? angles_between(frame, corners, faces) : angles_between(frame, corners);
 }
 
 PickedFacts facts_of(const Frame& frame, const Picked& picked) {

@@ -10,11 +10,11 @@
 
 namespace dmoscope::ui {
 
-/// Smallest and largest angle at the corners of an element, degrees.
+/// Smallest and largest angle at the corners of a planar element, or between the faces of a volume element (dihedral angles), degrees.
 struct AngleSpan {
   double smallest, largest;
 };
-/// Angles of a triangle or quadrilateral; none for a volume element, or while a device has the positions.
+/// Angles of an element; none while a device has the positions.
 [[nodiscard]] std::optional<AngleSpan> angles_of(const Frame& frame, Index element);
 
 struct PickedFacts {
@@ -31,10 +31,10 @@ struct PickedFacts {
     const MetricInfo* metric;
     double now, before;  // NaN if the metric is not defined for its kind
   };
-  std::vector<Row> metrics;
+  std::vector<Row> metrics;  // metrics that are defined for its kind, and the shown one
   bool inverted = false;
   std::optional<Vec3> inverted_inside;          // point inside at which it is inverted, if its corners do not tell
-  std::optional<AngleSpan> angles;              // angles of a planar element that is not inverted
+  std::optional<AngleSpan> angles;              // angles of an element that is not inverted
   std::optional<double> aspect, target_aspect;  // longest over shortest axis, if the shown metric has a target
 };
 

@@ -1,6 +1,7 @@
 #include "ui/commands/inspection_commands.h"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
@@ -360,6 +361,11 @@ void add_trace_commands(CommandTable& table, ViewState& state, const CommandHost
 void close_inspection(ViewState& state) {
   leave_close_up(state);
   state.inspection.open = state.inspection.playing = state.inspection.applied = false;
+}
+
+bool leaves_inspection(std::string_view line) {
+  constexpr std::array<std::string_view, 4> kLong{"until-converged", "make-good", "each until-converged", "compare "};
+  return std::ranges::any_of(kLong, [&](std::string_view begin) { return line.starts_with(begin); });
 }
 
 void add_inspection_commands(CommandTable& table, ViewState& state, const CommandHost& host) {

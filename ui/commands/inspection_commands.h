@@ -26,5 +26,7 @@ struct LevelTurn {
 
 /// Ends the inspection of a vertex's search, and goes back to the camera before its close-up.
 void close_inspection(ViewState& state);
+/// Whether a command moves the whole mesh until it is done, so that one vertex is no longer what is looked at.
+[[nodiscard]] bool leaves_inspection(std::string_view line);
 
 }  // namespace dmoscope::ui

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "ui/panels/widgets.h"
+#include "ui/state/view_options.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -76,8 +77,17 @@ bool icon_button(PanelContext& context, const std::string& item, std::string_vie
     list.AddRectFilled(at, {at.x + size.x, at.y + size.y},
                        colour(lit ? context.palette.accent : context.palette.text, hovered ? 0.22F : 0.3F), context.px(3));
   const render::Rgb ink = hovered || lit ? context.palette.text : context.palette.dim;
-  draw_icon(list, icon, {std::round(at.x + size.x / 2), std::round(at.y + size.y / 2)}, std::min(size.x, size.y), colour(ink, alpha));
+  draw_icon(list, icon, {std::round(at.x + size.x / 2), std::round(at.y + size.y / 2)},
+            std::min({size.x, size.y, std::round(1.1F * context.em())}), colour(ink, alpha));
   return pressed;
+}
+
+void action_icon(PanelContext& context, std::string_view id, std::string_view icon, ImVec2 size) {
+  const Action& action = *find_action(id);
+  ImGui::BeginDisabled(!enabled(action, context.situation()));
+  if (icon_button(context, std::string(id), icon, size, tooltip_of(action), is_ticked(context.state, action)))
+    context.send(std::string(action.command));
+  ImGui::EndDisabled();
 }
 
 }  // namespace dmoscope::ui

@@ -30,6 +30,12 @@ struct Icon {
   static constexpr std::string_view kRedo = "M10 3L13.5 6.5L10 10M13.5 6.5L6 6.5A6 9.5 3 -90 -270L9.5 12.5";
   static constexpr std::string_view kFit = "M2.5 6L2.5 2.5L6 2.5M10 2.5L13.5 2.5L13.5 6M13.5 10L13.5 13.5L10 13.5M6 13.5L2.5 13.5L2.5 10";
   static constexpr std::string_view kWires = "M8 2L14 13.5L2 13.5ZM5 7.75L11 7.75L8 13.5Z";
+  static constexpr std::string_view kRing = "A8 8 5.5 0 360Z";
+  static constexpr std::string_view kSun =
+      "A8 8 3 0 360ZM8 1L8 3M8 13L8 15M1 8L3 8M13 8L15 8M3.1 3.1L4.5 4.5M11.5 11.5L12.9 12.9M12.9 3.1L11.5 4.5M4.5 11.5L3.1 12.9";
+  static constexpr std::string_view kClip = "M3 3L13 3L13 13L3 13ZM3 13L13 3";
+  static constexpr std::string_view kCell = "M8 1.8L13.5 4.8L13.5 11.2L8 14.2L2.5 11.2L2.5 4.8ZM2.5 4.8L8 7.8L13.5 4.8M8 7.8L8 14.2";
+  static constexpr std::string_view kSearch = "A7 7 4.3 0 360ZM10.2 10.2L14 14";
   static constexpr std::string_view kOpen = "M1.5 12.8L1.5 3.5L6 3.5L7.5 5.5L14.5 5.5L14.5 12.8Z";
 };
 
@@ -39,5 +45,7 @@ void draw_icon(ImDrawList& list, std::string_view icon, ImVec2 middle, float sid
 /// Draws a button of `size`, recorded as `item`; true when it is pressed. `lit`: its effect is in force.
 bool icon_button(PanelContext& context, const std::string& item, std::string_view icon, ImVec2 size, const std::string& tooltip,
                  bool lit = false);
+/// Draws such a button for an action, lit while that is ticked; records the item under the action's id.
+void action_icon(PanelContext& context, std::string_view id, std::string_view icon, ImVec2 size);
 
 }  // namespace dmoscope::ui

@@ -175,7 +175,7 @@ void large_number(PanelContext& context, const char* item, Metric metric, double
         colour(inverted ? render::kInvertedColour : shown_scale(context.state, context.derived).colour(value)), context.px(3));
   if (!angle) return;
   ImGui::SetCursorScreenPos({coloured_by_it ? left + 2 * half + context.px(10) : left, middle - ImGui::GetTextLineHeight() / 2});
-  dim_text(context, fmt::format("{:.1f}°", *angle), false);
+  dim_text(context, degrees(*angle), false);
   next_item_tooltip("the smallest angle of this element");
   ImGui::SetCursorPos(back);
 }
@@ -206,9 +206,10 @@ void draw_own_quality(PanelContext& context, const Frame& frame, Index element) 
   dim_text(context, capitalised(metric_phrase(frame.shown)), false);
   metric_tooltip(context, info(frame.shown));
   const float top = ImGui::GetCursorPosY();
-  large_number(context, "element-quality", frame.shown, row->now, facts.inverted,
-               facts.angles ? std::optional(facts.angles->smallest) : std::nullopt);
   const auto at = std::ranges::find(frame.worst, element, &RankedElement::element);
+  const bool room = facts.angles && at == frame.worst.end();  // no rank at the line's end
+  large_number(context, "element-quality", frame.shown, row->now, facts.inverted,
+               room ? std::optional(facts.angles->smallest) : std::nullopt);
   if (at == frame.worst.end()) return;
   const auto go_to = [&](std::ptrdiff_t step) {
     const std::ptrdiff_t rank = at - frame.worst.begin() + step;
@@ -348,7 +349,7 @@ void draw_vertex(PanelContext& context, const Frame& frame, Index vertex) {
   }
 }
 
-/// Draws every metric of one element now and at the input; – if it is not defined for its kind.
+/// Draws every metric of one element now and at the input.
 void draw_metric_table(PanelContext& context) {
   using Row = PickedFacts::Row;
   const std::vector<Row>& rows = context.derived.facts.metrics;
@@ -361,29 +362,23 @@ void draw_metric_table(PanelContext& context) {
   ImGui::TableSetupColumn("metric", ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableSetupColumn("now", ImGuiTableColumnFlags_WidthFixed, widths[0]);
   ImGui::TableSetupColumn("input", ImGuiTableColumnFlags_WidthFixed, widths[1]);
-  const auto right_text = [&](const std::string& text, const std::string& full, bool dim) {
+  const auto cell = [&](const std::string& text, const std::string& full, const render::Rgb& ink) {
     ImGui::TableNextColumn();
-    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.0F, ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x));
-    if (dim) {
-      dim_text(context, text, false);
-    } else {
-      ImGui::TextUnformatted(text.c_str());
-    }
+    right_text(text, ink);
     if (!full.empty()) copied_by_click(context, full);
   };
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   dim_text(context, "metric", false);
-  right_text("now", {}, true);
-  right_text("input", {}, true);
+  for (const char* title : {"now", "input"}) cell(title, {}, context.palette.dim);
   for (const Row& row : rows) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     wrapped_text(std::string(row.metric->title));
     metric_tooltip(context, *row.metric);
     context.items.record_last(fmt::format("metric:{}", row.metric->name));
-    right_text(short_number(row.now), full_number(row.now), false);
-    right_text(short_number(row.before), full_number(row.before), true);
+    cell(short_number(row.now), full_number(row.now), context.palette.text);
+    cell(short_number(row.before), full_number(row.before), context.palette.dim);
   }
   ImGui::EndTable();
 }
@@ -398,8 +393,8 @@ void draw_element(PanelContext& context, const Frame& frame, Index element) {
     value_row(context, "inverted", facts.inverted_inside ? "only inside" : "yes", {}, context.palette.error,
               facts.inverted_inside ? "not at its corners: at the diamond" : nullptr);
   if (const auto& angles = context.derived.facts.angles)
-    value_row(context, "angles", fmt::format("{:.1f}° to {:.1f}°", angles->smallest, angles->largest), {}, {},
-              "smallest and largest at its corners");
+    value_row(context, "angles", degrees(angles->smallest) + " to " + degrees(angles->largest), {}, {},
+              frame.input->is_volume() ? "smallest and largest between its faces" : "smallest and largest at its corners");
   if (frame.input->is_volume() && !frame.positions.empty())
     number_row(context, "volume", signed_volume(elements, frame.positions, element), "negative where it is inside out");
   if (const PickedFacts& facts = context.derived.facts; facts.aspect && facts.target_aspect) {

@@ -34,37 +34,17 @@ void draw_entry(PanelContext& context, const Action& action) {
   if (!action.about.empty()) next_item_tooltip(std::string(action.about));
 }
 
-/// Actions that share a submenu, by the begin of their ids.
-struct Submenu {
-  std::string_view prefix;
-  const char* title;
-};
-constexpr std::array<Submenu, 2> kSubmenus{{{"inside-", "Inside"}, {"from-", "Look from"}}};
-
-const Submenu* submenu_of(const Action& action) {
-  const auto* const at = std::ranges::find_if(kSubmenus, [&](const Submenu& one) { return action.id.starts_with(one.prefix); });
-  return at == kSubmenus.end() ? nullptr : at;
-}
-
-void draw_submenu(PanelContext& context, const Submenu& submenu) {
-  const bool open = ImGui::BeginMenu(submenu.title, context.state.in_space);
-  context.items.record_last(fmt::format("menu:{}", submenu.title));
-  if (!context.state.in_space) next_item_tooltip("for meshes of volume elements");
-  if (!open) return;
-  for (const Action& action : actions())
-    if (submenu_of(action) == &submenu) draw_entry(context, action);
-  ImGui::EndMenu();
-}
-
 /// Groups of actions that are submenus of a menu.
 struct Nested {
   std::string_view menu, within;
 };
-constexpr std::array<Nested, 7> kNested{{{"Timeline", "Run"},
+constexpr std::array<Nested, 9> kNested{{{"Timeline", "Run"},
                                          {"Play", "Run"},
                                          {"Marks A and B", "Run"},
                                          {"Stepping", "Run"},
                                          {"Inspect", "Run"},
+                                         {"Inside", "View"},
+                                         {"Look from", "View"},
                                          {"Plot", "View"},
                                          {"Colours", "View"}}};
 
@@ -90,15 +70,9 @@ void draw_samples(PanelContext& context) {
 
 void draw_entries(PanelContext& context, std::string_view menu) {
   const bool had_sample = menu == "File";
-  const Submenu* last = nullptr;
   for (const Action& action : actions()) {
     if (action.menu != menu || action.id.starts_with("sample-")) continue;
     if (action.id.starts_with("unfold-") && !context.widgets.narrow) continue;  // columns beside the mesh are not unfolded
-    if (const Submenu* submenu = submenu_of(action)) {
-      if (submenu != last) draw_submenu(context, *submenu);
-      last = submenu;
-      continue;
-    }
     draw_entry(context, action);
     if (action.id == "open" && had_sample) {
       draw_recent(context);
@@ -108,8 +82,10 @@ void draw_entries(PanelContext& context, std::string_view menu) {
   for (const Nested& nested : kNested) {
     if (nested.within != menu) continue;
     if (nested.menu == std::ranges::find(kNested, menu, &Nested::within)->menu) ImGui::Separator();
-    const bool open = ImGui::BeginMenu(std::string(nested.menu).c_str());
+    const bool possible = context.state.in_space || (nested.menu != "Inside" && nested.menu != "Look from");
+    const bool open = ImGui::BeginMenu(std::string(nested.menu).c_str(), possible);
     context.items.record_last(fmt::format("menu:{}", nested.menu));
+    if (!possible) next_item_tooltip("for meshes of volume elements");
     if (!open) continue;
     draw_entries(context, nested.menu);
     ImGui::EndMenu();
@@ -124,19 +100,18 @@ struct Tool {
   bool gap = false;             // whether there is a gap before it
   float least = 0;              // least width of the tool bar that has room for it, in heights of the font
   const char* other_word = "";  // word while work is done
+  bool joined = false;          // whether it is one with the tool before it
 };
-constexpr std::array<Tool, 12> kTools{{{"open", Icon::kOpen, "", false, 44},
+constexpr std::array<Tool, 10> kTools{{{"open", Icon::kOpen, "", false, 44},
                                        {"undo", Icon::kUndo, "", true, 47},
                                        {"redo", Icon::kRedo, "", false, 47},
                                        {"back-iteration", Icon::kBack, "", true},
                                        {"step-iteration", Icon::kStep, "Iteration"},
-                                       {"step-class", {}, "Colour class", false, 50},
-                                       {"step-vertex", {}, "Vertex", false, 50},
+                                       {"step-class", {}, "Colour class", false, 50, "", true},
+                                       {"step-vertex", {}, "Vertex", false, 50, "", true},
                                        {"run-pause", Icon::kPlay, "Run", true, 0, "Pause"},
                                        {"make-good", Icon::kSpark, "Make it good", false, 40},
-                                       {"reset", Icon::kReset, "Reset", false, 36},
-                                       {"fit", Icon::kFit, "", true, 30},
-                                       {"wireframe", Icon::kWires, "", false, 34}}};
+                                       {"reset", Icon::kReset, "Reset", false, 36}}};
 
 float icon_side() { return std::round(1.1F * ImGui::GetFontSize()); }
 
@@ -147,18 +122,25 @@ float width_of(const Tool& tool) {
   return words + icon + 2 * ImGui::GetStyle().FramePadding.x;
 }
 
-float gap_before(const PanelContext& context, const Tool& tool) { return tool.gap ? context.px(16) : context.px(4); }
+float gap_before(const PanelContext& context, const Tool& tool) { return context.px(tool.joined ? 1.0F : tool.gap ? 16.0F : 4.0F); }
 
 void draw_tool(PanelContext& context, const Tool& tool) {
-  const bool works = context.activity.busy && *tool.other_word != 0, lit = tool.icon == Icon::kWires && context.state.wireframe;
+  const Action& action = *find_action(tool.id);
+  const bool works = context.activity.busy && *tool.other_word != 0;
   const bool primary = *tool.other_word != 0 && context.session.input != nullptr;
   const char* word = works ? tool.other_word : tool.word;
-  if (lit) ImGui::PushStyleColor(ImGuiCol_Button, colour_vector(context.palette.accent, 0.22F));
+  if (tool.joined) {  // fills the rounded corners between the two
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float half = ImGui::GetStyle().FrameRounding, gap = gap_before(context, tool);
+    const ImU32 ink = ImGui::GetColorU32(ImGuiCol_Button);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled({at.x - gap - half, at.y}, {at.x - gap, at.y + ImGui::GetFrameHeight()}, ink);
+    list.AddRectFilled(at, {at.x + half, at.y + ImGui::GetFrameHeight()}, ink);
+  }
   action_button(context, tool.id, fmt::format("##{}", tool.id).c_str(), primary, width_of(tool));
-  if (lit) ImGui::PopStyleColor();
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
-  const bool possible = enabled(*find_action(tool.id), context.situation());
-  const render::Rgb ink = primary ? context.palette.on_accent : lit ? context.palette.accent : context.palette.text;
+  const bool possible = enabled(action, context.situation());
+  const render::Rgb ink = primary ? context.palette.on_accent : context.palette.text;
   const ImU32 shade = colour(ink, possible ? 1.0F : ImGui::GetStyle().DisabledAlpha);
   const float text = ImGui::CalcTextSize(word).x, side = !tool.icon.empty() ? icon_side() : 0.0F;
   const float between = side > 0 && text > 0 ? ImGui::GetStyle().ItemInnerSpacing.x : 0.0F;
@@ -168,12 +150,16 @@ void draw_tool(PanelContext& context, const Tool& tool) {
   list.AddText({left + side + between, std::round(middle - ImGui::GetTextLineHeight() / 2)}, shade, word);
 }
 
-/// Draws the choice of the shown metric at the right end if there is room.
-void draw_shown_metric(PanelContext& context, const Rect& rect) {
-  const float width = 11 * context.em();
-  ImGui::SameLine(0, context.px(8));
-  const float left = rect.w - context.px(12) - width;
-  if (context.derived.metrics.empty() || left < ImGui::GetCursorPosX()) return;
+/// Draws the choice of the shown metric and the search of commands at the right end if there is room.
+void draw_right_end(PanelContext& context, const Rect& rect) {
+  const float width = 11 * context.em(), side = ImGui::GetFrameHeight(), gap = context.px(8);
+  ImGui::SameLine(0, gap);
+  const float from = ImGui::GetCursorPosX(), search = rect.w - gap - side, left = search - gap - width;
+  if (search < from) return;
+  ImGui::SetCursorPosX(search);
+  action_icon(context, "palette", Icon::kSearch, {side, side});
+  ImGui::SameLine();
+  if (context.derived.metrics.empty() || left < from) return;
   ImGui::SetCursorPosX(left);
   ImGui::SetNextItemWidth(width);
   metric_combo(context, "toolbar-shown", context.session.shown, "show");
@@ -224,7 +210,7 @@ void draw_toolbar(PanelContext& context, const Rect& rect) {
     draw_tool(context, tool);
     end = ImGui::GetItemRectMax().x;
   }
-  draw_shown_metric(context, rect);
+  draw_right_end(context, rect);
   end_panel();
 }
 

@@ -1,8 +1,12 @@
 // Title and frame of a viewport, and the menu that chooses its content.
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "ui/panels/icons.h"
 #include "ui/panels/panels.h"
 #include "ui/state/format.h"
 #include "ui/state/run_names.h"
@@ -14,6 +18,23 @@ struct TitleLayout {
   std::vector<TitlePiece> pieces;
   Rect plate;
   bool swatch = true;
+};
+
+/// Number of the active viewport's buttons, and their side in pixels. Those with the least use go first where room is short.
+struct ViewportTools {
+  int count = 0;
+  float side = 0;
+  static constexpr std::array<std::pair<const char*, std::string_view>, 6> kAll{{{"fit", Icon::kFit},
+                                                                                 {"wireframe", Icon::kWires},
+                                                                                 {"worst-marker", Icon::kRing},
+                                                                                 {"shading", Icon::kSun},
+                                                                                 {"inside-clip", Icon::kClip},
+                                                                                 {"inside-worst", Icon::kCell}}};
+  ViewportTools(const PanelContext& context, const PaneFacts& pane) : side(ImGui::GetFrameHeight()) {
+    const float room = pane.clip.w - 16 * context.em();
+    if (pane.focus && pane.frame() != nullptr) count = std::clamp(static_cast<int>(room / side), 0, pane.in_space() ? 6 : 3);
+  }
+  [[nodiscard]] float width() const { return static_cast<float>(count) * side; }
 };
 
 bool is_bold(const TitlePiece& piece) { return piece.role == TitlePiece::Role::Name || piece.role == TitlePiece::Role::Bad; }
@@ -42,7 +63,7 @@ TitleLayout lay_out(const PanelContext& context, const PaneFacts& pane) {
     std::erase_if(layout.pieces, [](const TitlePiece& piece) { return piece.role == TitlePiece::Role::Dim; });
   layout.swatch = pane.of_run && pane.run() != nullptr && !pane.removed;
   const float pad = context.px(8), line = ImGui::GetTextLineHeight();
-  const float room = pane.clip.w - 2 * pad;
+  const float room = title_room(context, pane);
   const auto width = [&] {
     float sum = 2 * pad + (layout.swatch ? context.px(14) : 0.0F);
     for (const TitlePiece& piece : layout.pieces)
@@ -85,6 +106,11 @@ std::size_t run_to_select(const PanelContext& context, const PaneFacts& pane) {
 
 }  // namespace
 
+float title_room(const PanelContext& context, const PaneFacts& pane) {
+  const float pad = context.px(8), tools = ViewportTools(context, pane).width();
+  return pane.clip.w - 2 * pad - (tools > 0 ? tools + pad : 0.0F);
+}
+
 void handle_pane_title(PanelContext& context, const PaneFacts& pane) {
   const Rect plate = lay_out(context, pane).plate;
   if (plate.w <= 0) return;
@@ -100,6 +126,19 @@ void handle_pane_title(PanelContext& context, const PaneFacts& pane) {
   if (!clicked) return;
   if (!pane.focus) context.send(fmt::format("focus-pane {}", pane.number + 1));
   if (run > 0) context.send(fmt::format("select-run {}", run));
+}
+
+void draw_viewport_tools(PanelContext& context, const PaneFacts& pane) {
+  const ViewportTools tools(context, pane);
+  if (tools.count == 0) return;
+  const float pad = context.px(8);
+  const ImVec2 low{std::round(pane.clip.x + pane.clip.w - pad - tools.width()), pane.clip.y + pad};
+  draw_plate(context, low, {low.x + tools.width(), low.y + tools.side});
+  for (int k = 0; k < tools.count; ++k) {
+    const auto& [id, icon] = ViewportTools::kAll[static_cast<std::size_t>(k)];
+    ImGui::SetCursorScreenPos({low.x + static_cast<float>(k) * tools.side, low.y});
+    action_icon(context, id, icon, {tools.side, tools.side});
+  }
 }
 
 Rect draw_pane_title(PanelContext& context, const PaneFacts& pane) {

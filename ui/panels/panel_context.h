@@ -124,6 +124,7 @@ struct WidgetState {
   PickedFacts vertex_under_menu, element_under_menu;  // facts of these, to be copied
   float setup_height = 0;                             // height of the setup's contents in the last frame; 0: not drawn yet
   float notice_height = 0;                            // height of the unfolded note of a run's end in the last frame
+  int note_lines = 0;                                 // lines of the note below the viewport's title in the last frame
   bool resized = false;                               // a part needs another height than it had: the next frame gives it that
   bool narrow = false;                                // columns lie over the mesh
   double moved_at = -1e9;                             // time when the view last moved

@@ -52,6 +52,10 @@ void draw_viewports(PanelContext& context, const Rect& rect);
 /// and returns its place.
 void handle_pane_title(PanelContext& context, const PaneFacts& pane);
 Rect draw_pane_title(PanelContext& context, const PaneFacts& pane);
+/// Width in pixels that the title and a note beside it may take.
+[[nodiscard]] float title_room(const PanelContext& context, const PaneFacts& pane);
+/// Draws the buttons in the active viewport's upper right corner, to be called before everything that lies below them.
+void draw_viewport_tools(PanelContext& context, const PaneFacts& pane);
 /// Draws the entries that choose the content of a viewport.
 void draw_pane_entries(PanelContext& context, const PaneFacts& pane);
 /// Handles and draws the brush under the mouse over the mesh's item, drawn last; `at`: the mouse in the viewport. True: drags belong to the
@@ -63,7 +67,8 @@ void handle_colour_bar(PanelContext& context, const Rect& rect);
 void draw_colour_bar(PanelContext& context, const Rect& rect);
 /// Height in pixels, with the space around it.
 [[nodiscard]] float colour_bar_height(const PanelContext& context, const Rect& rect);
-/// Draws the ids on the mesh.
+/// Draws name and quality of the picked element, with a line to it; and the ids on the mesh.
+void draw_pick_label(PanelContext& context, const PaneFacts& pane);
 void draw_labels(PanelContext& context, const PaneFacts& pane);
 /// Draws the note about a run that has come to its end, if there is one, above the meshes, and takes its room from them.
 void draw_notice(PanelContext& context, Layout& layout);

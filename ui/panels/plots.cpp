@@ -13,70 +13,29 @@
 namespace dmoscope::ui {
 namespace {
 
-struct Choice {
-  std::string label, command, tip;
-  bool chosen;
-};
-
-float box_width(const std::vector<Choice>& choices) {
-  float width = 0;
-  for (const Choice& choice : choices) width = std::max(width, ImGui::CalcTextSize(choice.label.c_str()).x);
-  return width + 2 * ImGui::GetStyle().FramePadding.x + ImGui::GetFrameHeight();
-}
-
-/// Draws a combo box of commands, as wide as its widest label; its entries are the items "ITEM:LABEL".
-void choice_box(PanelContext& context, const char* item, const std::vector<Choice>& choices) {
-  ImGui::SetNextItemWidth(box_width(choices));
-  const auto now = std::ranges::find(choices, true, &Choice::chosen);
-  Combo combo(context, item, now == choices.end() ? std::string() : now->label);
-  if (!combo.open() && now != choices.end()) next_item_tooltip(now->tip);
-  for (const Choice& choice : choices)
-    if (combo.open() && combo.entry(choice.label, choice.label, choice.chosen, choice.tip)) context.send(choice.command);
-}
-
-std::vector<Choice> option_choices(const ViewState& state, std::string_view command) {
+/// Draws the words of an option of the view as entries of a menu.
+void draw_choices(PanelContext& context, std::string_view command) {
   const ViewOption& option = view_option(command);
-  std::vector<Choice> choices;
   for (std::size_t k = 0; k < option.at.choices.size(); ++k) {
-    if (!option.at.is_offered(state, static_cast<double>(k))) continue;
-    const OptionChoice& one = option.at.choices[k];
-    choices.push_back({std::string(one.title), fmt::format("{} {}", command, one.word), std::string(one.doc),
-                       option.now(state) == static_cast<double>(k)});
+    const auto value = static_cast<double>(k);
+    if (!option.at.is_offered(context.state, value)) continue;
+    const std::string title(option.at.choices[k].title);
+    if (ImGui::MenuItem(title.c_str(), nullptr, option.now(context.state) == value))
+      context.send(fmt::format("{} {}", command, option.at.choices[k].word));
+    note_item(context, "plot-menu:" + title, std::string(option.at.choices[k].doc));
   }
-  return choices;
+  ImGui::Separator();
 }
 
-std::vector<Choice> along_choices(const ViewState& state) {
-  if (over_iterations(state.plot)) return option_choices(state, "plot-x");
-  return state.plot == PlotTab::Histogram ? option_choices(state, "plot-bins") : std::vector<Choice>();
-}
-
-std::vector<Choice> x_choices(const ViewState& state) {
-  if (state.plot == PlotTab::Histogram) return option_choices(state, "histogram-range");
-  return over_iterations(state.plot) ? option_choices(state, "x-axis") : std::vector<Choice>();
-}
-
-void draw_choices(PanelContext& context, const char* item, const std::vector<Choice>& choices) {
-  for (const Choice& choice : choices) {
-    if (ImGui::MenuItem(choice.label.c_str(), nullptr, choice.chosen)) context.send(choice.command);
-    note_item(context, fmt::format("{}:{}", item, choice.label), choice.tip);
-  }
-  if (!choices.empty()) ImGui::Separator();
-}
-
-/// Draws all choices of the plot. `item`: prefix of the choices' names.
-void draw_plot_menu(PanelContext& context, const char* item) {
-  draw_choices(context, item, x_choices(context.state));
-  draw_choices(context, item, along_choices(context.state));
-  if (const auto axes = option_choices(context.state, "axis"); axes.size() > 1) draw_choices(context, item, axes);
+/// Draws all choices of the plot, in a popup that is open.
+void draw_plot_menu(PanelContext& context) {
+  const PlotTab plot = context.state.plot;
+  for (const char* command : {"x-axis", "plot-x"})
+    if (over_iterations(plot)) draw_choices(context, command);
+  for (const char* command : {"histogram-range", "plot-bins"})
+    if (plot == PlotTab::Histogram) draw_choices(context, command);
+  draw_choices(context, "axis");
   for (const char* id : {"plot-all", "plot-copy", "plot-save"}) action_entry(context, id);
-}
-
-void draw_more_menu(PanelContext& context) {
-  if (ImGui::Button("…")) ImGui::OpenPopup("more of the plot");
-  context.items.record_last("plot-more");
-  if (!ImGui::BeginPopup("more of the plot")) return;
-  draw_plot_menu(context, "plot-menu");
   ImGui::EndPopup();
 }
 
@@ -100,33 +59,17 @@ void draw_plot_tabs(PanelContext& context) {
   ImGui::PopStyleVar();
 }
 
-/// Draws the shown plot's choices at the right end of the tabs' line; `rect`: of the panel.
+/// Draws the menu of the plot's axes at the right end of the tabs' line, and beside it what saves the plot; `rect`: of the panel.
 void draw_plot_controls(PanelContext& context, const Rect& rect) {
-  struct Box {
-    const char* item;
-    std::vector<Choice> choices;
-  };
-  std::vector<Box> boxes{{"plot-x", x_choices(context.state)},
-                         {"plot-axis", option_choices(context.state, "axis")},
-                         {"plot-along", along_choices(context.state)}};
-  std::erase_if(boxes, [](const Box& box) { return box.choices.size() < 2; });  // no choice
-  const float gap = context.px(8), buttons = widest_button({"Copy data"}) + gap + widest_button({"Save…"});
   ImGui::SameLine();
-  const float start = ImGui::GetCursorPosX(), room = rect.w - context.px(12) - start;
-  const auto wide = [&](float last) {
-    float sum = last;
-    for (const Box& box : boxes) sum += box_width(box.choices) + gap;
-    return sum;
-  };
-  const bool roomy = room > wide(buttons);
-  while (!boxes.empty() && room < wide(widest_button({"…"}))) boxes.erase(boxes.begin());  // they are in the menu, too
-  ImGui::SetCursorPosX(std::max(start, rect.w - context.px(12) - wide(roomy ? buttons : widest_button({"…"}))));
-  for (const Box& box : boxes) {
-    choice_box(context, box.item, box.choices);
-    ImGui::SameLine(0, gap);
-  }
-  if (!roomy) return draw_more_menu(context);
-  action_button(context, "plot-copy", "Copy data");
+  const float gap = context.px(8), start = ImGui::GetCursorPosX(), end = rect.w - context.px(12);
+  const float both = widest_button({"Axes ▾"}) + gap + widest_button({"Save…"});
+  const bool roomy = end - start > both;
+  ImGui::SetCursorPosX(std::max(start, end - (roomy ? both : widest_button({"…"}))));
+  if (ImGui::Button(roomy ? "Axes ▾" : "…")) ImGui::OpenPopup("axes of the plot");
+  note_item(context, "plot-axes", "what lies along the plot, and on which scales");
+  if (ImGui::BeginPopup("axes of the plot")) draw_plot_menu(context);
+  if (!roomy) return;
   ImGui::SameLine(0, gap);
   action_button(context, "plot-save", "Save…");
 }
@@ -149,9 +92,7 @@ void draw_plot_area(PanelContext& context, std::optional<Range> inside) {
   if (outcome.clicked && over_iterations(state.plot) && run != nullptr && !context.activity.busy)
     context.send(fmt::format("seek {}", iteration_at(*run, state.plot_options.by_seconds, *outcome.clicked)));
   if (outcome.menu) ImGui::OpenPopup("menu of the plot");
-  if (!ImGui::BeginPopup("menu of the plot")) return;
-  draw_plot_menu(context, "plot-menu");
-  ImGui::EndPopup();
+  if (ImGui::BeginPopup("menu of the plot")) draw_plot_menu(context);
 }
 
 void draw_plots(PanelContext& context, const Layout& layout) {

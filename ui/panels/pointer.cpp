@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "render/triad.h"
+#include "ui/analysis/scene_points.h"
 #include "ui/panels/panels.h"
 #include "ui/state/format.h"
 
@@ -28,7 +29,9 @@ void show_value(PanelContext& context, const Frame& frame, Index element) {
   ImGui::TextUnformatted(value.c_str());
   ImGui::PopFont();
   ImGui::SameLine();
-  dim_text(context, fmt::format("{} · element {}", metric_phrase(frame.shown), element), false);
+  const auto angles = frame.inverted[element] == 0 ? angles_of(frame, element) : std::nullopt;
+  const std::string least = angles ? degrees(angles->smallest) + " · " : std::string();
+  dim_text(context, fmt::format("{} · {}element {}", metric_phrase(frame.shown), least, element), false);
   ImGui::EndTooltip();
 }
 
@@ -131,6 +134,40 @@ bool handle_brush(PanelContext& context, const PaneFacts& pane, Vec2<double> at)
   }
   if (ImGui::IsItemHovered() || brush.painting) draw_cursor(context, at, pane.rect, radius);
   return true;
+}
+
+void draw_pick_label(PanelContext& context, const PaneFacts& pane) {
+  const Picked picked = context.derived.facts.picked;
+  const Frame& frame = *pane.frame();
+  const bool here = pane.focus && pane.view && pane.session->input == context.session.input && !frame.positions.empty();
+  if (!here || picked.kind != Picked::Kind::Element || picked.id >= frame.quality.size() || context.state.inspection.open) return;
+  const ScenePoints points = ScenePoints::of(*frame.input);
+  const auto corners = frame.input->mesh.elements.corners(picked.id);
+  render::Bounds2 box;  // pixels from the middle, y up
+  for (const Index v : corners) {
+    const auto place = pane.view->place(points.at(frame.positions[v], frame.positions[corners[0]]));
+    if (!place) return;
+    box.include(*place);
+  }
+  const auto size = static_cast<float>(std::hypot(box.size().x, box.size().y));
+  const Rect& clip = pane.clip;
+  const ImVec2 at{pane.rect.x + pane.rect.w / 2 + static_cast<float>(box.centre().x),
+                  pane.rect.y + pane.rect.h / 2 - static_cast<float>(box.centre().y)};
+  const bool seen = at.x > clip.x && at.x < clip.x + clip.w && at.y > clip.y && at.y < clip.y + clip.h;
+  if (!seen || size > 0.6F * clip.h) return;  // it needs no line
+  const std::string text = fmt::format("Element {}  {}", picked.id, short_number(static_cast<double>(frame.quality[picked.id])));
+  const ImVec2 words = ImGui::CalcTextSize(text.c_str());
+  const float pad = context.px(6), width = words.x + 2 * pad, height = words.y + pad, out = context.px(28);
+  const float away = 0.71F * std::max(context.px(15), 0.58F * size + context.px(6));  // outside the ring of the worst element
+  const float right = at.x + away + out + width < clip.x + clip.w ? 1.0F : -1.0F;
+  const float down = at.y - away - out - height < clip.y + 3 * height ? 1.0F : -1.0F;
+  const ImVec2 from{at.x + right * away, at.y + down * away}, to{from.x + right * out, from.y + down * out};
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddLine(from, to, colour(context.palette.background), context.px(3.5F));
+  list.AddLine(from, to, colour(context.palette.text), context.px(1.5F));
+  const Rect plate =
+      draw_plate(context, {right > 0 ? to.x : to.x - width, down > 0 ? to.y : to.y - height}, text, context.palette.text, pad);
+  context.items.record("pick-label", {plate.x, plate.y, plate.x + plate.w, plate.y + plate.h});
 }
 
 void draw_labels(PanelContext& context, const PaneFacts& pane) {

@@ -172,26 +172,23 @@ float judges_width(const PanelContext& context, const Comparison& comparison) {
   return width;
 }
 
-/// Title of a run's row, without the method if all runs have the same one.
-std::string title_of_row(const PanelContext& context, std::size_t run) {
-  const RunName name = run_name(context.session, run);
-  return context.shown(name.one_method && !name.rest.empty() ? name.number + " " + name.rest : name.whole());
-}
+/// Four significant digits of a quality, three of one below 0.01, so that all take about the same room.
+std::string matrix_number(double value) { return value > 0.0 && value < 0.01 ? fmt::format("{:#.3g}", value) : short_number(value); }
 
-/// Widths of the matrix's columns in pixels: those of the numbers; that of the widest name; and of all together with whole names.
+/// Widths of the matrix's columns in pixels: those of the numbers; that of the widest name; and of all besides the name.
 struct MatrixWidths {
   std::vector<float> numbers;
   float name = 0, rest = 0;
   MatrixWidths(const PanelContext& context, const Comparison& comparison)
-      : numbers(comparison.metrics.size() * Comparison::kMeasures, ImGui::CalcTextSize("0.0000").x), name(6 * context.em()) {
+      : numbers(comparison.metrics.size() * Comparison::kMeasures, ImGui::CalcTextSize("0.000").x), name(6 * context.em()) {
     for (const Comparison::Row& row : comparison.rows)
       for (std::size_t k = 0; k < row.cells.size(); ++k) {
         ImGui::PushFont(row.cells[k].best ? context.fonts.bold : context.fonts.body);
-        numbers[k] = std::max(numbers[k], ImGui::CalcTextSize(short_number(row.cells[k].value).c_str()).x);
+        numbers[k] = std::max(numbers[k], ImGui::CalcTextSize(matrix_number(row.cells[k].value).c_str()).x);
         ImGui::PopFont();
       }
-    for (std::size_t k = 0; k < context.session.runs.size(); ++k)
-      name = std::max(name, ImGui::CalcTextSize(title_of_row(context, k).c_str()).x + 1.2F * context.em());
+    for (const RunName& run : run_names(context.session))
+      name = std::max(name, ImGui::CalcTextSize(context.shown(run.brief()).c_str()).x + 1.2F * context.em());
     const float around = 2 * ImGui::GetStyle().CellPadding.x;
     rest =
         std::accumulate(numbers.begin(), numbers.end(), around * static_cast<float>(numbers.size() + 1)) + ImGui::GetStyle().ScrollbarSize;
@@ -237,7 +234,7 @@ void draw_title(PanelContext& context, const Comparison::Row& row) {
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + context.px(10));
     return dim_text(context, "Input", false);
   }
-  draw_run_cell(context, row.run, fmt::format("compared:{}", row.run + 1), title_of_row(context, row.run));
+  draw_run_cell(context, row.run, fmt::format("compared:{}", row.run + 1), context.shown(run_name(context.session, row.run).brief()));
 }
 
 void draw_row(PanelContext& context, const Comparison::Row& row) {
@@ -248,8 +245,7 @@ void draw_row(PanelContext& context, const Comparison::Row& row) {
   for (const Comparison::Cell& cell : row.cells) {
     ImGui::TableNextColumn();
     if (cell.best) ImGui::PushFont(context.fonts.bold);
-    right_text(std::isfinite(cell.value) ? short_number(cell.value) : "–",
-               cell.best || row.run == context.session.active ? context.palette.text : context.palette.dim);
+    right_text(matrix_number(cell.value), cell.best || row.run == context.session.active ? context.palette.text : context.palette.dim);
     if (cell.best) ImGui::PopFont();
     if (std::isfinite(cell.value)) next_item_tooltip(full_number(cell.value) + (cell.best ? "\nthe best of its column" : ""));
   }
@@ -262,7 +258,7 @@ void draw_matrix(PanelContext& context, const Comparison& comparison, const Matr
   if (!ImGui::BeginTable("comparison", columns, kTableFlags, {0, std::max(4 * context.em(), ImGui::GetContentRegionAvail().y - buttons)}))
     return;
   // Numbers that have no room can be scrolled to; the names stay beside them.
-  const float least = std::min(widths.name, 0.36F * room);
+  const float least = std::min(widths.name, 5.5F * context.em());
   ImGui::TableSetupColumn("run", ImGuiTableColumnFlags_WidthFixed, std::clamp(room - widths.rest, least, widths.name));
   for (const float width : widths.numbers) ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, width);
   ImGui::TableSetupScrollFreeze(1, 2);
@@ -345,6 +341,8 @@ void draw_comparison(PanelContext& context) {
   }
   const float room = ImGui::GetContentRegionAvail().x;
   const bool both = room > 48 * context.em();
+  const ImVec2 padding = ImGui::GetStyle().CellPadding;
+  ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {both ? padding.x : context.px(2), padding.y});
   const MatrixWidths widths(context, comparison);
   if (both) {
     const float between = context.px(16), most = std::max(0.37F * room, std::min(judges_width(context, comparison), 0.45F * room));
@@ -362,6 +360,7 @@ void draw_comparison(PanelContext& context) {
   draw_matrix(context, comparison, widths);
   draw_buttons(context, comparison);
   ImGui::EndChild();
+  ImGui::PopStyleVar();
 }
 
 }  // namespace dmoscope::ui

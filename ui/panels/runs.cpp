@@ -1,5 +1,6 @@
 // The runs, in a list that scrolls by itself and keeps its height, so that nothing below it moves.
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -151,7 +152,7 @@ void draw_run_row(PanelContext& context, const RunName& name, std::size_t k, flo
       context.send(fmt::format("select-run {}", k + 1));
   }
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  const float pad = context.px(3), y = at.y + (row - line) / 2;
+  const float pad = context.px(3), y = std::round(at.y + (row - line) / 2);
   list.AddRectFilled({at.x, at.y + pad}, {at.x + bar, at.y + height - pad}, colour(context.palette.run(k), hidden ? 0.35F : 1.0F), bar / 2);
   const ImU32 ink = colour(hidden ? context.palette.dim : context.palette.text);
   if (context.state.renaming_run != run.id) list.AddText({text, y}, ink, words.first.c_str());

@@ -22,14 +22,19 @@ Vec2<double> mouse_in(const Rect& rect) {
   return {static_cast<double>(mouse.x - rect.x), static_cast<double>(mouse.y - rect.y)};
 }
 
-/// Draws a note on stepping and selecting beside the title if there is room, else below it.
-void draw_note(const PanelContext& context, const PaneFacts& pane, const Rect& title) {
-  if (pane.stepping_note.empty() || !context.state.panes.one()) return;
-  const float pad = context.px(8), line = ImGui::GetTextLineHeight(), end = title.x + title.w + pad / 2;
-  const float room = pane.rect.x + pane.rect.w - end - 3 * pad;
-  const bool beside = room >= std::min(ImGui::CalcTextSize(pane.stepping_note.c_str()).x, 9 * context.em());
+/// Draws a note on stepping and selecting beside the title if there is room, else below it, in as many lines as it needs.
+void draw_note(PanelContext& context, const PaneFacts& pane, const Rect& title) {
+  const std::string& note = pane.stepping_note;
+  const float pad = context.px(8), line = ImGui::GetTextLineHeight(), end = title.x + title.w + pad / 2, widest = pane.rect.w - 4 * pad;
+  const bool beside = ImGui::CalcTextSize(note.c_str()).x <= title.x + title_room(context, pane) - end - 2 * pad,
+             one = context.state.panes.one();
+  const int below =
+      note.empty() || beside || !one ? 0 : static_cast<int>(ImGui::CalcTextSize(note.c_str(), nullptr, false, widest).y / line);
+  if (std::exchange(context.widgets.note_lines, below) != below) context.widgets.resized = true;
+  if (note.empty() || !one) return;
   const ImVec2 at = beside ? ImVec2{end, title.y} : ImVec2{pane.rect.x + pad, pane.rect.y + line + 2.25F * pad};
-  draw_plate(context, at, fit_text(pane.stepping_note, beside ? room : pane.rect.w - 4 * pad), context.palette.dim, pad);
+  const Rect plate = draw_plate(context, at, note, context.palette.dim, pad, widest);
+  context.items.record("note", {plate.x, plate.y, plate.x + plate.w, plate.y + plate.h});
 }
 
 /// Draws the name of the visible level at the upper left corner of its grid, or as near to it as can be read.
@@ -306,6 +311,7 @@ void handle_pane(PanelContext& context, const PaneFacts& pane) {
   }
   ImGui::PushID(static_cast<int>(pane.number));
   if (!one) handle_pane_title(context, pane);
+  draw_viewport_tools(context, pane);
   handle_axes(context, pane);
   handle_clip_plane(context, pane);
   ImGui::SetCursorScreenPos({clip.x, clip.y});
@@ -330,6 +336,7 @@ void draw_pane(PanelContext& context, const PaneFacts& pane) {
   if (clip.empty()) return;
   ImGui::PushClipRect({clip.x, clip.y}, {clip.x + clip.w, clip.y + clip.h}, true);
   if (pane.frame() != nullptr) draw_labels(context, pane);
+  if (pane.frame() != nullptr) draw_pick_label(context, pane);
   if (pane.frame() != nullptr && !pane.current)
     draw_centred(context, clip, fmt::format("drawing {}…", pane.frame()->input->mesh.name), -0.5F);
   if (pane.frame() != nullptr && !pane.in_space()) draw_field_in_view(context, pane);

@@ -147,10 +147,13 @@ void draw_plate(const PanelContext& context, ImVec2 low, ImVec2 high) {
   ImGui::GetWindowDrawList()->AddRectFilled(low, high, colour(context.palette.panel, 0.90F), context.px(5));
 }
 
-void draw_plate(const PanelContext& context, ImVec2 low, const std::string& text, const render::Rgb& ink, float pad) {
-  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-  draw_plate(context, low, {low.x + size.x + 2 * pad, low.y + size.y + pad});
-  ImGui::GetWindowDrawList()->AddText({low.x + pad, low.y + pad / 2}, colour(ink), text.c_str());
+Rect draw_plate(const PanelContext& context, ImVec2 low, const std::string& text, const render::Rgb& ink, float pad, float widest) {
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, widest);
+  const Rect plate{low.x, low.y, size.x + 2 * pad, size.y + pad};
+  draw_plate(context, low, {low.x + plate.w, low.y + plate.h});
+  ImGui::GetWindowDrawList()->AddText(context.fonts.body, context.em(), {low.x + pad, low.y + pad / 2}, colour(ink), text.c_str(), nullptr,
+                                      widest);
+  return plate;
 }
 
 void copied_by_click(const PanelContext& context, const std::string& text) {
@@ -250,6 +253,13 @@ void side_buttons(PanelContext& context, float y, const std::string& words, std:
   ImGui::SetCursorPosY(below);
 }
 
+std::string tooltip_of(const Action& action) {
+  std::string tip(action.title);
+  if (!action.key.empty()) tip += "   " + std::string(action.key);
+  if (!action.about.empty()) tip += "\n" + std::string(action.about);
+  return tip;
+}
+
 bool action_button(PanelContext& context, std::string_view id, const char* label, bool primary, float width) {
   const Action* action = find_action(id);
   const bool possible = enabled(*action, context.situation());
@@ -257,10 +267,7 @@ bool action_button(PanelContext& context, std::string_view id, const char* label
   const bool pressed = button(context, label, primary, width);
   context.items.record_last(id);
   if (!possible) ImGui::EndDisabled();
-  std::string tip(action->title);
-  if (!action->key.empty()) tip += "   " + std::string(action->key);
-  if (!action->about.empty()) tip += "\n" + std::string(action->about);
-  next_item_tooltip(tip);
+  next_item_tooltip(tooltip_of(*action));
   if (pressed) context.send(std::string(action->command));
   return pressed;
 }

@@ -37,6 +37,8 @@ struct SideButton {
 };
 [[nodiscard]] float width_of(const PanelContext& context, std::span<const SideButton> buttons);
 void side_buttons(PanelContext& context, float y, const std::string& words, std::span<const SideButton> buttons);
+/// Title, key and explanation of an action.
+[[nodiscard]] std::string tooltip_of(const Action& action);
 /// Draws a button for an action, with tooltip and key; records the item under the action's id. `width`: in pixels, for labels that change;
 /// 0: that of the label.
 bool action_button(PanelContext& context, std::string_view id, const char* label, bool primary = false, float width = 0);
@@ -83,8 +85,9 @@ void option_rows(PanelContext& context, std::string_view panel);
 void close_button(PanelContext& context, const char* label);
 /// Draws a plate in the panel's colour, on which text is readable over any mesh.
 void draw_plate(const PanelContext& context, ImVec2 low, ImVec2 high);
-/// Draws one line of text on a plate, `pad` pixels from its sides and half as many from its top.
-void draw_plate(const PanelContext& context, ImVec2 low, const std::string& text, const render::Rgb& ink, float pad);
+/// Draws text on a plate, `pad` pixels from its sides and half as many from its top; in several lines if it is wider than `widest` pixels
+/// (0: in one). Returns the plate's place.
+Rect draw_plate(const PanelContext& context, ImVec2 low, const std::string& text, const render::Rgb& ink, float pad, float widest = 0);
 /// Draws the label of a row "label [widget]"; the widget, drawn next, fills the right part, or a line of its own if it wants more pixels
 /// than there are. The tooltip belongs to the whole row.
 void labelled(const PanelContext& context, const char* label, const char* tooltip, float wanted = 0);

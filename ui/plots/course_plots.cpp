@@ -189,6 +189,7 @@ class CoursePlot : PlotBuilder {
     const bool own = state_.plot_options.judged_own;
     plot_.y_title = own ? "worst element, each run by its own metric" : "worst element by " + metric_phrase(session_.shown);
     plot_.title = "comparison by " + plot_.x_name;
+    plot_.legend_in_a_row = true;
     plot_.empty_text = "compare runs to see each by the metrics of the others";
     for (std::size_t k = 0; k < session_.runs.size(); ++k) {
       if (!is_shown(k)) continue;

@@ -32,7 +32,8 @@ struct LegendEntry {
   std::string name;
   bool of_run = false;  // entry of a run, else of a quantity
   std::string tip;
-  Series look;  // colour, kind, width, dash and strength of its sample
+  Series look;        // colour, kind, width, dash and strength of its sample
+  std::string brief;  // name where room is short
 };
 
 /// An upright line.
@@ -63,6 +64,7 @@ struct Plot {
   double x_pivot = 0.0;          // x lies along the plot by the logarithm of 1 + x / this; 0: evenly
   std::vector<Series> series;
   std::vector<LegendEntry> legend;
+  bool legend_in_a_row = false;  // the window has brief names in one row, and no titles of the axes
   std::vector<PlotMark> marks;
   std::optional<Range> brush;  // selected part of x
   std::string empty_text = "nothing to show yet";

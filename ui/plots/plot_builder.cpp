@@ -26,7 +26,7 @@ PlotBuilder::PlotBuilder(const PlotSources& sources)
   if (!several_) return;
   for (std::size_t k = 0; k < session_.runs.size(); ++k) {
     if (!is_shown(k)) continue;
-    plot_.legend.push_back({run_name(k), true, session_.runs[k].title, series_of_run(k, {})});
+    plot_.legend.push_back({run_name(k), true, session_.runs[k].title, series_of_run(k, {}), names_[k].brief()});
     plot_.legend.back().look.width = 4.0;
   }
 }
@@ -46,7 +46,7 @@ void PlotBuilder::add_to_legend(const Series& look, std::string tip) {
   for (const LegendEntry& entry : plot_.legend) {
     if (entry.name == look.name) return;
   }
-  LegendEntry entry{look.name, false, std::move(tip), {}};
+  LegendEntry entry{look.name, false, std::move(tip), {}, look.name};
   entry.look.colour = several_ && !look.run.empty() ? palette_.text : look.colour;
   entry.look.kind = look.kind;
   entry.look.width = std::min(look.width, 2.0);

@@ -247,17 +247,18 @@ void draw_end_names(Drawing& drawing, const Plot& plot, const PlotView& view, co
   }
 }
 
-void draw_sample(Drawing& drawing, const Series& look, double x, double y, const PlotInk& colours) {
-  if (look.kind == Series::Kind::Bars) {
-    drawing.boxes.push_back({{x + 4.0, y - 5.0}, {x + 18.0, y + 5.0}, ink(look.colour), look.strength});
-  } else {
-    drawing.lines.push_back({{{x, y}, {x + 22.0, y}}, mixed(look.colour, colours.background, look.strength), look.width, look.dash});
-  }
-}
-
 }  // namespace
 
 PlotInk ink_of(const Palette& palette) { return {palette.panel, palette.text, palette.dim, palette.grid, palette.accent}; }
+
+void draw_sample(Drawing& drawing, const Series& look, double x, double y, const PlotInk& colours, double unit) {
+  if (look.kind == Series::Kind::Bars) {
+    drawing.boxes.push_back({{x + 4.0 * unit, y - 5.0 * unit}, {x + 18.0 * unit, y + 5.0 * unit}, ink(look.colour), look.strength});
+  } else {
+    drawing.lines.push_back(
+        {{{x, y}, {x + 22.0 * unit, y}}, mixed(look.colour, colours.background, look.strength), look.width * unit, look.dash * unit});
+  }
+}
 
 void draw_plot_area(Drawing& drawing, const Plot& plot, const PlotView& view, const PlotLayout& layout, const PlotInk& colours, double font,
                     double unit, double beside) {
@@ -292,7 +293,7 @@ Drawing whole_plot(const Plot& plot, const PlotView& view, double width, double 
       x = kMargin;
       y += kRow;
     }
-    draw_sample(drawing, entry.look, x, y - 4.0, colours);
+    draw_sample(drawing, entry.look, x, y - 4.0, colours, 1.0);
     drawing.labels.push_back({{x + 28.0, y}, entry.name, kFont, ink(colours.text), Drawing::Anchor::Start});
     x += needed + 16.0;
   }

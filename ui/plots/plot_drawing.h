@@ -17,6 +17,9 @@ struct PlotInk {
 void draw_plot_area(Drawing& drawing, const Plot& plot, const PlotView& view, const PlotLayout& layout, const PlotInk& ink, double font,
                     double unit, double beside = 0.0);
 
+/// Draws a sample of a series for a legend, from x to the right and around y, with lengths in `unit`.
+void draw_sample(Drawing& drawing, const Series& look, double x, double y, const PlotInk& ink, double unit);
+
 /// The plot in its visible range, with title, legend of visible series, and axes' titles, for white paper. Lengths in units; text is 12
 /// high.
 [[nodiscard]] Drawing whole_plot(const Plot& plot, const PlotView& view, double width, double height, const PlotInk& ink);

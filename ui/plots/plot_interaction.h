@@ -11,10 +11,10 @@ namespace dmoscope::ui {
 
 /// State of the mouse over a plot in one frame.
 struct PlotMouse {
-  double x = 0.0, y = 0.0;                                                             // places of the layout
-  bool over = false;                                                                   // over the inside, or an axis' labels
-  bool left_pressed = false, left_down = false, left_released = false, twice = false;  // twice: pressed for the second time
-  bool right_pressed = false, right_down = false, right_released = false;
+  double x = 0.0, y = 0.0;                                      // places of the layout
+  bool over = false;                                            // over the inside, or an axis' labels
+  bool left_pressed = false, left_down = false, twice = false;  // twice: pressed for the second time
+  bool right_pressed = false, right_down = false;
   bool shift = false;
   double wheel = 0.0;
 };

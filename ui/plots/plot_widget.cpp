@@ -75,20 +75,6 @@ void paint(ImDrawList& list, const Drawing& drawing) {
   for (const Drawing::Label& label : drawing.labels) paint(list, label);
 }
 
-void paint_sample(const Series& look, ImVec2 at, float s, float alpha) {
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  const ImU32 ink = colour(look.colour, alpha * static_cast<float>(look.strength));
-  const float width = static_cast<float>(look.width) * s;
-  if (look.kind == Series::Kind::Bars) {
-    list.AddRectFilled({at.x + 3 * s, at.y - 5 * s}, {at.x + 17 * s, at.y + 5 * s}, ink);
-  } else if (look.dash > 0.0) {
-    const float dash = static_cast<float>(look.dash) * s;
-    for (float x = 0; x < 20 * s; x += 2 * dash) list.AddLine({at.x + x, at.y}, {at.x + std::min(x + dash, 20 * s), at.y}, ink, width);
-  } else {
-    list.AddLine({at.x, at.y}, {at.x + 20 * s, at.y}, ink, width);
-  }
-}
-
 class Widget {
  public:
   Widget(PlotCache& cache, const PlotView& view, const Palette& palette, double scale, Items& items, std::optional<Range> inside)
@@ -128,13 +114,14 @@ class Widget {
 
  private:
   void draw_head() {
-    if (!plot_.y_title.empty()) {
+    if (!plot_.y_title.empty() && !plot_.legend_in_a_row) {
       ImGui::PushStyleColor(ImGuiCol_Text, colour_vector(palette_.dim));
       ImGui::TextUnformatted(plot_.y_title.c_str());
       ImGui::PopStyleColor();
       ImGui::SameLine(0, 24 * s_);
     }
     draw_legend();
+    if (plot_.legend_in_a_row && !plot_.legend.empty()) return;
     if (plot_.x_title.empty() || plot_.series.empty()) return ImGui::NewLine();
     const float title = ImGui::CalcTextSize(plot_.x_title.c_str()).x;
     const float at = ImGui::GetWindowContentRegionMax().x - title - 12 * s_;
@@ -144,7 +131,16 @@ class Widget {
     ImGui::TextColored(colour_vector(palette_.dim), "%s", plot_.x_title.c_str());
   }
 
-  [[nodiscard]] float width_of(const std::string& name) const { return 26 * s_ + ImGui::CalcTextSize(name.c_str()).x; }
+  /// Name of an entry in the legend; in a single row it is cut in its middle if it takes more than half of the room.
+  [[nodiscard]] std::string shown_name(const LegendEntry& entry) const {
+    if (!plot_.legend_in_a_row) return entry.name;
+    const float room = std::max(60 * s_, (ImGui::GetWindowContentRegionMax().x - 16 * s_) / 2 - 26 * s_);
+    std::string text = entry.brief;
+    for (std::size_t letters = text.size(); letters > 4 && ImGui::CalcTextSize(text.c_str()).x > room;)
+      text = without_middle(entry.brief, --letters);
+    return text;
+  }
+  [[nodiscard]] float width_of(const LegendEntry& entry) const { return 26 * s_ + ImGui::CalcTextSize(shown_name(entry).c_str()).x; }
 
   [[nodiscard]] static std::string more_text(std::size_t runs) { return fmt::format("… {} more", runs); }
 
@@ -162,17 +158,19 @@ class Widget {
       }
     };
     for (std::size_t k = 0; k < plot_.legend.size(); ++k) {
-      if (k < runs || k >= all) put(width_of(plot_.legend[k].name), (k == all ? 32 : 16) * s_);
+      if (k < runs || k >= all) put(width_of(plot_.legend[k]), (k == all ? 32 : 16) * s_);
       if (k + 1 == all && runs < all) put(ImGui::CalcTextSize(more_text(all - runs).c_str()).x, 16 * s_);
     }
-    put(ImGui::CalcTextSize(plot_.x_title.c_str()).x + 24 * s_, 16 * s_);
+    if (!plot_.legend_in_a_row) put(ImGui::CalcTextSize(plot_.x_title.c_str()).x + 24 * s_, 16 * s_);
     return lines;
   }
 
   /// Number of runs, of `all`, that are named, so that the plot keeps most of the height; the others are in a menu.
   [[nodiscard]] std::size_t runs_with_room(std::size_t all, float right) const {
     const float left = ImGui::GetCursorScreenPos().x;
-    const int most = std::max(2, static_cast<int>(0.3F * ImGui::GetContentRegionAvail().y / ImGui::GetTextLineHeightWithSpacing()));
+    const int most = plot_.legend_in_a_row
+                         ? 1
+                         : std::max(2, static_cast<int>(0.3F * ImGui::GetContentRegionAvail().y / ImGui::GetTextLineHeightWithSpacing()));
     std::size_t runs = all;
     while (runs > 1 && lines_with(runs, all, left, right) > most) --runs;
     return runs;
@@ -187,15 +185,19 @@ class Widget {
     const float line = ImGui::GetTextLineHeight();
     ImGui::PushID(entry.name.c_str());
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    const bool pressed = ImGui::InvisibleButton("legend", {width_of(entry.name), line});
+    const bool pressed = ImGui::InvisibleButton("legend", {width_of(entry), line});
     ImGui::PopID();
     items_.record_last("legend:" + entry.name);
     if (pressed) take_press(entry);
     if (ImGui::IsItemHovered())
       ImGui::SetTooltip("%s%sclick: show or hide; double click: show this one only", entry.tip.c_str(), entry.tip.empty() ? "" : "\n");
     const float alpha = is_on(plot_, view_, entry) ? 1.0F : 0.35F;
-    paint_sample(entry.look, {at.x, at.y + line / 2}, s_, alpha);
-    ImGui::GetWindowDrawList()->AddText({at.x + 26 * s_, at.y}, colour(palette_.text, alpha), entry.name.c_str());
+    Drawing sample;
+    Series look = entry.look;
+    look.strength *= static_cast<double>(alpha);
+    draw_sample(sample, look, static_cast<double>(at.x), static_cast<double>(at.y + line / 2), ink_of(palette_), scale_);
+    paint(*ImGui::GetWindowDrawList(), sample);
+    ImGui::GetWindowDrawList()->AddText({at.x + 26 * s_, at.y}, colour(palette_.text, alpha), shown_name(entry).c_str());
   }
 
   /// Draws the menu of the runs from `first` on, behind a word in the legend.
@@ -225,7 +227,7 @@ class Widget {
     };
     for (std::size_t k = 0; k < plot_.legend.size(); ++k) {
       if (k < runs || k >= all) {
-        go_on(k, width_of(plot_.legend[k].name));
+        go_on(k, width_of(plot_.legend[k]));
         draw_legend_entry(plot_.legend[k]);
       }
       if (k + 1 == all && runs < all) {

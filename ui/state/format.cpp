@@ -28,6 +28,8 @@ std::string short_number(double value) {
   return four_digits(value);
 }
 
+std::string degrees(double angle) { return angle < 1.0 ? fmt::format("{:.2g}°", angle) : fmt::format("{:.1f}°", angle); }
+
 std::string full_number(double value) {
   if (std::isnan(value)) return "not defined";
   std::array<char, 32> text{};

@@ -19,6 +19,8 @@ namespace dmoscope::ui {
 [[nodiscard]] std::string full_number(double value);
 /// A number with its thousands apart: "1,334,112".
 [[nodiscard]] std::string count(std::uint64_t value);
+/// An angle in degrees: "38.8°", "0.66°".
+[[nodiscard]] std::string degrees(double angle);
 /// A rate with three digits and a prefix: "1.61 M".
 [[nodiscard]] std::string rate(double value);
 /// A text with its ASCII letters made small, for comparing what people type.

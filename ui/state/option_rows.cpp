@@ -151,7 +151,7 @@ std::vector<ViewOption> inside_options() {
   return {
       row("clip flip", "", at<&V::inside, &In::clip, &ClipPlane::flip>(), {"/volume/inside/clip/flip"}),
       row("clip", "", at<&V::inside, &In::clip, &ClipPlane::on>(), {"/volume/inside/clip/on"},
-          {"Clip plane", "holders", "J", "inside-clip", Volume}),
+          {"Clip plane", "holders", "J", "inside-clip", Volume, false, "Inside"}),
       row("clip-mode", "whole cells stay, or they are cut through",
           words(at<&V::inside, &In::clip, &ClipPlane::mode>(), choice("crinkle", "whole", "cells that the plane passes through stay whole"),
                 choice("cut", "cut", "cells that the plane passes through are cut")),
@@ -339,7 +339,7 @@ OptionValue side_of() {
 std::vector<ViewOption> panel_options() {
   return {
       row("panel setup", "shows or hides a panel; left and right are older names of the first two", at<&V::panels, &Panels::setup>(),
-          both("/panels/left", kScript), {"Setup: runs, method, metric", "from-trackball", "F2", "panel-left", Nothing, kApart}),
+          both("/panels/left", kScript), {"Setup: runs, method, metric", "from-trackball", "F2", "panel-left", Nothing, kApart, "View"}),
       row("panel facts", "shows or hides a panel", at<&V::panels, &Panels::facts>(), both("/panels/right", kScript),
           {"Facts: mesh, selection, worst", "panel-left", "F3", "panel-right"}),
       row("panel left", "an older name of setup", at<&V::panels, &Panels::setup>()),

@@ -24,6 +24,8 @@ struct RunName {
   /// Its method and aim, and the other differences to runs of its method; `given`: the name alone.
   [[nodiscard]] std::string method_and_aim() const { return given ? method : method + " · " + aim; }
   [[nodiscard]] std::string other_differences() const;
+  /// whole(), without the method if all runs have the same one.
+  [[nodiscard]] std::string brief() const { return one_method && !rest.empty() ? number + " " + rest : whole(); }
   [[nodiscard]] std::string whole() const { return number + " " + method + (rest.empty() ? "" : " · " + rest); }
 };
 

@@ -83,7 +83,7 @@ std::string PaneView::note(const ViewState& state) const {
   if (picked.kind == Picked::Kind::Element && !scene.sees_element(picked.id)) add(fmt::format("element {}", picked.id));
   if (picked.kind == Picked::Kind::Vertex && !scene.sees_vertex(picked.id)) add(fmt::format("vertex {}", picked.id));
   if (faint.empty()) return text;
-  return "hidden, marked faintly: " + faint + (text.empty() ? "" : " · ") + text;
+  return "hidden: " + faint + (text.empty() ? "" : " · ") + text;
 }
 
 void PaneView::update_volume(render::VolumeScene& scene, const Scenery& scenery, const Wish& wish) {
@@ -158,7 +158,7 @@ void PaneView::draw(const Scenery& scenery, const Wish& wish) {
   find_labels(scenery, camera);
   const auto w = static_cast<int>(std::lround(state.viewport.x)), h = static_cast<int>(std::lround(state.viewport.y));
   picture_.update(scene(), {w, h, camera, picture_style(state, scenery.derived), marks(scenery, camera, state.viewport, wish.inspected),
-                            wish.detail, wish.refine});
+                            wish.detail, wish.refine, wish.plain && in_space()});
 }
 
 }  // namespace dmoscope::ui

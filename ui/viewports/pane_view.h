@@ -40,6 +40,7 @@ class PaneView {
     bool inspected = false;  // whether marks of the inspected search belong here
     double detail = 1.0;
     bool refine = true;
+    bool plain = false;  // see LivePicture
   };
   /// Draws the viewport with the size state.viewport, as far as a moment goes.
   void draw(const Scenery& scenery, const Wish& wish);
@@ -73,6 +74,7 @@ class PaneView {
   [[nodiscard]] render::Pick pick(const ViewState& state, const render::Camera2D& camera, Vec2<double> pixel, double radius) const;
   [[nodiscard]] unsigned texture() const noexcept { return picture_.texture(); }
   [[nodiscard]] std::uint64_t picture_serial() const noexcept { return picture_.serial(); }
+  [[nodiscard]] bool whole() const noexcept { return picture_.whole(); }
   [[nodiscard]] bool complete() const noexcept { return picture_.complete(); }
   [[nodiscard]] bool current() const noexcept { return current_; }
   [[nodiscard]] bool settled() const noexcept { return current_ && complete() && worker_.settled(); }

@@ -209,7 +209,7 @@ void Viewports::update_stepping(bool busy) {
 }
 
 /// Shows all of the mesh in the active viewport, and in others whose camera was not moved since the last fit.
-bool Viewports::fit(ViewState& state, double em) {
+bool Viewports::fit(ViewState& state, const Turn& turn) {
   if (!state.requests.fit) return false;
   if (session_->frame == nullptr) {
     state.requests.fit = false;
@@ -224,7 +224,9 @@ bool Viewports::fit(ViewState& state, double em) {
   state.requests.fit = false;
   // Title and colour bar stand above and below the mesh, not on it.
   const bool bar_within = state.panes.one() || state.panes.layout == PaneLayout::Split;
-  const double top = 2.4 * em, bottom = bar_within ? 4.4 * em : 0.5 * em;
+  const double em = turn.em, line = 1.07 * em, top = 2.4 * em + (turn.note_lines > 0 ? turn.note_lines * line + 0.8 * em : 0.0);
+  fitted_below_ = turn.note_lines;
+  const double bottom = bar_within ? 4.4 * em : 0.5 * em;
   const Vec2<double> free{state.viewport.x, std::max(1.0, state.viewport.y - top - bottom)};
   const double margin = std::min(1.2 * em, 0.05 * std::min(free.x, free.y));
   if (const render::VolumeScene* volume = view.volume()) {
@@ -284,7 +286,7 @@ bool Viewports::draw(ViewState& state, const Derived& derived, const Inspection&
   const Rect& rect = rects.front();
   state.viewport = {std::max(1.0, static_cast<double>(rect.w)), std::max(1.0, static_cast<double>(rect.h))};
   // A fitted mesh stays fitted when the window, a panel or its projection changes.
-  const bool resized = before.x != state.viewport.x || before.y != state.viewport.y;
+  const bool resized = before.x != state.viewport.x || before.y != state.viewport.y || turn.note_lines > fitted_below_;
   const bool volume = session_->input && session_->input->in_space();
   if (volume ? keeps_fit(state.orbit, resized) : resized && fitted_ && *fitted_ == state.camera) state.requests.fit = true;
   loading_ = refining_ = false;
@@ -293,7 +295,7 @@ bool Viewports::draw(ViewState& state, const Derived& derived, const Inspection&
     views_[k]->set_pool(turn.live ? nullptr : pool_.get());  // a run at work uses the processors already
     loading_ = !views_[k]->bring(options_.wait_for_scene ? render::Loading::Wait : render::Loading::Background) || loading_;
   }
-  const bool fitted = fit(state, turn.em);
+  const bool fitted = fit(state, turn);
   facts_.clear();
   const Scenery scenery{state, derived, inspection, session_->input.get()};
   // All viewports together are drawn within a moment; full pictures come one after the other.
@@ -302,10 +304,11 @@ bool Viewports::draw(ViewState& state, const Derived& derived, const Inspection&
     if (views_[k]->frame() != nullptr) elements += views_[k]->drawn_count();
   const double detail = views_[focus_]->scene().suggested_detail(elements, options_.software_renderer, true);
   bool refine = !turn.moving && !turn.live;
+  const bool plain = !refine && options_.software_renderer;  // darkening takes as long as all elements of a large mesh there
   for (std::size_t k = 0; k < count_; ++k) {
     PaneView& view = *views_[k];
     if (view.frame() != nullptr && !rect.empty()) {
-      view.draw(scenery, {state.camera_of(k), inspected(state, k), detail, refine});
+      view.draw(scenery, {state.camera_of(k), inspected(state, k), detail, refine, plain});
       refining_ = refining_ || !view.complete();
       refine = refine && view.complete();
     }
@@ -337,7 +340,7 @@ PaneFacts Viewports::facts_of_pane(ViewState& state, std::size_t pane, const Rec
   facts.picture_serial = view.picture_serial();
   facts.focus = pane == focus_;
   facts.inspected = inspected(state, pane);
-  facts.reduced = view.frame() != nullptr && !view.complete();
+  facts.reduced = view.frame() != nullptr && !view.whole();
   facts.current = view.current();
   facts.lacks_room = view.labels_lack_room();
   if (const render::VolumeScene* volume = view.volume(); volume != nullptr && view.frame() != nullptr) {

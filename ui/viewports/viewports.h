@@ -81,6 +81,7 @@ class Viewports {
     double em = 15.0;     // height of the interface's font
     bool moving = false;  // the view has just moved
     bool live = false;    // a run is at work
+    int note_lines = 0;   // lines below the active viewport's title
   };
   /// Draws all that changed, as far as a moment goes, each within one of `rects`. A requested fit is done once its mesh is there; true: it
   /// was done.
@@ -127,7 +128,7 @@ class Viewports {
             const RunView* own = nullptr);
   void show_content(const ViewState& state, std::size_t pane);
   void show_mark(std::size_t pane, const Marked& mark, const char* letter);
-  bool fit(ViewState& state, double em);
+  bool fit(ViewState& state, const Turn& turn);
   [[nodiscard]] render::Bounds2 box_of_pane(std::size_t pane) const;
   [[nodiscard]] bool keeps_fit(const render::OrbitCamera& now, bool resized) const;
   [[nodiscard]] bool inspected(const ViewState& state, std::size_t pane) const;
@@ -151,6 +152,7 @@ class Viewports {
   std::array<std::optional<render::Camera2D>, Panes::kMost>
       fitted_others_;  // last fits of viewports that show another mesh by a camera of their own
   std::optional<render::OrbitCamera> fitted_orbit_;
+  int fitted_below_ = 0;  // lines below the title at the last fit
   // State at the last follow(): a command may have changed it since.
   PaneLayout layout_ = PaneLayout::One;
   std::size_t count_ = 1, focus_ = 0;

@@ -1,7 +1,6 @@
 #pragma once
 // The kernels' bodies: the work of one lane, by the same source on a device and on the host that stands in for it.
 
-#include "core/quality/element_shape.h"
 #include "core/quality/tally.h"
 #include "core/smooth/kernels/fast_visit.h"
 #include "core/smooth/reference_visit.h"
@@ -92,21 +91,6 @@ struct Settle {
   static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE void run(const Task& task, std::size_t i, std::size_t count, const Team& team) {
     const std::size_t all = *task.deferred_count;
     for (std::size_t k = i; k < all; k += count) ExactVisit<M>::run(task, task.deferred[k], team);
-  }
-};
-
-template <Metric M>
-struct Judge {
-  template <class Team>
-  static DMOSCOPE_LANE void run(const Task& task, std::size_t i, std::size_t /*count*/, const Team& /*team*/) {
-    const auto element = static_cast<Index>(task.first + i);
-    const PositionView positions = positions_of(task);
-    visit_planar(
-        task.mesh.frame, task.mesh.corners_of(element), [&](Index v) { return positions[v]; },
-        [&](const auto& shape) {
-          task.quality[element] = evaluate<M>(shape);
-          task.inverted[element] = formulas::smallest_jacobian(shape) <= 0.0 ? 1 : 0;
-        });
   }
 };
 

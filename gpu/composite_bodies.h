@@ -70,9 +70,13 @@ struct VisitComposite {
   static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE void run(const Task& task, std::size_t i, std::size_t /*count*/, const Team& team) {
     const auto rank = static_cast<Index>(task.first + i);
     if (!is_set(task.awake + rank)) return;
-    const ListedStar<Frame> star(mesh_in<Frame>(task), positions_of(task), task.vertex_of_rank[rank]);
+    const MeshView<Frame> mesh = mesh_in<Frame>(task);
+    const Index vertex = task.vertex_of_rank[rank];
+    const ListedStar<Frame> star(mesh, positions_of(task), vertex);
     const Offset found = search(task, rank, star, team);
-    if (team.lane() == 0) judge(task, rank, times(found, star.star().scale()));
+    if (team.lane() != 0) return;
+    settle(task, mesh, rank, times(found, star.star().scale()),
+           [&](Vec3 to) DMOSCOPE_INLINE_LAMBDA { return confirm(task, mesh, vertex, to); });
   }
 
  private:
@@ -98,21 +102,6 @@ struct VisitComposite {
     });
   }
 
-  static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE void judge(const Task& task, Index rank, Offset offset) {
-    const MeshView<Frame> mesh = mesh_in<Frame>(task);
-    const PositionView positions = positions_of(task);
-    const Index vertex = task.vertex_of_rank[rank];
-    ConfirmedMove found;
-    if (leads_away(offset))
-      found = confirmed_move(
-          offset,
-          [&](Offset step) DMOSCOPE_INLINE_LAMBDA { return displaced(mesh.frame, positions[vertex], step, task.frame.single_precision); },
-          [&](Vec3 to) DMOSCOPE_INLINE_LAMBDA { return confirm(task, mesh, vertex, to); });
-    if (found.gains && !(found.to == positions[vertex]))
-      move(task, mesh, rank, found.to);
-    else
-      set_flag(task.awake + rank, false);
-  }
   /// Judges the star at both places in a loop, so that there is one copy of the code that judges a star.
   static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE Confirmation confirm(const Task& task, const MeshView<Frame>& mesh, Index vertex, Vec3 target) {
     const PositionView positions = positions_of(task);

@@ -25,7 +25,7 @@ Launcher planar_launcher(Work work) {
     case Work::Settle:
       return launch<bodies::Settle<M>, CudaTeam>;
     case Work::Judge:
-      return launch<bodies::Judge<M>, Solo>;
+      return launch<bodies::Judge<M, Plane>, Solo>;
     default:
       return nullptr;
   }
@@ -35,7 +35,7 @@ template <Metric M>
 Launcher volume_launcher(Work work) {
   if (work == Work::VisitVolumeComposite) return launch<bodies::VisitComposite<M, Space>, CudaTeam>;
   if (work == Work::VisitVolume) return launch<bodies::VisitVolume<M>, StagingCudaTeam<kBlock, kStageBytes>>;
-  return launch<bodies::JudgeVolume<M>, Solo>;
+  return launch<bodies::Judge<M, Space>, Solo>;
 }
 
 template <std::size_t Part, std::size_t I>

@@ -42,7 +42,7 @@ Lanes lanes_of(Work work) {
     case Work::Settle:
       return run_lanes<bodies::Settle<M>>;
     case Work::Judge:
-      return run_lanes<bodies::Judge<M>>;
+      return run_lanes<bodies::Judge<M, Plane>>;
     default:
       return nullptr;
   }
@@ -51,7 +51,7 @@ Lanes lanes_of(Work work) {
 template <Metric M>
 Lanes volume_lanes_of(Work work) {
   if (work == Work::VisitVolumeComposite) return run_lanes<bodies::VisitComposite<M, Space>>;
-  return work == Work::VisitVolume ? run_lanes<bodies::VisitVolume<M>> : run_lanes<bodies::JudgeVolume<M>>;
+  return work == Work::VisitVolume ? run_lanes<bodies::VisitVolume<M>> : run_lanes<bodies::Judge<M, Space>>;
 }
 
 Lanes target_lanes_of(Work work, bool crossed) {

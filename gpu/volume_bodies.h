@@ -24,7 +24,9 @@ struct VisitVolume {
     const Index vertex = task.vertex_of_rank[rank];
     const ListedStar<Space> star(volume_of(task), positions_of(task), vertex);
     const Vec3 found = search(task, vertex, star, team);
-    if (team.lane() == 0) judge(task, rank, times(found, star.star().scale()));
+    if (team.lane() != 0) return;
+    settle(task, volume_of(task), rank, times(found, star.star().scale()),
+           [&](Vec3 to) DMOSCOPE_INLINE_LAMBDA { return confirm_at<M>(volume_of(task), positions_of(task), vertex, to, task.untangling); });
   }
 
  private:
@@ -38,37 +40,6 @@ struct VisitVolume {
       if (found.ready) return {found.offset.x, found.offset.y, found.offset.z};
     }
     return search_star<M>(star, star.star().box(), task.parameters, task.untangling, team);
-  }
-
-  static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE void judge(const Task& task, Index rank, Vec3 offset) {
-    const VolumeView mesh = volume_of(task);
-    const PositionView positions = positions_of(task);
-    const Index vertex = task.vertex_of_rank[rank];
-    ConfirmedMove found;
-    if (leads_away(offset))
-      found = confirmed_move(
-          offset,
-          [&](Vec3 step) DMOSCOPE_INLINE_LAMBDA { return displaced(mesh.frame, positions[vertex], step, task.frame.single_precision); },
-          [&](Vec3 to) DMOSCOPE_INLINE_LAMBDA { return confirm_at<M>(mesh, positions, vertex, to, task.untangling); });
-    if (found.gains)
-      move(task, mesh, rank, found.to);
-    else
-      set_flag(task.awake + rank, false);
-  }
-};
-
-template <Metric M>
-struct JudgeVolume {
-  template <class Team>
-  static DMOSCOPE_LANE void run(const Task& task, std::size_t i, std::size_t /*count*/, const Team& /*team*/) {
-    const auto element = static_cast<Index>(task.first + i);
-    const PositionView positions = positions_of(task);
-    visit_volume(
-        volume_of(task).corners_of(element), [&](Index v) { return positions[v]; },
-        [&](const auto& shape) {
-          task.quality[element] = evaluate<M>(shape);
-          task.inverted[element] = least_jacobian(shape) <= 0.0 ? 1 : 0;
-        });
   }
 };
 

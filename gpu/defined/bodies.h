@@ -159,22 +159,11 @@ struct SettleDefined {
     const LaneJudge<Frame> judge(task, lane);
     const Index vertex = task.vertex_of_rank[rank];
     const auto offset = times(offset_of(star), star.scale);
-    ConfirmedMove found;
-    if (leads_away(offset))
-      found = confirmed_move(
-          offset,
-          [&](const auto& step) DMOSCOPE_INLINE_LAMBDA {
-            return displaced(judge.mesh().frame, judge.positions()[vertex], step, task.frame.single_precision);
-          },
-          [&](Vec3 to) DMOSCOPE_INLINE_LAMBDA {
-            return confirm_from(judge.mesh(), judge.positions(), vertex, to, task.untangling,
-                                task.defined.before[rank - task.defined.search.first_of_stretch],
-                                [&]() DMOSCOPE_INLINE_LAMBDA { return judge.state(vertex, to); });
-          });
-    if (found.gains)
-      move(task, judge.mesh(), static_cast<Index>(rank), found.to);
-    else
-      set_flag(task.awake + rank, false);
+    bodies::settle(task, judge.mesh(), static_cast<Index>(rank), offset, [&](Vec3 to) DMOSCOPE_INLINE_LAMBDA {
+      return confirm_from(judge.mesh(), judge.positions(), vertex, to, task.untangling,
+                          task.defined.before[rank - task.defined.search.first_of_stretch],
+                          [&]() DMOSCOPE_INLINE_LAMBDA { return judge.state(vertex, to); });
+    });
   }
   [[nodiscard]] static DMOSCOPE_LANE OffsetIn<Frame, double> offset_of(const SoughtStar& star) {
     if constexpr (std::is_same_v<Frame, Plane>)

@@ -60,6 +60,8 @@ figures() {
         name = name ~ /Stars\)0/ ? "VisitSmallFans" : name ~ /Stars\)1/ ? "VisitLargeFans" : name ~ /Stars\)2/ ? "VisitOthers" : "VisitInTeam"
       else if (name ~ /bodies::VisitComposite</)
         name = name ~ /dmoscope::Space/ ? "VisitVolumeComposite" : "VisitComposite"
+      else if (name ~ /bodies::Judge</)
+        name = name ~ /dmoscope::Space/ ? "JudgeVolume" : "Judge"
       else if (name ~ /bodies::[A-Za-z]*(Defined|Targets)</) {  # with their frame and numbers, or the form of their targets
         form = name ~ /Targets</ ? (name ~ /<true>|<\(bool\)1>/ ? "crossed" : "plain") : (name ~ /dmoscope::Space/ ? "space" : "plane")
         if (name ~ /double>/) form = form "-double"

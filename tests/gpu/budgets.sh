@@ -40,7 +40,7 @@ for architecture in "${architectures[@]}"; do
 done | xargs -0 -r -n 3 -P "${JOBS:-$(nproc)}" bash -c 'set -euo pipefail; ask "$@"' ask
 
 # Metrics are numbers in a kernel's name: "0=mean-ratio 1=mean-ratio-area ...".
-metrics=$(sed -n '/^enum class Metric /,/^}/p' "$here/../../core/quality/metric.h" | sed -n 's/^ *\([A-Z][A-Za-z]*\),\{0,1\}$/\1/p' |
+metrics=$(sed -n '/^enum class Metric /,/^}/p' "$here/../../core/quality/metrics/metric_info.h" | sed -n 's/^ *\([A-Z][A-Za-z]*\),\{0,1\}$/\1/p' |
   sed 's/\([a-z]\)\([A-Z]\)/\1-\2/g' | tr '[:upper:]' '[:lower:]' | awk '{ printf "%d=%s ", NR - 1, $0 }')
 
 # figures ARCHITECTURE: prints "ARCHITECTURE REGISTERS STACK STORED LOADED KERNEL", a line a kernel.

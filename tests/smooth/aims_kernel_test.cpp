@@ -12,6 +12,7 @@
 #include "core/search/mesh_star.h"
 #include "core/smooth/kernels/compiled/kernel_set.h"
 #include "core/smooth/methods/composite_star_kernel.h"
+#include "core/smooth/size_field.h"
 #include "tests/smooth/zoo.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/volume_grids.h"

@@ -23,8 +23,7 @@ struct RangeModeInfo {
 inline constexpr std::array<RangeModeInfo, 6> kRangeModes{{
     {RangeMode::Input, "input", "the input's",
      "from the worst valid element of the input to the best one, or to 95 % of them where the others lie far above, rounded; stays the "
-     "same "
-     "during a run"},
+     "same during a run"},
     {RangeMode::Fixed, "fixed", "0 to 1", "from 0, degenerate, to 1, ideal"},
     {RangeMode::Auto, "auto", "the mesh's own", "from the worst to the best element of the current mesh"},
     {RangeMode::Expanding, "expanding", "growing", "all qualities since the mesh was opened; never shrinks"},

@@ -109,7 +109,7 @@ Kernels::Name name_for(Work work) {
     case Work::Settle:
       return in_team<bodies::Settle<M>>();
     case Work::Judge:
-      return solo<bodies::Judge<M, Plane>>();
+      return solo<bodies::Judge<M, dmoscope::Plane>>();
     default:
       return {};
   }
@@ -146,7 +146,7 @@ Kernels::Name plain_name_for(Work work) {
 
 template <Metric M>
 Kernels::Name volume_name_for(Work work) {
-  if (work == Work::JudgeVolume) return solo<bodies::Judge<M, Space>>();
+  if (work == Work::JudgeVolume) return solo<bodies::Judge<M, dmoscope::Space>>();
   if (work == Work::VisitVolumeComposite) return in_team<bodies::VisitComposite<M, dmoscope::Space>>();
   return in_staging_team<bodies::VisitVolume<M>>(kStageBytes);
 }

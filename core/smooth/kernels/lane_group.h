@@ -3,6 +3,7 @@
 // headers include it; see lane_kernel_impl.h for what that asks of the code.
 
 #include <array>
+#include <limits>
 
 #include "core/numeric/pack.h"
 // Headers that must come after the packs:
@@ -190,6 +191,7 @@ class LaneGroup {
       any = any || wanted;
     }
     if (any) kernel().judge();
+    if (any && is_guarded()) judge_guard();
     std::uint64_t moved = 0;
     for (std::size_t slot = 0; slot < count_; ++slot) {
       const Index rank = rank_[slot];
@@ -216,8 +218,19 @@ class LaneGroup {
   [[nodiscard]] bool gains(std::size_t slot) {
     using visit_rules::Verdict;
     const Verdict verdict = kernel().verdict(slot);
-    if (verdict == Verdict::Move && !task_.is_guarded) return true;
+    if (verdict == Verdict::Move && (!is_guarded() || guard_[slot] > task_.guarded_above)) return true;
     return verdict != Verdict::Stay && task_.gains(task_.owner, rank_[slot], to_[slot].target);
+  }
+
+  [[nodiscard]] bool is_guarded() const { return task_.guarded_above > -std::numeric_limits<double>::infinity(); }
+  /// Finds the least mean ratio of each star after its step.
+  void judge_guard() {
+    for (std::size_t slot = 0; slot < kWidth; slot += kHalf) {
+      Elements<D, Quadrilaterals> scratch;
+      const Objective<Metric::MeanRatio, false, D, Value::Rank> least(
+          elements<D>([this, slot](std::size_t i) { return exact_point(i, slot); }, scratch));
+      least({D::load_aligned(step_x_ + slot), D::load_aligned(step_y_ + slot)}).store_aligned(guard_ + slot);
+    }
   }
 
   /// Wakes the neighbours of a vertex that moved; it stays awake itself.
@@ -236,7 +249,7 @@ class LaneGroup {
   alignas(64) float x_[kMaxPoints][kWidth], y_[kMaxPoints][kWidth];
   alignas(64) double exact_x_[kMaxPoints][kWidth], exact_y_[kMaxPoints][kWidth];
   alignas(64) float ready_[kWidth];
-  alignas(64) double step_x_[kWidth], step_y_[kWidth], before_[kWidth], after_[kWidth];
+  alignas(64) double step_x_[kWidth], step_y_[kWidth], before_[kWidth], after_[kWidth], guard_[kWidth];
   Displacement to_[kWidth];
 };
 

@@ -22,8 +22,9 @@ struct LaneTask {
   const double* targets;              // targets of elements that have any: see StarTargets; else null
   const std::uint32_t* first_target;  // offset of a star's targets, by rank; else null
 
-  void* owner;      // for the two below
-  bool is_guarded;  // whether every move must be confirmed
+  /// Mean ratio above which a star keeps the guard; -infinity: there is no guard; infinity: each move must be confirmed.
+  double guarded_above;
+  void* owner;  // for the two below
   /// Returns, exactly, whether the vertex of this rank would gain by standing at `position` (3 coordinates). A guard may change the
   /// position. Leaves the vertex in its place.
   bool (*gains)(void* owner, Index rank, double* position);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -102,7 +103,7 @@ class LaneDmo final : public Smoother {
     task.targets = targets_.numbers.data();
     task.first_target = targets_.first.data();
     task.owner = this;
-    task.is_guarded = alone_.is_guarded();
+    task.guarded_above = guarded_above(alone_.guard());
     task.gains = [](void* owner, Index rank, double* p) {
       auto& self = *static_cast<LaneDmo*>(owner);
       thread_local Visit<Plane, Grid>::Scratch room;  // kept: stepping allocates nothing
@@ -120,6 +121,14 @@ class LaneDmo final : public Smoother {
       return true;
     };
     return task;
+  }
+
+  /// See LaneTask: kernels judge the mean ratio, and leave to the visit what rounding may decide.
+  [[nodiscard]] static double guarded_above(const std::optional<Guard>& guard) {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    if (!guard) return -kInfinity;
+    if (guard->metric != Metric::MeanRatio) return kInfinity;
+    return guard->floor + formulas::rank_doubt<Metric::MeanRatio>(guard->floor);
   }
 
   /// Moves the follower of a vertex along, and wakes its star.

@@ -72,6 +72,9 @@ class FastVolumeKernel final : public StarKernel<Space> {
   [[nodiscard]] bool valid_at(Index vertex, Vec3 target) const override {
     return targets_ ? found_here() : search_.valid_at(stars_.of(vertex), points(), target);  // tetrahedra have no inside
   }
+  [[nodiscard]] bool keeps(const Guard& guard, Index vertex, Vec3 target) const override {
+    return found_here() && search_.keeps(guard, stars_.of(vertex), points(), target);
+  }
   [[nodiscard]] std::span<const Index> others(Index vertex) const override { return stars_.of(vertex).vertices; }
 
  private:

@@ -1,5 +1,7 @@
 #include "core/smooth/methods/volume_star_search.h"
 
+#include <algorithm>
+
 namespace dmoscope {
 
 namespace {
@@ -24,6 +26,13 @@ std::optional<bool> VolumeStarSearch::gains(const IndexedStars::Star& star, cons
   if (!(rank.before > kLeastCertain)) return std::nullopt;
   const Certainty rises = compare(rank.after, rank.before);
   return rises == Certainty::Unsure ? std::nullopt : std::optional(rises == Certainty::Greater);
+}
+
+bool VolumeStarSearch::keeps(const Guard& guard, const IndexedStars::Star& star, const Points& points, Vec3 target) const {
+  if (guard.metric != kGuard) return false;
+  const double after = guard_kernel_.least_ranks({star.elements, points.at.data(), target, target}).after;
+  const double floor = std::max(guard.floor * guard.floor * guard.floor, kLeastCertain);  // the rank in volumes is the cube
+  return compare(after, floor) == Certainty::Greater;
 }
 
 }  // namespace dmoscope

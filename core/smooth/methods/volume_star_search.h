@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/smooth/composite_objective.h"
 #include "core/smooth/kernels/compiled/kernel_set.h"
 #include "core/smooth/methods/star_points.h"
 
@@ -17,10 +18,16 @@ class VolumeStarSearch {
     Vec3Of<float> narrow_box;
   };
   VolumeStarSearch(Metric metric, const SearchParameters& parameters)
-      : metric_(metric), kernel_(kernels(parameters).volume(metric)), parameters_(parameters) {}
+      : metric_(metric),
+        kernel_(kernels(parameters).volume(metric)),
+        guard_kernel_(kernels(parameters).volume(kGuard)),
+        parameters_(parameters) {}
   /// Searches by the mean ratio against targets.
   VolumeStarSearch(const SearchParameters& parameters, bool crossed)
-      : metric_(Metric::MeanRatio), kernel_(kernels(parameters).target_volume(crossed)), parameters_(parameters) {}
+      : metric_(Metric::MeanRatio),
+        kernel_(kernels(parameters).target_volume(crossed)),
+        guard_kernel_(kernels(parameters).volume(kGuard)),
+        parameters_(parameters) {}
 
   /// Finds the winner of the first `levels` levels for the vertex; a search of fewer levels begins like one of more. Not ready where the
   /// plain search is needed.
@@ -34,10 +41,14 @@ class VolumeStarSearch {
   [[nodiscard]] bool valid_at(const IndexedStars::Star& star, const Points& points, Vec3 target) const {
     return kernel_.valid_after({star.elements, points.at.data(), target, target});
   }
+  /// Returns whether the star is certain to keep a guard with the vertex at `target`. `points`: as find() left them.
+  [[nodiscard]] bool keeps(const Guard& guard, const IndexedStars::Star& star, const Points& points, Vec3 target) const;
 
  private:
+  static constexpr Metric kGuard = Metric::MeanRatio;  // metric of the guards that kernels judge
+
   Metric metric_;
-  VolumeKernel kernel_;
+  VolumeKernel kernel_, guard_kernel_;
   SearchParameters parameters_;
 };
 

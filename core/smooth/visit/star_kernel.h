@@ -5,6 +5,7 @@
 #include <span>
 
 #include "core/mesh/position_view.h"
+#include "core/smooth/composite_objective.h"
 #include "core/smooth/reference_visit.h"
 
 namespace dmoscope {
@@ -36,6 +37,8 @@ class StarKernel {
   }
   /// Returns whether the star's elements are certain to be valid inside at `target`.
   [[nodiscard]] virtual bool valid_at(Index /*vertex*/, Vec3 /*target*/) const { return false; }
+  /// Returns whether the star is certain to keep a guard with its vertex at `target`, for which the same thread has just found a winner.
+  [[nodiscard]] virtual bool keeps(const Guard& /*guard*/, Index /*vertex*/, Vec3 /*target*/) const { return false; }
   /// Other vertices of its star; none where they are not noted.
   [[nodiscard]] virtual std::span<const Index> others(Index /*vertex*/) const { return {}; }
 };

@@ -45,7 +45,7 @@ class Visit {
   }
   [[nodiscard]] std::span<const Index> others(Index vertex) const { return kernel_ ? kernel_->others(vertex) : std::span<const Index>(); }
   [[nodiscard]] bool slides(Index vertex) const { return domain_.slides(vertex); }
-  [[nodiscard]] bool is_guarded() const noexcept { return judge_.composite().guard.has_value(); }
+  [[nodiscard]] const std::optional<Guard>& guard() const noexcept { return judge_.composite().guard; }
   /// Place of a free vertex for which a kernel has found a target: another one where the guard does not let it go there.
   [[nodiscard]] std::optional<Vec3> confirmed(Index vertex, Vec3 target, PositionView positions, Scratch& scratch) const {
     bool breaks_guard = false;
@@ -178,7 +178,7 @@ class Visit {
     const std::optional<bool> known = kernel_->gains(positions, vertex, *target);
     if (known && !*known) return std::nullopt;
     if (known && (!has_inside_ || kernel_->valid_at(vertex, *target) || keeps_sound(mesh_.view, positions, vertex, *target)) &&
-        judge_.keeps_guard(positions, vertex, *target))
+        ((guard() && kernel_->keeps(*guard(), vertex, *target)) || judge_.keeps_guard(positions, vertex, *target)))
       return target;
     bool breaks_guard = false;
     const auto confirm = confirmation(positions, vertex, scratch, &breaks_guard, found.before ? &*found.before : nullptr);

@@ -244,14 +244,15 @@ std::vector<Rect> App::pane_places(PanelContext& context, const Rect& rect) {
   return pane_rects(layout, area, std::round(context.px(4)), viewports_.aspect(), 2.9F * context.em());
 }
 
-void App::update_viewports(PanelContext& context, const Rect& rect) {
+void App::update_viewports(PanelContext& context, const Layout& layout) {
   redraw_in_ = kNotByItself;
   // The frame of a wheel's turn does not draw a slice of the full picture first.
   const bool moved = moving(context.now) || ImGui::GetIO().MouseWheel != 0.0F;
   // A live run counts as movement: its next frame comes soon.
   const bool live = activity_.busy && activity_.busy_seconds > kRestAfter;
-  const std::vector<Rect> places = pane_places(context, rect);
-  if (viewports_.draw(state_, derived_, inspection_, places, {static_cast<double>(context.em()), moved, live, widgets_.note_lines}))
+  const std::vector<Rect> places = pane_places(context, layout.viewport);
+  if (viewports_.draw(state_, derived_, inspection_, places,
+                      {static_cast<double>(context.em()), moved, live, widgets_.note_lines, layout.uncovered()}))
     state_.commands.keep_look(look());
   if (viewports_.loading()) redraw_in_ = 0.1;
   activity_.reduced = viewports_.refining();
@@ -293,7 +294,7 @@ void App::draw_panels(PanelContext& context) {
   give_message_room(context, layout);
   draw_menu(context, layout.menu);
   draw_notice(context, layout);
-  update_viewports(context, layout.viewport);
+  update_viewports(context, layout);
   draw_toolbar(context, layout.toolbar);
   draw_viewports(context, layout.viewport);
   uncover_pick(layout);

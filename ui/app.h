@@ -128,7 +128,7 @@ class App {
   void update_derived();
   double play_on(bool busy, double now);
   [[nodiscard]] std::vector<Rect> pane_places(PanelContext& context, const Rect& rect);
-  void update_viewports(PanelContext& context, const Rect& rect);
+  void update_viewports(PanelContext& context, const Layout& layout);
   [[nodiscard]] bool waits_its_turn(const Action& action) const;
   void draw_panels(PanelContext& context);
   void uncover_pick(const Layout& layout);

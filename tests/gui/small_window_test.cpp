@@ -61,6 +61,30 @@ TEST_F(SmallWindow, FactsDoNotCoverWhatTheyAreAbout) {
   }
 }
 
+TEST_F(SmallWindow, AFitShowsAllOfTheMeshBesideTheFacts) {
+  for (const char* mesh : {"generate coast 400", "generate solids 216"}) {
+    open(1280, 800);
+    good("scale 2");
+    good(mesh);
+    good("pick element 100");
+    good("fit");
+    const ui::PaneFacts& pane = window_->app().panes().front();
+    const float edge = box("tab:mesh")[0];
+    EXPECT_LT(pane.uncovered.x + pane.uncovered.w, edge) << mesh;
+    for (const Vec3& p : session()->frame->positions) {
+      const Vec2<double> at = *pane.view->place(ui::ScenePoints::of(*pane.frame()->input).at(p));
+      const float x = pane.rect.x + pane.rect.w / 2 + static_cast<float>(at.x);
+      ASSERT_GT(x, pane.uncovered.x) << mesh;
+      ASSERT_LT(x, pane.uncovered.x + pane.uncovered.w) << mesh;
+    }
+    EXPECT_LE(box("pick-label")[2], pane.uncovered.x + pane.uncovered.w) << mesh;
+    const double before = pane.view->place(Vec3{})->x;
+    good("click fold:right");
+    good("key Escape");
+    EXPECT_GT(window_->app().panes().front().view->place(Vec3{})->x, before) << mesh << ": without the facts it stands in the middle again";
+  }
+}
+
 TEST_F(SmallWindow, NotesAreWholeAndBesideTheMesh) {
   for (const double scale : {1.0, 2.0}) {
     if (scale > 1) open(1280, 800);

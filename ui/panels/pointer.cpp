@@ -159,7 +159,8 @@ void draw_pick_label(PanelContext& context, const PaneFacts& pane) {
   const ImVec2 words = ImGui::CalcTextSize(text.c_str());
   const float pad = context.px(6), width = words.x + 2 * pad, height = words.y + pad, out = context.px(28);
   const float away = 0.71F * std::max(context.px(15), 0.58F * size + context.px(6));  // outside the ring of the worst element
-  const float right = at.x + away + out + width < clip.x + clip.w ? 1.0F : -1.0F;
+  const Rect& free = pane.uncovered;
+  const float right = at.x + away + out + width < free.x + free.w || at.x - away - out - width < free.x ? 1.0F : -1.0F;
   const float down = at.y - away - out - height < clip.y + 3 * height ? 1.0F : -1.0F;
   const ImVec2 from{at.x + right * away, at.y + down * away}, to{from.x + right * out, from.y + down * out};
   ImDrawList& list = *ImGui::GetWindowDrawList();

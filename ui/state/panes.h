@@ -1,6 +1,7 @@
 #pragma once
 // Viewports side by side: their number and the content of each. Plain state.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -19,6 +20,11 @@ namespace dmoscope::ui {
 struct Rect {
   float x = 0, y = 0, w = 0, h = 0;
   [[nodiscard]] bool empty() const noexcept { return w <= 0 || h <= 0; }
+  /// Part that lies in another one, too.
+  [[nodiscard]] Rect within(const Rect& other) const noexcept {
+    const float left = std::max(x, other.x), top = std::max(y, other.y);
+    return {left, top, std::max(0.0F, std::min(x + w, other.x + other.w) - left), std::max(0.0F, std::min(y + h, other.y + other.h) - top)};
+  }
 };
 
 /// Arrangement of the viewports. Split: two over each other under one camera, divided by a handle.

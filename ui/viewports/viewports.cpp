@@ -208,8 +208,15 @@ void Viewports::update_stepping(bool busy) {
   for (std::size_t k = 0; k < count_; ++k) views_[k]->update_stepping(busy);
 }
 
-/// Shows all of the mesh in the active viewport, and in others whose camera was not moved since the last fit.
-bool Viewports::fit(ViewState& state, const Turn& turn) {
+/// Widths of a viewport that columns cover at its left and right; none if they leave no room worth speaking of.
+std::pair<double, double> Viewports::covered(const Rect& rect, const Turn& turn) {
+  const Rect seen = rect.within(turn.uncovered);
+  if (static_cast<double>(seen.w) < 8.0 * turn.em) return {};
+  return {static_cast<double>(seen.x - rect.x), static_cast<double>(rect.x + rect.w - seen.x - seen.w)};
+}
+
+/// Shows all of the mesh in the active viewport, whose place is `rect`, and in others whose camera was not moved since the last fit.
+bool Viewports::fit(ViewState& state, const Rect& rect, const Turn& turn) {
   if (!state.requests.fit) return false;
   if (session_->frame == nullptr) {
     state.requests.fit = false;
@@ -227,17 +234,20 @@ bool Viewports::fit(ViewState& state, const Turn& turn) {
   const double em = turn.em, line = 1.07 * em, top = 2.4 * em + (turn.note_lines > 0 ? turn.note_lines * line + 0.8 * em : 0.0);
   fitted_below_ = turn.note_lines;
   const double bottom = bar_within ? 4.4 * em : 0.5 * em;
-  const Vec2<double> free{state.viewport.x, std::max(1.0, state.viewport.y - top - bottom)};
+  fitted_beside_ = covered(rect, turn);
+  const auto [left, right] = fitted_beside_;
+  const Vec2<double> free{state.viewport.x - left - right, std::max(1.0, state.viewport.y - top - bottom)};
   const double margin = std::min(1.2 * em, 0.05 * std::min(free.x, free.y));
   if (const render::VolumeScene* volume = view.volume()) {
-    volume->fit(state.orbit, state.viewport, {{margin, top + margin}, {state.viewport.x - margin, state.viewport.y - bottom - margin}});
+    volume->fit(state.orbit, state.viewport,
+                {{left + margin, top + margin}, {state.viewport.x - right - margin, state.viewport.y - bottom - margin}});
     state.requests.fit_all = false;
     fitted_orbit_ = state.orbit;
     return true;
   }
-  const auto camera_for = [&](const render::Bounds2& box) {
+  const auto camera_for = [&, aside = (left - right) / 2](const render::Bounds2& box) {
     render::Camera2D camera = render::Camera2D::fit(box, free, margin);
-    camera.pan({0.0, (top - bottom) / 2});
+    camera.pan({aside, (top - bottom) / 2});
     return camera;
   };
   render::Bounds2 bounds = box_of_pane(focus_);
@@ -286,7 +296,10 @@ bool Viewports::draw(ViewState& state, const Derived& derived, const Inspection&
   const Rect& rect = rects.front();
   state.viewport = {std::max(1.0, static_cast<double>(rect.w)), std::max(1.0, static_cast<double>(rect.h))};
   // A fitted mesh stays fitted when the window, a panel or its projection changes.
-  const bool resized = before.x != state.viewport.x || before.y != state.viewport.y || turn.note_lines > fitted_below_;
+  const Rect& active = rects[std::min(focus_, rects.size() - 1)];
+  const auto [left, right] = covered(active, turn);
+  const bool wider = left < fitted_beside_.first || right < fitted_beside_.second;  // a column that opens over it leaves it where it is
+  const bool resized = before.x != state.viewport.x || before.y != state.viewport.y || turn.note_lines > fitted_below_ || wider;
   const bool volume = session_->input && session_->input->in_space();
   if (volume ? keeps_fit(state.orbit, resized) : resized && fitted_ && *fitted_ == state.camera) state.requests.fit = true;
   loading_ = refining_ = false;
@@ -295,7 +308,7 @@ bool Viewports::draw(ViewState& state, const Derived& derived, const Inspection&
     views_[k]->set_pool(turn.live ? nullptr : pool_.get());  // a run at work uses the processors already
     loading_ = !views_[k]->bring(options_.wait_for_scene ? render::Loading::Wait : render::Loading::Background) || loading_;
   }
-  const bool fitted = fit(state, turn);
+  const bool fitted = fit(state, active, turn);
   facts_.clear();
   const Scenery scenery{state, derived, inspection, session_->input.get()};
   // All viewports together are drawn within a moment; full pictures come one after the other.
@@ -312,12 +325,12 @@ bool Viewports::draw(ViewState& state, const Derived& derived, const Inspection&
       refining_ = refining_ || !view.complete();
       refine = refine && view.complete();
     }
-    facts_.push_back(facts_of_pane(state, k, rects[std::min(k, rects.size() - 1)]));
+    facts_.push_back(facts_of_pane(state, k, rects[std::min(k, rects.size() - 1)], turn.uncovered));
   }
   return fitted;
 }
 
-PaneFacts Viewports::facts_of_pane(ViewState& state, std::size_t pane, const Rect& rect) const {
+PaneFacts Viewports::facts_of_pane(ViewState& state, std::size_t pane, const Rect& rect, const Rect& uncovered) const {
   const PaneView& view = *views_[pane];
   PaneFacts facts;
   facts.number = pane;
@@ -326,6 +339,7 @@ PaneFacts Viewports::facts_of_pane(ViewState& state, std::size_t pane, const Rec
     const float handle = std::round(static_cast<float>(state.panes.split) * rect.w);
     facts.clip = pane == 0 ? Rect{rect.x, rect.y, handle, rect.h} : Rect{rect.x + handle, rect.y, rect.w - handle, rect.h};
   }
+  facts.uncovered = facts.clip.within(uncovered);
   facts.session = view.session();
   facts.removed = facts.session->active >= session_->runs.size();
   facts.name = shown_[pane].name;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/view/view.h"
@@ -19,6 +20,7 @@ struct PaneFacts {
   std::size_t number = 0;                         // index of the viewport, from 0
   Rect rect;                                      // place of its picture
   Rect clip;                                      // visible part of that: all of it except in a split view
+  Rect uncovered;                                 // part of `clip` over which no column lies
   std::shared_ptr<const SessionView> session;     // session with its frame and its run in place of the active ones; the frame may be null
   std::string name;                               // "A", "B", "input"; empty for a run
   std::string why_not;                            // reason why it shows no mesh
@@ -82,6 +84,7 @@ class Viewports {
     bool moving = false;  // the view has just moved
     bool live = false;    // a run is at work
     int note_lines = 0;   // lines below the active viewport's title
+    Rect uncovered;       // part of all viewports over which no column lies
   };
   /// Draws all that changed, as far as a moment goes, each within one of `rects`. A requested fit is done once its mesh is there; true: it
   /// was done.
@@ -128,13 +131,14 @@ class Viewports {
             const RunView* own = nullptr);
   void show_content(const ViewState& state, std::size_t pane);
   void show_mark(std::size_t pane, const Marked& mark, const char* letter);
-  bool fit(ViewState& state, const Turn& turn);
+  bool fit(ViewState& state, const Rect& rect, const Turn& turn);
+  [[nodiscard]] static std::pair<double, double> covered(const Rect& rect, const Turn& turn);
   [[nodiscard]] render::Bounds2 box_of_pane(std::size_t pane) const;
   [[nodiscard]] bool keeps_fit(const render::OrbitCamera& now, bool resized) const;
   [[nodiscard]] bool inspected(const ViewState& state, std::size_t pane) const;
   void measure();
   [[nodiscard]] std::shared_ptr<const Frame> reference(const ViewState& state) const;
-  [[nodiscard]] PaneFacts facts_of_pane(ViewState& state, std::size_t pane, const Rect& rect) const;
+  [[nodiscard]] PaneFacts facts_of_pane(ViewState& state, std::size_t pane, const Rect& rect, const Rect& uncovered) const;
   [[nodiscard]] render::Image joint_picture(const Scenery& scenery, const render::Shot& shot, const render::Legend& legend);
   [[nodiscard]] render::Image picture_of(std::size_t pane, const Scenery& scenery, const render::Shot& shot);
 
@@ -152,7 +156,8 @@ class Viewports {
   std::array<std::optional<render::Camera2D>, Panes::kMost>
       fitted_others_;  // last fits of viewports that show another mesh by a camera of their own
   std::optional<render::OrbitCamera> fitted_orbit_;
-  int fitted_below_ = 0;  // lines below the title at the last fit
+  int fitted_below_ = 0;                     // lines below the title at the last fit
+  std::pair<double, double> fitted_beside_;  // widths that columns covered at its sides then
   // State at the last follow(): a command may have changed it since.
   PaneLayout layout_ = PaneLayout::One;
   std::size_t count_ = 1, focus_ = 0;

@@ -42,6 +42,7 @@ template <class R, std::size_t N>
 [[nodiscard]] DMOSCOPE_ANYWHERE R scale_of(const std::array<Vec3Of<R>, N>& edges) {
   using scalar::max;
   R longest = scalar::constant<R>(0.0);
+  DMOSCOPE_NO_UNROLL
   for (const Vec3Of<R>& edge : edges) longest = max(longest, sum_of_sizes(edge));
   return scalar::constant<R>(1.0) / longest;
 }
@@ -53,7 +54,8 @@ using Coefficients = CoefficientsOf<double>;
 
 /// Coefficients of a hexahedron's Jacobian determinant over the cube of its longest edge. It has no term with squares of two coordinates,
 /// so that those at its corners and in the middle of its edges tell the others: see Johnen, Weill, Remacle: Robust and efficient validation
-/// of the linear hexahedral element (2017).
+/// of the linear hexahedral element (2017). A device's loops are not unrolled here and below: in registers these numbers would halve the
+/// lanes that work at once, while few visits ask for them.
 template <class R>
 [[nodiscard]] DMOSCOPE_ANYWHERE CoefficientsOf<R> coefficients_of(const formulas::Hexahedron<Vec3Of<R>>& hexahedron) {
   const std::array<Vec3Of<R>, 8>& p = hexahedron.at;
@@ -61,15 +63,23 @@ template <class R>
   std::array<Vec3Of<R>, 12> edges{p[1] - p[0], p[2] - p[3], p[5] - p[4], p[6] - p[7], p[3] - p[0], p[2] - p[1],
                                   p[7] - p[4], p[6] - p[5], p[4] - p[0], p[5] - p[1], p[7] - p[3], p[6] - p[2]};
   const R scale = scale_of(edges);
+  DMOSCOPE_NO_UNROLL
   for (Vec3Of<R>& edge : edges) edge = scale * edge;
   const Vec3Of<R>*x = edges.data(), *y = x + 4, *z = y + 4;
   const auto determinant = [](const Vec3Of<R>& a, const Vec3Of<R>& b, const Vec3Of<R>& c) { return dot(a, cross(b, c)); };
   CoefficientsOf<R> at{};
-  for (std::size_t i = 0; i < 2; ++i)
-    for (std::size_t j = 0; j < 2; ++j)
+  DMOSCOPE_NO_UNROLL
+  for (std::size_t i = 0; i < 2; ++i) {
+    DMOSCOPE_NO_UNROLL
+    for (std::size_t j = 0; j < 2; ++j) {
+      DMOSCOPE_NO_UNROLL
       for (std::size_t k = 0; k < 2; ++k) at[18 * i + 6 * j + 2 * k] = determinant(x[j + 2 * k], y[i + 2 * k], z[i + 2 * j]);
+    }
+  }
   const R half = scalar::constant<R>(0.5), quarter = scalar::constant<R>(0.25);
-  for (std::size_t a = 0; a < 2; ++a)
+  DMOSCOPE_NO_UNROLL
+  for (std::size_t a = 0; a < 2; ++a) {
+    DMOSCOPE_NO_UNROLL
     for (std::size_t b = 0; b < 2; ++b) {
       const std::size_t along_x = 9 + 6 * a + 2 * b, along_y = 18 * a + 3 + 2 * b, along_z = 18 * a + 6 * b + 1;
       const auto middle = [&](std::size_t i, std::size_t step, R of_sums) { at[i] = half * (of_sums - at[i - step] - at[i + step]); };
@@ -77,10 +87,12 @@ template <class R>
       middle(along_y, 3, determinant(x[2 * b] + x[1 + 2 * b], y[a + 2 * b], z[a] + z[a + 2]));
       middle(along_z, 1, determinant(x[b] + x[b + 2], y[a] + y[a + 2], z[a + 2 * b]));
     }
+  }
   const auto middle_of_face = [&](std::size_t i, std::size_t step, std::size_t other) {
     at[i] = half * (at[i - step] + at[i + step] + at[i - other] + at[i + other]) -
             quarter * (at[i - step - other] + at[i - step + other] + at[i + step - other] + at[i + step + other]);
   };
+  DMOSCOPE_NO_UNROLL
   for (std::size_t i = 0; i < 2; ++i) {
     middle_of_face(12 + 2 * i, 9, 3);
     middle_of_face(10 + 6 * i, 9, 1);
@@ -92,6 +104,7 @@ template <class R>
 
 [[nodiscard]] DMOSCOPE_ANYWHERE bool all_above(const Coefficients& coefficients, double bound) {
   bool above = true;
+  DMOSCOPE_NO_UNROLL
   for (const double c : coefficients) above = above && c > bound;
   return above;
 }
@@ -128,6 +141,7 @@ struct Piece {
   DMOSCOPE_ANYWHERE void halve(Coefficients& coefficients, std::uint32_t cut) const {
     const std::size_t stride = cut % 3 == 0 ? 9 : cut % 3 == 1 ? 3 : 1;
     const bool is_upper = (upper >> cut & 1U) != 0;
+    DMOSCOPE_NO_UNROLL
     for (std::size_t line = 0; line < 9; ++line) {
       const std::size_t i = stride == 9 ? line : stride == 3 ? line / 3 * 9 + line % 3 : line * 3;
       double &c0 = coefficients[i], &c1 = coefficients[i + stride], &c2 = coefficients[i + 2 * stride];
@@ -159,11 +173,13 @@ inline constexpr std::uint32_t kMostCuts = 24, kMostPieces = 4096;
 [[nodiscard]] DMOSCOPE_ANYWHERE Validity divide(const Coefficients& whole) {
   using scalar::abs, scalar::max;
   double greatest = 0.0;
+  DMOSCOPE_NO_UNROLL
   for (const double c : whole) greatest = max(greatest, abs(c));
   const double bound = kRounding + greatest * 0x1p-46;  // and what halving adds
   Piece piece;
   Coefficients here = whole;
   for (std::uint32_t looks = 0;; ++looks) {
+    DMOSCOPE_NO_UNROLL
     for (std::size_t corner = 0; corner < 8; ++corner) {
       const std::size_t i = corner % 2, j = corner / 2 % 2, k = corner / 4;
       const double value = here[18 * i + 6 * j + 2 * k];

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -152,6 +153,24 @@ TEST(Guard, ByAValueIsReachedByNoneThatWasAboveIt) {
   dmoscope::Run run = make_run(mesh, {.metric = Metric::ScaledJacobian, .guard = GuardRule{Metric::MeanRatio, floor}});
   run.iterate(30, progress);
   EXPECT_GE(least(run, Metric::MeanRatio), floor);
+}
+
+TEST(Guard, ChangesNothingWhereItIsNotReached) {
+  Progress progress;
+  std::vector<std::shared_ptr<const InputMesh>> meshes{input(lattice(10, 0.3, 7)), input(lattice(10, 0.3, 7, Cells::Mixed))};
+  for (const auto fill : {test::Fill::Tetrahedra, test::Fill::Hexahedra}) meshes.push_back(input(volume_grid(4, fill, 0.2, 2)));
+  for (const auto& mesh : meshes)
+    for (const Metric metric : {Metric::ScaledJacobian, mesh->is_volume() ? Metric::Condition : Metric::MeanRatioArea}) {
+      RunParameters parameters{.metric = metric, .guard = std::nullopt};
+      dmoscope::Run off = make_run(mesh, parameters);
+      parameters.guard = GuardRule{Metric::MeanRatio, 1e-6};
+      dmoscope::Run on = make_run(mesh, parameters);
+      off.iterate(5, progress);
+      on.iterate(5, progress);
+      ASSERT_GT(least(off, Metric::MeanRatio), 1e-3);
+      EXPECT_TRUE(std::ranges::equal(on.positions(), off.positions()));
+      EXPECT_FALSE(std::ranges::equal(on.positions(), mesh->mesh.positions));
+    }
 }
 
 TEST(Guard, SaysNothingOfTheMetricThatIsRaisedNorOfTargets) {

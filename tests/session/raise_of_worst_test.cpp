@@ -126,6 +126,26 @@ TEST(RaiseOfWorst, IsForWhatCameTangledAlone) {
   }
 }
 
+/// A corner between three fixed vertices is the worst, and nothing changes that: what joint moves make of the others does not count.
+TEST(RaiseOfWorst, LeavesTheOthersWhereFixedVerticesHoldTheWorstForGood) {
+  Progress progress;
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    constexpr Index kRow = 11;
+    Mesh mesh = testing::lattice(kRow - 1, 0.3, seed, testing::Cells::Quadrilaterals);
+    const double width = 1.0 / (kRow - 1), height = 0.1 * width;
+    mesh.positions[kRow].y = height;
+    std::swap(mesh.positions[5 * kRow + 5], mesh.positions[5 * kRow + 6]);
+    const auto tangled = testing::input(std::move(mesh));
+    ASSERT_FALSE(tangled->report.inverted_elements.empty());
+    dmoscope::Run run = make_run(tangled);
+    const Outcome outcome = run.until_converged({}, progress);
+    EXPECT_EQ(outcome.reason, StopReason::Certified) << outcome.sentence();
+    EXPECT_TRUE(raises(run).empty()) << outcome.sentence();
+    const double of_corner = 2.0 * width * height / (width * width + height * height);
+    EXPECT_NEAR(run.statistics().minimum, of_corner, 1e-12);
+  }
+}
+
 }  // namespace raise_of_worst
 }  // namespace
 }  // namespace dmoscope

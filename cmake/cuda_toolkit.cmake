@@ -1,4 +1,4 @@
-# What is asked of a CUDA toolkit before it is used. Functions alone: tests/gpu/toolkit_test.sh calls them with stand-ins for its programs.
+# Queries of a CUDA toolkit before it is used. This file has functions only: tests/gpu/toolkit_test.sh calls them with stand-ins for nvcc.
 
 # The first version whose compiler takes C++20, and whose library has cudaGraphInstantiate(graph*, graph, flags).
 set(DMOSCOPE_CUDA_OLDEST 12.0)
@@ -55,7 +55,7 @@ function(dmoscope_cuda_known nvcc output)
 endfunction()
 
 # dmoscope_cuda_all(NVCC PROCESSOR OUTPUT): CMake's architectures for `all`: those from 75 to 120 that nvcc knows, and PTX of the newest.
-# Where the processor is an x86-64, those of boards whose processor is an ARM are left out (Jetson and DRIVE).
+# On x86-64, architectures of boards with an ARM processor (Jetson and DRIVE) are left out.
 function(dmoscope_cuda_all nvcc processor output)
   dmoscope_cuda_known(${nvcc} known)
   if(processor MATCHES "x86_64|AMD64|amd64")

@@ -1,4 +1,4 @@
-# What everything but the window needs of others: their targets and headers. The modules that draw find their own.
+# Libraries that everything but the window needs: their targets and headers. The modules that draw find their own.
 #
 #   DMOSCOPE_HEADERS  a folder made by tools/collect-headers on a Debian machine: the build takes these libraries from there, headers
 #                     alone, and needs no package but a compiler. Half-edges and VTU files (OpenMesh, zlib and pugixml are more than

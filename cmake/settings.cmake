@@ -1,4 +1,4 @@
-# What holds for every target: language, warnings, floating point, sanitizers.
+# Settings of every target: language, warnings, floating point, sanitizers.
 
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
@@ -18,23 +18,23 @@ if(CCACHE)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${launcher})
 endif()
 
-# Every own target links this. -ffp-contract=off: the same bits on every processor (no fma but where the code says so).
+# Linked by every target of the project. -ffp-contract=off gives the same bits on every processor: fma is used only where the code says so.
 add_library(dmoscope_settings INTERFACE)
 target_compile_options(dmoscope_settings INTERFACE
   $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wshadow -Wconversion -ffp-contract=off>)
 target_include_directories(dmoscope_settings INTERFACE ${PROJECT_SOURCE_DIR})
-# What functions of libraries are called by is settled before the program begins, and can then be written no more.
+# Resolves all symbols of shared libraries at start and makes the table of them read-only.
 target_link_options(dmoscope_settings INTERFACE -Wl,-z,relro,-z,now)
-# No library that nothing is called of.
+# Drops libraries that no code uses.
 target_link_options(dmoscope_settings INTERFACE LINKER:--as-needed)
 if(DMOSCOPE_SANITIZE)
   set(fewer_checks "")
   if(DMOSCOPE_SANITIZE MATCHES "address")
-    # Of the undefined behaviour that is looked for, these have a check at every access to memory, so that nothing is inlined any more: a
-    # third of the time. AddressSanitizer sees most of what they would. The readers, which take others' bytes apart, keep them.
+    # Leaves out the checks that run at every access to memory and keep functions from being inlined: they take a third of the time, and
+    # AddressSanitizer finds most of the same faults. The readers, which parse untrusted bytes, keep them.
     set(fewer_checks $<$<NOT:$<STREQUAL:$<TARGET_PROPERTY:NAME>,dmoscope_io>>:-fno-sanitize=null,alignment,object-size,vptr,pointer-overflow>)
   endif()
-  # With a sanitizer g++ takes what is set for unset (its manual says so).
+  # With a sanitizer g++ warns of variables that are set (see its manual).
   target_compile_options(dmoscope_settings INTERFACE -fsanitize=${DMOSCOPE_SANITIZE} ${fewer_checks} -fno-omit-frame-pointer
     $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-maybe-uninitialized>)
   target_link_options(dmoscope_settings INTERFACE -fsanitize=${DMOSCOPE_SANITIZE})
@@ -44,8 +44,8 @@ if(DMOSCOPE_SANITIZE)
     target_link_options(dmoscope_settings INTERFACE -Wl,--export-dynamic-symbol=dlclose)
   endif()
 endif()
-# For targets whose code is nobody's inner loop, and long for its templates: what the compiler makes of them takes most of its time, of
-# AddressSanitizer's checks in them twice as much as without optimisation.
+# Optimisation of targets that have no inner loops but many templates: optimising these takes most of the compiler's time, and with
+# AddressSanitizer twice as long as not optimising them.
 set(DMOSCOPE_COLD_CODE -O1)
 set(DMOSCOPE_DRAWING_CODE -O1)  # of the window's modules: the libraries that they call do the work
 set(DMOSCOPE_LOGIC_CODE -O2)     # of what the window shows: loops over all elements, which people wait for
@@ -55,8 +55,8 @@ if(DMOSCOPE_SANITIZE MATCHES "address")
   set(DMOSCOPE_LOGIC_CODE -O0)
 endif()
 if(DMOSCOPE_PORTABLE)
-  # libstdc++ inside: one carried along could be too old for the drivers of the machine, which share it with the program. Old tags, for
-  # the new ones do not hold for what the libraries carried along need themselves.
+  # Links libstdc++ statically: a bundled one could be too old for the machine's drivers, which share it with the program. Uses RPATH, not
+  # RUNPATH, which does not apply to the dependencies of bundled libraries.
   target_link_options(dmoscope_settings INTERFACE -static-libstdc++ -static-libgcc -Wl,--disable-new-dtags)
   set(CMAKE_INSTALL_RPATH "$ORIGIN/../lib")
   set(CMAKE_BUILD_WITH_INSTALL_RPATH ON)
@@ -73,14 +73,14 @@ if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(dmoscope_settings INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-subobject-linkage>)
 endif()
 
-# Overflows of buffers on the stack, and of those whose size the C library is told, end the program rather than do harm. Not in the search's
-# kernels, which core/CMakeLists.txt leaves out, and not under sanitizers, which see more.
+# Ends the program at overflows of buffers on the stack, and of those whose size the C library knows. Left out for the search's kernels
+# (core/CMakeLists.txt) and under sanitizers, which find more.
 set(DMOSCOPE_HARDENED "")
 if(NOT DMOSCOPE_SANITIZE AND CMAKE_BUILD_TYPE STREQUAL "Release")
   set(DMOSCOPE_HARDENED -fstack-protector-strong -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=2)
 endif()
 
-# Headers of others that most sources include, read once for each target that asks for it. Every source includes what it uses all the same:
+# Precompiled headers: those of other projects that most sources include. Every source still includes what it uses:
 # -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON builds without them.
 set(DMOSCOPE_PRECOMPILED <algorithm> <array> <cmath> <filesystem> <functional> <map> <memory> <optional> <span> <string> <string_view>
   <vector> <fmt/format.h>)

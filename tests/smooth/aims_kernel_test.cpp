@@ -56,7 +56,7 @@ std::vector<Specimen> specimens() {
 }
 
 struct Count {
-  int vertices = 0, moved = 0, tangled = 0, ready = 0;
+  int vertices = 0, moved = 0, tangled = 0, ready = 0, guarded = 0;
 };
 
 SmoothingTask task_of(const std::shared_ptr<const InputMesh>& mesh, const SearchParameters& search) {
@@ -210,6 +210,23 @@ void compare_lists(const std::shared_ptr<const InputMesh>& mesh, const Composite
     }
     ++count.vertices;
     count.moved += first < candidates.size() ? 1 : 0;
+    if (first == candidates.size()) continue;
+    for (const Metric metric : {Metric::MeanRatio, Metric::ScaledJacobian}) {
+      CompositeObjective guarded = composite;
+      guarded.guard = Guard{metric, 1.0};  // no place is allowed where the metric is less than here
+      const auto allowed = StarJudge<Frame>(*mesh, guarded).score_of(star, positions, v, false, true);
+      double best_allowed = here;
+      std::size_t first_allowed = candidates.size();
+      for (std::size_t i = 0; i < candidates.size(); ++i)
+        if (const double value = allowed(candidates.get<Offset>(i)); value > best_allowed) best_allowed = value, first_allowed = i;
+      for (const SimdLevel level : supported_simd_levels()) {
+        double found = here;
+        const StarJudge<Frame> by_packs(*mesh, guarded, level);
+        ASSERT_EQ(by_packs.score_of(star, positions, v, false, true).first_best(candidates, found), first_allowed) << "vertex " << v;
+        ASSERT_EQ(found, best_allowed) << "vertex " << v << ", " << name(level);
+      }
+      count.guarded += first_allowed != first ? 1 : 0;
+    }
   }
 }
 
@@ -230,7 +247,10 @@ TEST(CompositeKernel, FindsTheFirstBestOfAList) {
     const auto volume = testing::input(test::volume_grid(3, fill, 0.2));
     for (const CompositeObjective& aims : kinds_of_aims(volume)) compare_lists<Space>(volume, aims, random, solid);
   }
-  for (const Count& count : {flat, curved, solid}) EXPECT_GT(count.moved, 20);
+  for (const Count& count : {flat, curved, solid}) {
+    EXPECT_GT(count.moved, 20);
+    EXPECT_GT(count.guarded, 5) << "else no guard was in the way";
+  }
 }
 
 /// The floor of the phase that raises the mean is mostly the least of some star: that star is not below it.

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "core/quality/metric.h"
@@ -44,6 +45,10 @@ struct CompositeSearch {
   Metric metric = Metric::MeanRatio;   // Second::Metric
   Offset wanted{};                     // Second::Density: see DensityTarget
   double edge = 0.0;
+
+  // Lists alone: places whose least guarded metric is at most this are left out; -infinity: none.
+  double guard_below = -std::numeric_limits<double>::infinity();
+  Metric guarded = Metric::MeanRatio;
 };
 
 template <class Frame>

@@ -3,6 +3,7 @@
 // lane_kernel_impl.h for what that asks of the code.
 
 #include <array>
+#include <limits>
 
 #include "core/numeric/pack.h"
 // Headers that must come after the packs:
@@ -46,6 +47,11 @@ class Kernel {
   /// Returns whether a place can win only by its second metric.
   [[nodiscard]] bool is_by_second() const { return second_metric_ != nullptr && best_ > task_.threshold; }
 
+  [[nodiscard]] static bool is_guarded(const Task& task) { return task.guard_below > -std::numeric_limits<double>::infinity(); }
+  [[nodiscard]] static SecondMetric<Frame, D> second_metric_of(Metric metric) {
+    return with_metric_of<Frame>(metric, []<Metric Other>() -> SecondMetric<Frame, D> { return &second_metric<Other, Frame, D>; });
+  }
+
   static bool has_room(const Task& task) {
     std::size_t others = 0;
     task.star.for_others([&others](const auto&) { ++others; });
@@ -53,10 +59,13 @@ class Kernel {
   }
 
   explicit Kernel(const Task& task)
-      : task_(task), first_(task.star.simplices.size, task.second == Second::Mean), second_(task.star.simplices.size, false) {
+      : task_(task),
+        first_(task.star.simplices.size, task.second == Second::Mean),
+        second_(task.star.simplices.size, false),
+        guard_(is_guarded(task) ? task.star.simplices.size : 0, false) {
+    if (is_guarded(task)) guard_metric_ = second_metric_of(task.guarded);
     if (task.second == Second::Metric) {
-      second_metric_ =
-          with_metric_of<Frame>(task.metric, []<Metric Other>() -> SecondMetric<Frame, D> { return &second_metric<Other, Frame, D>; });
+      second_metric_ = second_metric_of(task.metric);
       second_rank_ = with_metric_of<Frame>(task.metric, []<Metric Other>() { return second_rank<Other, Frame, D>(); });
     }
     if constexpr (formulas::kSignTellsInversion<M, Point> && formulas::kDefinedForOthers<M, Point>)
@@ -163,7 +172,11 @@ class Kernel {
         p = {along(0), along(1), along(2)};
       else
         p.v = {along(0), along(1), along(2)};
-      const D value = worth(p, D(best_));
+      D value = worth(p, D(best_));
+      if (guard_metric_ != nullptr && xsimd::any(value > D(best_))) {
+        const D below(task_.guard_below);
+        value = xsimd::select(guard_metric_(task_.star, p, guard_, D(0.0), below) > below, value, D(best_));
+      }
       if (!xsimd::any(value > D(best_))) return false;
       alignas(64) double values[kWidth];
       value.store_aligned(values);
@@ -373,8 +386,8 @@ class Kernel {
   }
 
   const Task& task_;
-  Sieve<D> first_, second_;  // states of the two metrics
-  SecondMetric<Frame, D> second_metric_ = nullptr;
+  Sieve<D> first_, second_, guard_;  // states of the two metrics and the guarded one
+  SecondMetric<Frame, D> second_metric_ = nullptr, guard_metric_ = nullptr;
   SecondRank<Frame, D> second_rank_;
   double least_second_ = 0.0;       // the rank that the second metric must exceed; 0: unknown
   double best_ = 0.0;               // score of the best place

@@ -163,7 +163,7 @@ StarScore<Frame>::StarScore(const CompositeObjective& composite, const std::opti
       target_(target),
       untangling_(untangling),
       defined_(std::move(defined)),
-      list_kernel_(guarded ? nullptr : list_kernel) {
+      list_kernel_(guarded && defined_.guard ? nullptr : list_kernel) {
   greatest_below_ = composite.raise_mean() ? std::nextafter(composite.threshold, -1.0) : composite.threshold;
   if (!defined_.first) first_ = &metric_functions<Frame>(composite.first);
   if (const auto* metric = std::get_if<Metric>(&composite.second); metric != nullptr && is_built_in(*metric))
@@ -235,6 +235,7 @@ std::size_t StarScore<Frame>::first_best(CandidateList& candidates, double& best
   if (list_kernel_ != nullptr && !untangling_) {
     CompositeSearch<Frame> task = search_for<Frame>(composite_, {});
     take_star(task, composite_, *star_, target_);
+    if (guard_floor_ > kAll) task.guarded = composite_.guard->metric, task.guard_below = std::nextafter(guard_floor_, kAll);
     const CompositeBest found = list_kernel_(task, candidates.view(), best);
     if (found.ready) {
       best = found.worth;

@@ -214,7 +214,8 @@ void compare_lists(const std::shared_ptr<const InputMesh>& mesh, const Composite
     for (const Metric metric : {Metric::MeanRatio, Metric::ScaledJacobian}) {
       CompositeObjective guarded = composite;
       guarded.guard = Guard{metric, 1.0};  // no place is allowed where the metric is less than here
-      const auto allowed = StarJudge<Frame>(*mesh, guarded).score_of(star, positions, v, false, true);
+      const StarJudge<Frame> one_by_one(*mesh, guarded);
+      const auto allowed = one_by_one.score_of(star, positions, v, false, true);
       double best_allowed = here;
       std::size_t first_allowed = candidates.size();
       for (std::size_t i = 0; i < candidates.size(); ++i)

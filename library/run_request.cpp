@@ -139,8 +139,8 @@ RunRequest request_of(const Mesh& mesh, const SmoothOptions& options, dmoscope::
   parameters.kinds = kinds_of(input, parameters, selections, request.warnings);
   if (options.recipe != Recipe::None) {
     const auto said_gap = options.joint_gap != RunParameters{}.joint_gap ? std::optional(options.joint_gap) : std::nullopt;
-    std::string without = follow_recipe(dmoscope::recipe(recipe), input, parameters, said_gap);
-    if (!without.empty()) request.warnings.push_back(std::move(without));
+    for (std::string& sentence : follow_recipe(dmoscope::recipe(recipe), input, parameters, said_gap))
+      request.warnings.push_back(std::move(sentence));
   }
   if (request.until_converged) be_patient(parameters, request.limits.patience);
   return request;

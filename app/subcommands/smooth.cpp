@@ -156,8 +156,7 @@ int smooth(const SmoothOptions& options) {
   if (!options.run.recipe.empty()) {
     const double gap = parameters.joint_gap;
     const auto said_gap = gap != RunParameters{}.joint_gap ? std::optional(gap) : std::nullopt;
-    if (std::string without = follow_recipe(recipe(options.run.recipe), *input, parameters, said_gap); !without.empty())
-      warn(std::move(without));
+    for (std::string& sentence : follow_recipe(recipe(options.run.recipe), *input, parameters, said_gap)) warn(std::move(sentence));
   }
   if (options.goal.until_converged) be_patient(parameters, options.goal.limits.patience);
 

@@ -74,15 +74,15 @@ void raise_mean(CommandContext& context, Arguments arguments) {
 }
 void make_good(CommandContext& context, Arguments arguments) {
   RunParameters wanted = context.session.active().parameters();
-  const std::string without =
-      follow_recipe(recipe(arguments.empty() ? recipe_table().front().name : arguments[0]), context.session.active().input(), wanted);
-  if (!without.empty()) tell(context, without);
+  const Recipe& chosen = recipe(arguments.empty() ? recipe_table().front().name : arguments[0]);
+  for (const std::string& sentence : follow_recipe(chosen, context.session.active().input(), wanted)) tell(context, sentence);
   const RunParameters before = context.session.active().parameters();
   if (wanted != before) {
     change_run(context, [&](RunParameters& p) { p = wanted; });
     if (before.combination) context.done.emplace_back("combine off");
     if (before.method != wanted.method) context.done.push_back("method " + wanted.method);
     context.done.push_back("then " + then_words(wanted));
+    if (before.guard != wanted.guard) context.done.push_back("guard " + to_text(wanted.guard));
     if (before.joint_gap != wanted.joint_gap) context.done.push_back(fmt::format("joint-gap {}", wanted.joint_gap));
   }
   until_converged(context, std::array<std::string, 1>{"best"});

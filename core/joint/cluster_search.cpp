@@ -14,8 +14,9 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kFirstRings = 3, kMostRings = 64;
-constexpr int kMostHalvings = 4;  // number of times that a way is halved that would invert elements
-constexpr int kThirdGrowth = 2;   // growth from which on a cluster may become the whole mesh
+constexpr int kMostGrowths = 1000;  // any number: a cluster ends where it does not become larger
+constexpr int kMostHalvings = 4;    // number of times that a way is halved that would invert elements
+constexpr int kThirdGrowth = 2;     // growth from which on a cluster may become the whole mesh
 constexpr double kEarlyGap = 0.05, kEarlyRim = 0.02;
 constexpr double kActiveSlack = 2e-3, kActiveMultiplier = 0.01;
 constexpr double kSameLevel = 1e-3, kSameMinimum = 1e-4;  // relative
@@ -58,8 +59,13 @@ ClusterSearch<D>::ClusterSearch(const JointMesh<D>& mesh, double threshold, cons
 
 template <int D>
 ClusterSearch<D>::~ClusterSearch() {
-  if (finished_) return;
+  if (!finished_) take_back();
+}
+
+template <int D>
+void ClusterSearch<D>::take_back() {
   for (auto move = moved_from_.rbegin(); move != moved_from_.rend(); ++move) positions_[move->first] = move->second;
+  moved_from_.clear();
 }
 
 template <int D>
@@ -69,11 +75,12 @@ std::optional<JointCluster> ClusterSearch<D>::run() {
   const bool may_push = first_ != nullptr || std::ranges::any_of(qualities_, [this](double q) { return q > 0.0 && q <= threshold_; });
   if (options_.push_first && !state_.pushed && may_push) {
     state_.pushed = true;
+    if (options_.mean) result = held_at_once();
     allow_above(-kInfinity);
-    if (mesh_.free_vertices().size() <= push_at_most_ && std::ranges::count(allowed_, 1) > 0) result = push();
+    if (!result && mesh_.free_vertices().size() <= push_at_most_ && std::ranges::count(allowed_, 1) > 0) result = push();
   }
   if (!result && state_.end == JointState::End::None)
-    if (const std::optional<Index> worst = find_worst()) result = raise(*worst);
+    if (const std::optional<Index> worst = find_worst()) result = raise(*worst, kMostGrowths);
   if (result) ++state_.clusters;
   finished_ = true;
   return result;
@@ -146,7 +153,7 @@ std::optional<Index> ClusterSearch<D>::find_worst() {
   }
 }
 
-/// Returns whether the worst atom of all is a certified one.
+/// Returns whether the worst atom of all is a certified one, or within the gap of the greatest value that its metric has at all.
 template <int D>
 bool ClusterSearch<D>::certified_minimum() const {
   double minimum = kInfinity, closed = kInfinity;
@@ -155,6 +162,7 @@ bool ClusterSearch<D>::certified_minimum() const {
     minimum = std::min(minimum, qualities_[a]);
     if (state_.atoms[a] == JointState::Of::Closed) closed = std::min(closed, qualities_[a]);
   }
+  if (function_.defined() == nullptr && minimum < kInfinity && minimum >= (1.0 - options_.gap) * info(mesh_.metric()).highest) return true;
   return closed < kInfinity && closed <= (1.0 + kSameMinimum) * minimum;
 }
 
@@ -381,8 +389,21 @@ JointCluster ClusterSearch<D>::push() {
   return result;
 }
 
+/// Raises the worst atom where the smallest cluster around it holds it; else none, and nothing is changed. A push would gain nothing for
+/// the minimum there, and let others become almost as bad for the mean.
 template <int D>
-JointCluster ClusterSearch<D>::raise(Index worst) {
+std::optional<JointCluster> ClusterSearch<D>::held_at_once() {
+  const JointState before = state_;
+  if (const std::optional<Index> worst = find_worst())
+    if (JointCluster cluster = raise(*worst, 0); cluster.certified) return cluster;
+  take_back();
+  holds_ = false;
+  state_ = before;
+  return std::nullopt;
+}
+
+template <int D>
+JointCluster ClusterSearch<D>::raise(Index worst, int most_growths) {
   const double gap = options_.mean ? kGapBeforeMean * options_.gap : options_.gap;
   InteriorPointOptions options{.gap = gap, .early_gap = kEarlyGap, .max_steps = options_.max_steps, .pool = options_.pool};
   if (first_ == nullptr) options.enough = function_.inverse_of((1.0 + kBeyond) * threshold_);
@@ -392,6 +413,7 @@ JointCluster ClusterSearch<D>::raise(Index worst) {
   for (int growth = 0;; ++growth) {
     solve(cluster, options, true);
     if (solved_.rim_share < kClosedRim || solved_.solution.end == InteriorPointEnd::Enough) break;
+    if (growth == most_growths) return {};
     rings = std::min(2 * rings, kMostRings);
     std::vector<Index> larger = enlarged(cluster, growth, rings);
     if (larger.size() <= cluster.size()) {
@@ -405,8 +427,10 @@ JointCluster ClusterSearch<D>::raise(Index worst) {
     holds_ = true;  // the others may still move
     solve(cluster, options, false);
   }
+  const std::string why_not = this->why_not(cluster);
+  if (most_growths == 0 && !why_not.empty()) return {};
   std::vector<Index> moving = cluster;
-  if (options_.mean && !moved_from_.empty()) {
+  if (options_.mean && (!moved_from_.empty() || !state_.mean_raised)) {
     if (!std::exchange(state_.mean_raised, true)) moving = all_or(std::move(moving));
     raise_mean(moving);
   }
@@ -416,8 +440,8 @@ JointCluster ClusterSearch<D>::raise(Index worst) {
     result.before = result.after =
         element_quality(mesh_.input().quality_context(), std::span<const Vec3>(positions_), mesh_.metric(), result.worst_element);
   }
-  result.why_not = why_not(cluster);
-  result.certified = result.why_not.empty();
+  result.why_not = why_not;
+  result.certified = why_not.empty();
   settle(worst, result.certified);
   // Marks its other elements as tried: they would lead to the same vertices, in vain again.
   if (!result.certified && result.moved.empty())

@@ -47,7 +47,9 @@ class ClusterSearch {
   [[nodiscard]] std::vector<Index> grown(std::vector<Index> seeds, int rings) const;
   [[nodiscard]] std::vector<Index> all_or(std::vector<Index> cluster) const;
   [[nodiscard]] JointCluster push();
-  [[nodiscard]] JointCluster raise(Index worst);
+  [[nodiscard]] std::optional<JointCluster> held_at_once();
+  [[nodiscard]] JointCluster raise(Index worst, int most_growths);
+  void take_back();
   [[nodiscard]] Solved posed(const std::vector<Index>& cluster) const;
   void solve(const std::vector<Index>& cluster, const InteriorPointOptions& options, bool may_leave);
   void commit();

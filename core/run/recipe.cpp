@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -9,6 +10,7 @@
 #include "core/base/unknown_value.h"
 #include "core/joint/joint_clusters.h"
 #include "core/quality/quality.h"
+#include "core/run/percentiles.h"
 
 namespace dmoscope {
 
@@ -30,6 +32,16 @@ double mean_ratio_to_reach(const InputMesh& input) {
       compute_statistics(input.quality_context(), input.mesh.positions, Metric::MeanRatio, std::span<const Index>(), nullptr).minimum;
   return least > 0.0 ? std::min(kAbove * least, kMost) : kTangled;
 }
+
+/// Guard of a mesh whose elements are nearly all boxes. The mean ratio of a long one rises where it leans, for that makes it shorter: its
+/// right angles stay instead. None for other meshes.
+std::optional<GuardRule> guard_of_boxes(const InputMesh& input) {
+  constexpr double kBoxes = 0.87;   // a little above what triangles, tetrahedra and wedges can have
+  constexpr double kRoom = 0.0025;  // half of what the report card lets a quality fall; without any, a box could not move
+  const Percentiles now = compute_percentiles(input.quality_context(), input.mesh.positions, Metric::ScaledJacobian, nullptr);
+  if (!(now.p1 >= kBoxes)) return std::nullopt;
+  return GuardRule{Metric::ScaledJacobian, std::round(1e4 * (now.p5 - kRoom)) / 1e4};
+}
 }  // namespace
 
 std::span<const Recipe> recipe_table() { return kRecipes; }
@@ -40,17 +52,30 @@ const Recipe& recipe(std::string_view name) {
   return *found;
 }
 
-std::string follow_recipe(const Recipe& recipe, const InputMesh& input, RunParameters& parameters, std::optional<double> said_gap) {
+std::vector<std::string> follow_recipe(const Recipe& recipe, const InputMesh& input, RunParameters& parameters,
+                                       std::optional<double> said_gap) {
+  std::vector<std::string> sentences;
   parameters.method = recipe.method;
   parameters.combination.reset();
-  if (recipe.raises_scaled_jacobian && parameters.metric == RunParameters{}.metric)
+  const bool usual_metric = parameters.metric == RunParameters{}.metric;
+  if (recipe.raises_scaled_jacobian && usual_metric)
     parameters.combination = CompositeTerms{mean_ratio_to_reach(input), Metric::ScaledJacobian};
   parameters.joint_gap = said_gap.value_or(recipe.joint_gap);
   set_then(parameters, recipe.then, {});
-  const std::string why_not = parameters.then_joint ? why_not_joint(input, {parameters.metric, parameters.combination}) : std::string();
-  if (why_not.empty()) return {};
-  parameters.then_joint.reset();
-  return fmt::format("the recipe \"{}\" goes without joint moves: {}", recipe.name, why_not);
+  if (const std::string why_not = parameters.then_joint ? why_not_joint(input, {parameters.metric, parameters.combination}) : "";
+      !why_not.empty()) {
+    parameters.then_joint.reset();
+    sentences.push_back(fmt::format("the recipe \"{}\" goes without joint moves: {}", recipe.name, why_not));
+  }
+  const bool may_guard = usual_metric && !parameters.combination && parameters.guard == GuardRule{} && parameters.backend != Backend::Cuda;
+  if (const auto guard = parameters.then_mean && may_guard && !input.share ? guard_of_boxes(input) : std::nullopt) {
+    parameters.guard = guard;
+    sentences.push_back(
+        fmt::format("nearly all elements are boxes, so the recipe \"{}\" keeps their right angles: --guard {} (--guard off "
+                    "lets them lean)",
+                    recipe.name, to_text(guard)));
+  }
+  return sentences;
 }
 
 }  // namespace dmoscope

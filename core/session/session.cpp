@@ -92,7 +92,9 @@ std::shared_ptr<Run> Session::first_run(const std::shared_ptr<const InputMesh>& 
     parameters.boundary = BoundaryRule::Fixed;
     parameters.interfaces = InterfaceRule::Fixed;  // freed for the mesh before, not for this one
     parameters.layers = LayerRule::Keep;
-    parameters.then_joint.reset();  // phases of a recipe are chosen for a mesh
+    // Phases of a recipe are chosen for a mesh, and with them the value of a guard.
+    if (parameters.then_mean && parameters.guard && parameters.guard->floor) parameters.guard = GuardRule{};
+    parameters.then_joint.reset();
     parameters.then_mean.reset();
     parameters.joint_gap = RunParameters{}.joint_gap;
   }

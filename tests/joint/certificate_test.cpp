@@ -138,5 +138,21 @@ TEST(JointCertificate, AVertexMovedAwayIsNotCertified) {
   EXPECT_GT(again->after, again->before) << "what was moved away is raised again";
 }
 
+/// No metric goes beyond the end of its range: a lattice of squares or cubes needs no cluster to be certified.
+TEST(Certificate, NeedsNoClusterAtTheEndOfTheRange) {
+  for (const bool volume : {false, true}) {
+    const auto mesh = volume ? testing::input(test::volume_grid(3, test::Fill::Hexahedra))
+                             : testing::input(testing::lattice(5, 0.0, 1, testing::Cells::Quadrilaterals));
+    for (const Metric metric : {Metric::MeanRatio, Metric::ScaledJacobian}) {
+      JointClusters clusters(*mesh, metric, testing::make_run(mesh, {}).fixed());
+      std::vector<Vec3> positions = mesh->mesh.positions;
+      JointState state;
+      Progress progress;
+      EXPECT_FALSE(clusters.raise_worst(positions, state, {.gap = 1e-9}, progress));
+      EXPECT_EQ(state.end, JointState::End::Certified);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace dmoscope

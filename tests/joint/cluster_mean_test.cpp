@@ -160,6 +160,51 @@ TEST(ClusterMean, OfAFormulaIsThatOfTheMetricThatItSays) {
   }
 }
 
+/// A strained lattice, and apart from it a flat fan around a vertex that is at its best place: its elements are the worst of all.
+Mesh with_a_flat_fan(Mesh mesh, double strain) {
+  for (Vec3& p : mesh.positions) p.x += strain * p.y * p.y;
+  const Index first = mesh.vertex_count();
+  for (const Vec3& p : displaced_fan(0.0, 0.0).positions) mesh.positions.push_back({3.0 + p.x, 0.05 * p.y, 0.0});
+  for (Index k = 0; k < 6; ++k) add(mesh, {first, first + 1 + k, first + 1 + (k + 1) % 6});
+  return mesh;
+}
+
+std::array<Index, std::size(kMeanSteps)> below_steps(const InputMesh& mesh, std::span<const Vec3> positions) {
+  std::array<Index, std::size(kMeanSteps)> below{};
+  for (Index e = 0; e < mesh.mesh.elements.size(); ++e)
+    for (std::size_t i = 0; i < below.size(); ++i)
+      below[i] += element_quality(mesh.quality_context(), positions, Metric::MeanRatio, e) < kMeanSteps[i] ? 1 : 0;
+  return below;
+}
+
+/// A push would let elements fall almost to the worst one, and gain nothing: that is held by its neighbours.
+TEST(ClusterMean, LeavesNoMoreBadElementsWhereTheWorstIsHeldAtOnce) {
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
+    SCOPED_TRACE(seed);
+    const auto mesh = input(with_a_flat_fan(lattice(14, 0.3, seed), 1.2));
+    dmoscope::Run run = make_run(mesh, {});
+    Progress progress;
+    run.iterate(100, progress);
+    const std::vector<Vec3> from(run.positions().begin(), run.positions().end());
+    const auto raised_once = input([&] {
+      Mesh copy = mesh->mesh;
+      copy.positions = from;
+      return copy;
+    }());
+    JointClusters clusters(*raised_once, Metric::MeanRatio, run.fixed());
+    std::vector<Vec3> positions = from;
+    JointState state;
+    const JointOptions options{.gap = 3e-3, .push_first = true, .mean = MeanKind::Harmonic};
+    while (clusters.raise_worst(positions, state, options, progress)) {
+    }
+    EXPECT_EQ(state.end, JointState::End::Certified);
+    const auto before = below_steps(*mesh, from), after = below_steps(*mesh, positions);
+    ASSERT_GT(before[0], 10U) << "else there is no tail";
+    for (std::size_t i = 0; i < before.size(); ++i) EXPECT_LE(after[i], before[i]) << "below " << kMeanSteps[i];
+    EXPECT_GT(harmonic_mean(*mesh, positions, Metric::MeanRatio), 1.01 * harmonic_mean(*mesh, from, Metric::MeanRatio));
+  }
+}
+
 TEST(ClusterMean, KeepsAGuard) {
   for (const Cells cells : {Cells::Triangles, Cells::Quadrilaterals}) {
     const auto mesh = input(roughened(lattice(10, 0.3, 7, cells), 0.1));

@@ -77,7 +77,12 @@ TEST_F(SmallWindow, AFitShowsAllOfTheMeshBesideTheFacts) {
       ASSERT_GT(x, pane.uncovered.x) << mesh;
       ASSERT_LT(x, pane.uncovered.x + pane.uncovered.w) << mesh;
     }
-    EXPECT_LE(box("pick-label")[2], pane.uncovered.x + pane.uncovered.w) << mesh;
+    const float end = pane.uncovered.x + pane.uncovered.w;
+    EXPECT_LE(box("pick-label")[2], end) << mesh;
+    if (pane.in_space()) {
+      EXPECT_LE(box("note")[2], end) << "of the worst element, which is hidden";
+    }
+    for (const char* button : {"fit", "wireframe", "worst-marker"}) EXPECT_LE(box(button)[2], end) << button;
     const double before = pane.view->place(Vec3{})->x;
     good("click fold:right");
     good("key Escape");

@@ -146,12 +146,19 @@ TEST(Fort14, Malformed) {
       {kGrid + "many\n", 9, "number of open boundaries"},
       {kGrid + "1\n2\n2\n1\n", 12, "the file ends"},
       {kGrid + "1\n2\n2\n1\n9\n", 13, "vertex index 9 out of range (the file has 4 vertices)"},
-      {kGrid + "0\n0\n1\n1\n1 = no type\n1\n", 13, "IBTYPE"},
+      {kGrid + "0\n0\n1\n1\n1 x = no type\n1\n", 13, "IBTYPE"},
       {kGrid + "0\n0\n1\n1\n1 24\n1 9 1 1 1\n", 14, "vertex index 9 out of range"},
       {kGrid + "0\n0\n1\n1\n1 24\n1 2 1 1\n", 14, "height or coefficient of a weir, but the line ends"},
       {kGrid + "0\n0\n1\n1\n999999 0\n1\n", 13, "bytes of the file are left"},
   };
   for (const auto& bad : table) expect_refused("a.14", bad.text, bad.line, bad.words);
+}
+
+TEST(Fort14, ALandBoundaryMayHaveARemarkInThePlaceOfItsType) {
+  const Mesh mesh = read_bytes("a.gr3", kGrid + "0 = open\n0\n1 = land\n2 = nodes\n2 = Number of nodes for land boundary 1\n2\n3\n");
+  ASSERT_EQ(mesh.groups.size(), 1U);
+  EXPECT_EQ(mesh.groups[0].code, 0);
+  EXPECT_EQ(mesh.groups[0].members, (std::vector<Index>{1, 2}));
 }
 
 TEST(Fort14, EveryBeginning) { expect_truncation_safe("a.14", kGrid + kOpen + kLand); }

@@ -31,7 +31,7 @@ struct ViewportTools {
                                                                                  {"inside-clip", Icon::kClip},
                                                                                  {"inside-worst", Icon::kCell}}};
   ViewportTools(const PanelContext& context, const PaneFacts& pane) : side(ImGui::GetFrameHeight()) {
-    const float room = pane.clip.w - 16 * context.em();
+    const float room = pane.uncovered.w - 16 * context.em();
     if (pane.focus && pane.frame() != nullptr) count = std::clamp(static_cast<int>(room / side), 0, pane.in_space() ? 6 : 3);
   }
   [[nodiscard]] float width() const { return static_cast<float>(count) * side; }
@@ -84,7 +84,7 @@ TitleLayout lay_out(const PanelContext& context, const PaneFacts& pane) {
     if (numbered && width() > room) longest->text = fit_text(whole, 0.88F * (room - width() + width_of(context, *longest)));
     for (std::size_t letters = whole.size(); width() > room && letters > 4;) longest->text = without_middle(whole, --letters);
   }
-  layout.plate = {pane.clip.x + pad, pane.clip.y + pad, std::min(room, width()), line + pad};
+  layout.plate = {pane.uncovered.x + pad, pane.clip.y + pad, std::min(room, width()), line + pad};
   return layout;
 }
 
@@ -108,7 +108,7 @@ std::size_t run_to_select(const PanelContext& context, const PaneFacts& pane) {
 
 float title_room(const PanelContext& context, const PaneFacts& pane) {
   const float pad = context.px(8), tools = ViewportTools(context, pane).width();
-  return pane.clip.w - 2 * pad - (tools > 0 ? tools + pad : 0.0F);
+  return pane.uncovered.w - 2 * pad - (tools > 0 ? tools + pad : 0.0F);
 }
 
 void handle_pane_title(PanelContext& context, const PaneFacts& pane) {
@@ -132,7 +132,7 @@ void draw_viewport_tools(PanelContext& context, const PaneFacts& pane) {
   const ViewportTools tools(context, pane);
   if (tools.count == 0) return;
   const float pad = context.px(8);
-  const ImVec2 low{std::round(pane.clip.x + pane.clip.w - pad - tools.width()), pane.clip.y + pad};
+  const ImVec2 low{std::round(pane.uncovered.x + pane.uncovered.w - pad - tools.width()), pane.clip.y + pad};
   draw_plate(context, low, {low.x + tools.width(), low.y + tools.side});
   for (int k = 0; k < tools.count; ++k) {
     const auto& [id, icon] = ViewportTools::kAll[static_cast<std::size_t>(k)];

@@ -25,14 +25,15 @@ Vec2<double> mouse_in(const Rect& rect) {
 /// Draws a note on stepping and selecting beside the title if there is room, else below it, in as many lines as it needs.
 void draw_note(PanelContext& context, const PaneFacts& pane, const Rect& title) {
   const std::string& note = pane.stepping_note;
-  const float pad = context.px(8), line = ImGui::GetTextLineHeight(), end = title.x + title.w + pad / 2, widest = pane.rect.w - 4 * pad;
+  const float pad = context.px(8), line = ImGui::GetTextLineHeight(), end = title.x + title.w + pad / 2,
+              widest = pane.uncovered.w - 4 * pad;
   const bool beside = ImGui::CalcTextSize(note.c_str()).x <= title.x + title_room(context, pane) - end - 2 * pad,
              one = context.state.panes.one();
   const int below =
       note.empty() || beside || !one ? 0 : static_cast<int>(ImGui::CalcTextSize(note.c_str(), nullptr, false, widest).y / line);
   if (std::exchange(context.widgets.note_lines, below) != below) context.widgets.resized = true;
   if (note.empty() || !one) return;
-  const ImVec2 at = beside ? ImVec2{end, title.y} : ImVec2{pane.rect.x + pad, pane.rect.y + line + 2.25F * pad};
+  const ImVec2 at = beside ? ImVec2{end, title.y} : ImVec2{pane.uncovered.x + pad, pane.rect.y + line + 2.25F * pad};
   const Rect plate = draw_plate(context, at, note, context.palette.dim, pad, widest);
   context.items.record("note", {plate.x, plate.y, plate.x + plate.w, plate.y + plate.h});
 }

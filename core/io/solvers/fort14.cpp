@@ -106,12 +106,20 @@ class BoundaryReader {
     groups_.push_back(std::move(group));
   }
 
+  /// Type of a land boundary. SCHISM's files may have a remark in its place: 0, a mainland.
+  int read_land_type() {
+    Tokenizer ahead = tokens_;
+    const std::string_view word = ahead.token_on_line();
+    if (word.starts_with('=') || word.starts_with('!')) return 0;
+    const std::int64_t type = tokens_.read_integer("type of a land boundary (IBTYPE)");
+    if (type < -1000000 || type > 1000000) tokens_.fail(fmt::format("type of a land boundary (IBTYPE) out of range: {}", type));
+    return static_cast<int>(type);
+  }
+
   void read_land(std::size_t b) {
     Group group{.name = fmt::format("{} {}", kFort14Land, b + 1), .role = std::string(kFort14Land), .code = 0, .dimension = 0};
     const std::size_t size = read_size();
-    const std::int64_t type = tokens_.read_integer("type of a land boundary (IBTYPE)");
-    if (type < -1000000 || type > 1000000) tokens_.fail(fmt::format("type of a land boundary (IBTYPE) out of range: {}", type));
-    group.code = static_cast<int>(type);
+    group.code = read_land_type();
     tokens_.end_line();
     const WeirColumns columns = weir_columns(group.code);
     if (is_fort14_weir(group.code) && source_ != nullptr)

@@ -430,7 +430,7 @@ JointCluster ClusterSearch<D>::raise(Index worst, int most_growths) {
   const std::string why_not = this->why_not(cluster);
   if (most_growths == 0 && !why_not.empty()) return {};
   std::vector<Index> moving = cluster;
-  if (options_.mean && (!moved_from_.empty() || !state_.mean_raised)) {
+  if (options_.mean && (!moved_from_.empty() || most_growths == 0)) {
     if (!std::exchange(state_.mean_raised, true)) moving = all_or(std::move(moving));
     raise_mean(moving);
   }

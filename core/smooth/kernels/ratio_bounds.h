@@ -20,7 +20,7 @@ namespace dmoscope::composite {
 /// no other processor's code shares the functions.
 template <bool Crossed, class F>
 struct SecondOrder {
-  double square = 0.0;
+  double square;
   struct Narrow {
     float square;
   };
@@ -33,7 +33,7 @@ struct SecondOrder {
 };
 template <class F>
 struct SecondOrder<true, F> {
-  double xx = 0.0, yy = 0.0, zz = 0.0, xy = 0.0, xz = 0.0, yz = 0.0;
+  double xx, yy, zz, xy, xz, yz;
   struct Narrow {
     float xx, yy, zz, xy, xz, yz;
   };
@@ -59,10 +59,11 @@ struct SecondOrder<true, F> {
 /// vertex's place, v affine and s quadratic. In the plane its mean ratio is v / s (see RatioForm), in space the cube root of v |v| / s^3
 /// (see MeanRatioForm). Its rank is that without the root. Both functions are taken around the centre of a grid and, in float, with room
 /// for all rounding: never below the true v, never above the true s. The term of a rank in a mean is concave: at most its tangent at the
-/// rank that the element has in the centre. So no root is needed, and the bound is closest where the grid is fine. Steps of the harmonic
-/// mean that an element pays wherever the vertex goes count once a grid; for an element that may rise a step they are looked up at each
-/// place. Against targets in the plane an element's metric may be its ratio less a shift (see TargetForm). All numbers but needs and sums
-/// belong to ratios. D, F: packs of doubles and of floats of one processor; Crossed: see SecondOrder.
+/// rank that the element has in the centre, and where its total falls, at most what Newton's steps from there give. So no root is needed,
+/// and the bound is closest where the grid is fine. Steps of the harmonic mean that an element pays wherever the vertex goes count once a
+/// grid; for an element that may rise a step they are looked up at each place. Against targets in the plane an element's metric may be its
+/// ratio less a shift (see TargetForm). All numbers but needs and sums belong to ratios. D, F: packs of doubles and of floats of one
+/// processor; Crossed: see SecondOrder.
 template <class Frame, class D, class F, bool Crossed = false>
 class RatioBounds {
  public:
@@ -132,13 +133,10 @@ class RatioBounds {
         rank = rank < reach.here ? rank : reach.here;
         most = most < reach.most ? most : reach.most;
       }
-      take_steps(i, rank, most * kMore);
-      const Tangent tangent = tangent_at(rank - shifts_[i]);
-      const double at_zero = tangent.at_zero - tangent.slope * shifts_[i];
-      slopes_[i] = static_cast<float>(tangent.slope);
       most_[i] = static_cast<float>(most * kMore);
-      greatest_sum_ += at_zero + tangent.slope * most * kMore;
-      sizes_ += size(tangent.at_zero) + tangent.slope * (most + size(shifts_[i]));
+      const double top = most_[i];
+      take_steps(i, rank, top);
+      take_most(i, rank - shifts_[i], top);
     }
   }
 
@@ -153,16 +151,16 @@ class RatioBounds {
   /// negative.
   void set_needs_of_sum(double least, double sum) {
     set_least(least);
-    const double room = (static_cast<double>(elements_) + 8.0) * 0x1p-22 * (sizes_ + 1.0);
-    if (!is_product(mean_)) sum_ = static_cast<float>(sum + paid_ - room);
+    if (is_product(mean_)) return;
+    const double slack = greatest_sum_ - (sum + paid_), room = (static_cast<double>(elements_) + 8.0) * 0x1p-22;
+    slack_ = static_cast<float>(slack + room * size(slack) + kOfTerms * sizes_ + kOfDoubles * size(sum));
   }
 
   /// Returns whether a place may reach what is needed. `d`: from the centre.
   [[nodiscard]] Hope may_reach(const Place& d) {
     F square = xsimd::fma(d.x, d.x, d.y * d.y);
     if constexpr (kSpace) square = xsimd::fma(d.z, d.z, square);
-    const F sum(sum_);
-    F possible(static_cast<float>(greatest_sum_));
+    F slack(slack_);
     Hope hope = square == square;
     for (std::size_t n = 0; n < elements_; ++n) {
       const std::size_t i = order_[n];
@@ -172,9 +170,9 @@ class RatioBounds {
         hope = hope & (of_piece >= F(least_[i]));
         rank = xsimd::min(rank, of_piece);
       }
-      possible = possible - F(slopes_[i]) * (F(most_[i]) - rank);
-      if (rises_[i]) possible = possible - more_steps(i, rank);
-      hope = hope & (possible >= sum);
+      slack = slack - loss(i, rank);
+      if (rises_[i]) slack = slack - more_steps(i, rank);
+      hope = hope & (slack >= F(0.0F));
       if (xsimd::any(hope)) continue;
       to_front(n);
       break;
@@ -189,7 +187,7 @@ class RatioBounds {
       const double rank = rank_of_ratio(least) + shifts_[i];
       least_[i] = static_cast<float>(rank - (1.0 - kLess) * size(rank));
     }
-    sum_ = -kMost;
+    slack_ = kMost;
   }
 
   static constexpr bool kSpace = std::is_same_v<Frame, Space>;
@@ -197,7 +195,8 @@ class RatioBounds {
   // Room for rounding. Of a float's 24 bits a sum of four products loses less than 4, a product or quotient less than 1. Of a double's 53
   // less than 9 are lost, the few that moving to another centre costs and those of the exact search among them.
   static constexpr double kOfFloats = 0x1p-20, kOfDoubles = 0x1p-44, kMore = 1.0 + 0x1p-19, kLess = 1.0 - 0x1p-19;
-  static constexpr double kLeastTangent = 1e-3;
+  static constexpr double kOfTerms = 0x1p-19;  // see loss()
+  static constexpr double kLeastCentre = 1e-3;
   static constexpr std::size_t kSteps = std::size(kMeanSteps);
   static constexpr float kMost = std::numeric_limits<float>::max();
   static constexpr float kUnknown = 1e6F;        // a rank above any
@@ -264,7 +263,6 @@ class RatioBounds {
     paid_ += least;
     if (!(here > least)) return;
     rises_[i] = true;
-    sizes_ += here;
     for (std::size_t k = 0; k < kSteps; ++k) {
       step_ranks_[i][k] = static_cast<float>(step_rank(i, k));
       step_adds_[i][k] = most < step_rank(i, k) ? 0.0F : static_cast<float>(kMeanStepAdds[k]);
@@ -283,17 +281,46 @@ class RatioBounds {
     const double sum = PowerMean<D>::total_of(mean_, D(quality), 1.0).get(0);
     return has_falling_total(mean_) ? -sum : sum;
   }
-  /// Line that is never below sum_of() the mean ratio of a rank: at_zero + slope * rank.
-  struct Tangent {
-    double at_zero, slope;
-  };
-  [[nodiscard]] Tangent tangent_at(double rank) const {
-    if (!kSpace && mean_ == MeanKind::Arithmetic) return {0.0, 1.0};
-    const double at = rank > kLeastTangent ? rank : kLeastTangent;
+  /// Takes the most that an element may give to the sum. `here`: the rank of its metric in the centre; `top`: the most its rank may be.
+  void take_most(std::size_t i, double here, double top) {
+    const double at = here > kLeastCentre ? here : kLeastCentre, ahead = top - shifts_[i];
     const double quality = kSpace ? scalar::refined_cube_root(at, scalar::rough_cube_root(at)) : at;
-    const double by_rank = kSpace ? 1.0 / (3.0 * quality * quality) : 1.0;  // slope of the quality
-    const double slope = (is_product(mean_) ? 1.0 : PowerMean<D>::slope(mean_, D(1.0 / quality)).get(0)) * by_rank;
-    return {sum_of(quality) - slope * at, slope};
+    if (has_falling_total(mean_)) {
+      const double inverse = 1.0 / at, scale = -sum_of(quality);
+      inverses_[i] = static_cast<float>(inverse);
+      scales_[i] = static_cast<float>(scale);
+      lows_[i] = static_cast<float>(kLess * scale * term_of(inverse_root(D(ahead * inverse))).get(0));
+      greatest_sum_ -= lows_[i];
+      sizes_ += lows_[i] + 4.0 * scale * inverse * size(shifts_[i]);
+    } else {
+      const double slope = kSpace ? 1.0 / (3.0 * quality * quality) : 1.0;
+      scales_[i] = static_cast<float>(slope);
+      greatest_sum_ += quality + slope * (ahead - at);
+      sizes_ += quality + slope * (top + size(shifts_[i]));
+    }
+  }
+  /// How much less than the most an element of this rank gives to the sum, at least.
+  [[nodiscard]] F loss(std::size_t i, const F& rank) const {
+    if (!has_falling_total(mean_)) return F(scales_[i]) * (F(most_[i]) - rank);
+    const F share = (kSpace ? rank : rank - F(static_cast<float>(shifts_[i]))) * F(inverses_[i]);
+    return xsimd::fma(F(scales_[i]), term_of(inverse_root(share)), F(-lows_[i]));
+  }
+  /// Size of the term of an element, from the inverse of its rank's root.
+  template <class R>
+  [[nodiscard]] R term_of(const R& root) const {
+    return mean_ == MeanKind::Harmonic ? root : root * root;
+  }
+  /// Inverse of the cube root of a rank, in the plane of the rank, or less: two of Newton's steps from 1, which never end above it.
+  template <class R>
+  [[nodiscard]] static R inverse_root(const R& rank) {
+    using scalar::constant;
+    if constexpr (kSpace) {
+      const R four(4), third = constant<R>(1.0 / 3.0), first = xsimd::max((four - rank) * third, constant<R>(0.55));
+      return xsimd::max(first * (four - rank * first * first * first) * third, R(0));
+    } else {
+      const R two(2), first = xsimd::max(two - rank, constant<R>(0.4));
+      return xsimd::max(first * (two - rank * first), R(0));
+    }
   }
   /// Rank of v and s.
   static double rank(double v, double s) { return kSpace ? v * size(v) / (s * s * s) : v / s; }
@@ -362,14 +389,15 @@ class RatioBounds {
   MeanKind mean_ = MeanKind::Harmonic;
   double greatest_sum_ = 0.0, sizes_ = 0.0;  // size of the sum's terms
   double paid_ = 0.0;                        // the mean's steps that are paid wherever the vertex goes
-  float sum_ = 0.0F;
+  float slack_ = 0.0F;                       // how far the sum of the most that each element may give is above what is needed
   double amiss_ = 1.0;
   std::uint16_t first_[kMaxElements + 1];  // offset of an element's pieces
   std::uint16_t order_[kMaxElements];
   double caps_[kMaxElements], shifts_[kMaxElements];  // the most that a rank may be, by the corners that stay; shift of the metric
   float least_[kMaxElements];                         // the rank that it must reach
-  float slopes_[kMaxElements], most_[kMaxElements];   // slope of the tangent; the most that the rank may be near the centre
-  bool rises_[kMaxElements];                          // whether an element may rise a step
+  float most_[kMaxElements];                          // the most that the rank may be near the centre
+  float inverses_[kMaxElements], scales_[kMaxElements], lows_[kMaxElements];  // see loss()
+  bool rises_[kMaxElements];                                                  // whether an element may rise a step
   float step_ranks_[kMaxElements][kSteps], step_adds_[kMaxElements][kSteps];
   Form forms_[kMaxPieces];
   Near near_[kMaxPieces];

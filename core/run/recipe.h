@@ -22,9 +22,9 @@ struct Recipe {
 /// Recipe of this name. Throws UsageError that lists the known ones.
 [[nodiscard]] const Recipe& recipe(std::string_view name);
 
-/// Sets method, aims and phases, with a PhaseBegin of its own, and the gap of joint moves unless a person `said_gap`. Where a mean is raised
-/// and nearly all elements are boxes, a guard keeps their right angles, unless there is another one than the usual. Leaves out what this mesh
-/// and metric do not allow. Returns a sentence on each of these; usually none.
+/// Sets method, aims and phases, with a PhaseBegin of its own, and the gap of joint moves unless a person `said_gap`. Where a mean is
+/// raised and nearly all elements are boxes, a guard keeps their right angles, unless there is another one than the usual. Leaves out what
+/// this mesh and metric do not allow. Returns a sentence on each of these; usually none.
 [[nodiscard]] std::vector<std::string> follow_recipe(const Recipe& recipe, const InputMesh& input, RunParameters& parameters,
                                                      std::optional<double> said_gap = {});
 

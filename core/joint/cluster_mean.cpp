@@ -16,6 +16,7 @@ constexpr double kRoom = 1e-9;     // relative, for atoms at their limits
 // Margins for coordinates that are rounded: a share of the way from the minimum to the floor, and a share of a step.
 constexpr double kMargin = 0.1, kStepMargin = 1e-5;
 constexpr int kMostHalvings = 4;
+constexpr int kMostSteps = 40;  // Newton steps; in the plane fewer do, on curved surfaces later ones gain next to nothing
 
 /// Greatest of the harmonic mean's steps that a quality reaches; a quality above it must stay above it.
 double step_below(double quality) {
@@ -70,8 +71,8 @@ void ClusterSearch<D>::raise_mean(const std::vector<Index>& cluster) {
   problem.beside = problem.limits.size();
   problem.limits.insert(problem.limits.begin(), limits.begin(), limits.end());
   if (problem.limited == nullptr) problem.limited = &function_;
-  better.solution =
-      solve_joint<D>(problem, function_, {.gap = kMeanGap, .max_steps = options_.max_steps, .pool = options_.pool}, {}, progress_);
+  const int steps = std::min(options_.max_steps, kMostSteps);
+  better.solution = solve_joint<D>(problem, function_, {.gap = kMeanGap, .max_steps = steps, .pool = options_.pool}, {}, progress_);
   newton_steps_ += better.solution.last.steps;
   ++solutions_;
   if (!(better.solution.best_worst < better.solution.start_worst)) return;

@@ -16,7 +16,7 @@ constexpr double kRoom = 1e-9;     // relative, for atoms at their limits
 // Margins for coordinates that are rounded: a share of the way from the minimum to the floor, and a share of a step.
 constexpr double kMargin = 0.1, kStepMargin = 1e-5;
 constexpr int kMostHalvings = 4;
-constexpr int kMostSteps = 40;  // Newton steps; in the plane fewer do, on curved surfaces later ones gain next to nothing
+constexpr int kMostSteps = 40;  // limit of Newton steps: enough in the plane; on curved surfaces later ones gain next to nothing
 
 /// Greatest of the harmonic mean's steps that a quality reaches; a quality above it must stay above it.
 double step_below(double quality) {
@@ -50,7 +50,7 @@ template <int D>
 void ClusterSearch<D>::raise_mean(const std::vector<Index>& cluster) {
   const JointSolution<D>& raised = solved_.solution;
   const bool done = raised.end == InteriorPointEnd::Gap || raised.end == InteriorPointEnd::LeftEarly;
-  if (!done || (threshold_ < HUGE_VAL && first_ == nullptr)) return;  // the metric that is raised then is not that of the mean
+  if (!done || !is_last_aim()) return;  // the metric that is raised then is not that of the mean
   const double bound = function_.quality_of(raised.last.tau - raised.last.gap());
   const double floor = std::max((1.0 - options_.gap) * bound, function_.quality_of(raised.start_worst));
   Solved better = posed(cluster);

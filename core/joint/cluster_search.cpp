@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kFirstRings = 3, kMostRings = 64;
-constexpr int kMostGrowths = 1000;  // any number: a cluster ends where it does not become larger
+constexpr int kMostGrowths = 1000;  // more than any cluster needs
 constexpr int kMostHalvings = 4;    // number of times that a way is halved that would invert elements
 constexpr int kThirdGrowth = 2;     // growth from which on a cluster may become the whole mesh
 constexpr double kEarlyGap = 0.05, kEarlyRim = 0.02;
@@ -72,10 +72,11 @@ template <int D>
 std::optional<JointCluster> ClusterSearch<D>::run() {
   begin();
   std::optional<JointCluster> result;
-  const bool may_push = first_ != nullptr || std::ranges::any_of(qualities_, [this](double q) { return q > 0.0 && q <= threshold_; });
+  const bool may_push =
+      !at_end_of_range() && (first_ != nullptr || std::ranges::any_of(qualities_, [this](double q) { return q > 0.0 && q <= threshold_; }));
   if (options_.push_first && !state_.pushed && may_push) {
     state_.pushed = true;
-    if (options_.mean) result = held_at_once();
+    if (options_.mean && is_last_aim()) result = held_at_once();
     allow_above(-kInfinity);
     if (!result && mesh_.free_vertices().size() <= push_at_most_ && std::ranges::count(allowed_, 1) > 0) result = push();
   }
@@ -153,7 +154,17 @@ std::optional<Index> ClusterSearch<D>::find_worst() {
   }
 }
 
-/// Returns whether the worst atom of all is a certified one, or within the gap of the greatest value that its metric has at all.
+/// Returns whether the least quality of sound atoms is within the gap of the greatest one that the metric has at all.
+template <int D>
+bool ClusterSearch<D>::at_end_of_range() const {
+  if (function_.defined() != nullptr || !is_last_aim()) return false;
+  double minimum = kInfinity;
+  for (const double q : qualities_)
+    if (q > 0.0) minimum = std::min(minimum, q);
+  return minimum < kInfinity && minimum >= (1.0 - options_.gap) * info(mesh_.metric()).highest;
+}
+
+/// Returns whether the worst atom of all is a certified one, or nothing can be better.
 template <int D>
 bool ClusterSearch<D>::certified_minimum() const {
   double minimum = kInfinity, closed = kInfinity;
@@ -162,8 +173,7 @@ bool ClusterSearch<D>::certified_minimum() const {
     minimum = std::min(minimum, qualities_[a]);
     if (state_.atoms[a] == JointState::Of::Closed) closed = std::min(closed, qualities_[a]);
   }
-  if (function_.defined() == nullptr && minimum < kInfinity && minimum >= (1.0 - options_.gap) * info(mesh_.metric()).highest) return true;
-  return closed < kInfinity && closed <= (1.0 + kSameMinimum) * minimum;
+  return at_end_of_range() || (closed < kInfinity && closed <= (1.0 + kSameMinimum) * minimum);
 }
 
 /// Opens the atoms again that were tried in vain, if there are any and the minimum rose. Returns false where all is over.
@@ -402,6 +412,8 @@ std::optional<JointCluster> ClusterSearch<D>::held_at_once() {
   return std::nullopt;
 }
 
+/// Raises an atom with the vertices around it, and then the mean, where something moved. With no growth at all: only where that certifies
+/// it, and then the mean in any case; else an empty cluster, and what moved is still to be taken back.
 template <int D>
 JointCluster ClusterSearch<D>::raise(Index worst, int most_growths) {
   const double gap = options_.mean ? kGapBeforeMean * options_.gap : options_.gap;

@@ -42,6 +42,9 @@ class ClusterSearch {
   void keep_first();
   [[nodiscard]] std::optional<Index> find_worst();
   [[nodiscard]] bool certified_minimum() const;
+  [[nodiscard]] bool at_end_of_range() const;
+  /// Returns whether what is raised has no other aim after it.
+  [[nodiscard]] bool is_last_aim() const { return first_ != nullptr || !(threshold_ < HUGE_VAL); }
   bool next_pass();
   void allow_above(double quality);
   [[nodiscard]] std::vector<Index> grown(std::vector<Index> seeds, int rings) const;

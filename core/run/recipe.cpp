@@ -32,16 +32,6 @@ double mean_ratio_to_reach(const InputMesh& input) {
       compute_statistics(input.quality_context(), input.mesh.positions, Metric::MeanRatio, std::span<const Index>(), nullptr).minimum;
   return least > 0.0 ? std::min(kAbove * least, kMost) : kTangled;
 }
-
-/// Guard of a mesh whose elements are nearly all boxes. The mean ratio of a long one rises where it leans, for that makes it shorter: its
-/// right angles stay instead. None for other meshes.
-std::optional<GuardRule> guard_of_boxes(const InputMesh& input) {
-  constexpr double kBoxes = 0.87;   // a little above what triangles, tetrahedra and wedges can have
-  constexpr double kRoom = 0.0025;  // half of what the report card lets a quality fall; without any, a box could not move
-  const Percentiles now = compute_percentiles(input.quality_context(), input.mesh.positions, Metric::ScaledJacobian, nullptr);
-  if (!(now.p1 >= kBoxes)) return std::nullopt;
-  return GuardRule{Metric::ScaledJacobian, std::round(1e4 * (now.p5 - kRoom)) / 1e4};
-}
 }  // namespace
 
 std::span<const Recipe> recipe_table() { return kRecipes; }
@@ -50,6 +40,19 @@ const Recipe& recipe(std::string_view name) {
   const auto found = std::ranges::find(kRecipes, name, &Recipe::name);
   if (found == kRecipes.end()) throw UsageError(unknown_row("recipe", name, kRecipes));
   return *found;
+}
+
+std::optional<GuardRule> guard_of_long_boxes(const InputMesh& input) {
+  constexpr double kBoxes = 0.85, kLong = 0.9;
+  constexpr double kRoom = 0.0025;  // half of what the report card lets a quality fall; without any, a box could not move
+  const QualityContext context = input.quality_context();
+  const std::span<const Vec3> positions = input.mesh.positions;
+  std::vector<double> angles(input.mesh.elements.size());
+  element_qualities(context, positions, Metric::ScaledJacobian, nullptr, angles);
+  if (std::ranges::any_of(angles, [](double q) { return !(q >= kBoxes); })) return std::nullopt;
+  const double most_have = percentiles_of(angles).p5;
+  if (!(compute_percentiles(context, positions, Metric::MeanRatio, nullptr).p5 < kLong * most_have)) return std::nullopt;
+  return GuardRule{Metric::ScaledJacobian, std::round(1e4 * (most_have - kRoom)) / 1e4};
 }
 
 std::vector<std::string> follow_recipe(const Recipe& recipe, const InputMesh& input, RunParameters& parameters,
@@ -67,14 +70,19 @@ std::vector<std::string> follow_recipe(const Recipe& recipe, const InputMesh& in
     parameters.then_joint.reset();
     sentences.push_back(fmt::format("the recipe \"{}\" goes without joint moves: {}", recipe.name, why_not));
   }
-  const bool may_guard = usual_metric && !parameters.combination && parameters.guard == GuardRule{} && parameters.backend != Backend::Cuda;
-  if (const auto guard = parameters.then_mean && may_guard && !input.share ? guard_of_boxes(input) : std::nullopt) {
-    parameters.guard = guard;
+  const auto guard = usual_metric ? guard_of_long_boxes(input) : std::nullopt;
+  if (guard && parameters.guard == guard) parameters.guard = GuardRule{};  // of another recipe before this one
+  if (!guard || !parameters.then_mean || parameters.combination || parameters.guard != GuardRule{}) return sentences;
+  if (parameters.backend == Backend::Cuda) {
     sentences.push_back(
-        fmt::format("nearly all elements are boxes, so the recipe \"{}\" keeps their right angles: --guard {} (--guard off "
-                    "lets them lean)",
-                    recipe.name, to_text(guard)));
+        fmt::format("the recipe \"{}\" goes without the guard of right angles, which is kept on the CPU alone", recipe.name));
+    return sentences;
   }
+  parameters.guard = guard;
+  sentences.push_back(
+      fmt::format("the elements are long boxes, so the recipe \"{}\" keeps their right angles by the guard {} (guard off lets "
+                  "them lean)",
+                  recipe.name, to_text(guard)));
   return sentences;
 }
 

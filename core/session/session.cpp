@@ -10,6 +10,7 @@
 
 #include "core/base/error.h"
 #include "core/base/utf8.h"
+#include "core/run/recipe.h"
 
 namespace dmoscope {
 
@@ -92,8 +93,9 @@ std::shared_ptr<Run> Session::first_run(const std::shared_ptr<const InputMesh>& 
     parameters.boundary = BoundaryRule::Fixed;
     parameters.interfaces = InterfaceRule::Fixed;  // freed for the mesh before, not for this one
     parameters.layers = LayerRule::Keep;
-    // Phases of a recipe are chosen for a mesh, and with them the value of a guard.
-    if (parameters.then_mean && parameters.guard && parameters.guard->floor) parameters.guard = GuardRule{};
+    // Phases of a recipe, and its guard, are chosen for a mesh.
+    if (parameters.guard && parameters.guard->floor && parameters.guard == guard_of_long_boxes(runs_[active_]->input()))
+      parameters.guard = GuardRule{};
     parameters.then_joint.reset();
     parameters.then_mean.reset();
     parameters.joint_gap = RunParameters{}.joint_gap;

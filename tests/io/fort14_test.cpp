@@ -159,6 +159,7 @@ TEST(Fort14, ALandBoundaryMayHaveARemarkInThePlaceOfItsType) {
   ASSERT_EQ(mesh.groups.size(), 1U);
   EXPECT_EQ(mesh.groups[0].code, 0);
   EXPECT_EQ(mesh.groups[0].members, (std::vector<Index>{1, 2}));
+  EXPECT_EQ(read_bytes("b.gr3", kGrid + "0\n0\n1\n2\n2 = nodes of island boundary 1\n2\n3\n").groups[0].code, 1);
 }
 
 TEST(Fort14, EveryBeginning) { expect_truncation_safe("a.14", kGrid + kOpen + kLand); }

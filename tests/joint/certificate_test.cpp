@@ -143,14 +143,15 @@ TEST(Certificate, NeedsNoClusterAtTheEndOfTheRange) {
   for (const bool volume : {false, true}) {
     const auto mesh = volume ? testing::input(test::volume_grid(3, test::Fill::Hexahedra))
                              : testing::input(testing::lattice(5, 0.0, 1, testing::Cells::Quadrilaterals));
-    for (const Metric metric : {Metric::MeanRatio, Metric::ScaledJacobian}) {
-      JointClusters clusters(*mesh, metric, testing::make_run(mesh, {}).fixed());
-      std::vector<Vec3> positions = mesh->mesh.positions;
-      JointState state;
-      Progress progress;
-      EXPECT_FALSE(clusters.raise_worst(positions, state, {.gap = 1e-9}, progress));
-      EXPECT_EQ(state.end, JointState::End::Certified);
-    }
+    for (const Metric metric : {Metric::MeanRatio, Metric::ScaledJacobian})
+      for (const std::optional<MeanKind> mean : {std::optional<MeanKind>(), std::optional(MeanKind::Harmonic)}) {
+        JointClusters clusters(*mesh, metric, testing::make_run(mesh, {}).fixed());
+        std::vector<Vec3> positions = mesh->mesh.positions;
+        JointState state;
+        Progress progress;
+        EXPECT_FALSE(clusters.raise_worst(positions, state, {.gap = 1e-9, .push_first = true, .mean = mean}, progress));
+        EXPECT_EQ(state.end, JointState::End::Certified);
+      }
   }
 }
 

@@ -195,6 +195,8 @@ TEST(ClusterMean, LeavesNoMoreBadElementsWhereTheWorstIsHeldAtOnce) {
     std::vector<Vec3> positions = from;
     JointState state;
     const JointOptions options{.gap = 3e-3, .push_first = true, .mean = MeanKind::Harmonic};
+    const auto first = clusters.raise_worst(positions, state, options, progress);
+    ASSERT_TRUE(first && first->certified && !first->is_push);
     while (clusters.raise_worst(positions, state, options, progress)) {
     }
     EXPECT_EQ(state.end, JointState::End::Certified);

@@ -106,11 +106,11 @@ class BoundaryReader {
     groups_.push_back(std::move(group));
   }
 
-  /// Type of a land boundary. SCHISM's files may have a remark in its place: 0, a mainland.
+  /// Type of a land boundary. SCHISM's files may have a remark in its place, which tells an island (1) from a mainland (0).
   int read_land_type() {
     Tokenizer ahead = tokens_;
     const std::string_view word = ahead.token_on_line();
-    if (word.starts_with('=') || word.starts_with('!')) return 0;
+    if (word.starts_with('=') || word.starts_with('!')) return ahead.rest_of_line().find("sland") != std::string_view::npos ? 1 : 0;
     const std::int64_t type = tokens_.read_integer("type of a land boundary (IBTYPE)");
     if (type < -1000000 || type > 1000000) tokens_.fail(fmt::format("type of a land boundary (IBTYPE) out of range: {}", type));
     return static_cast<int>(type);

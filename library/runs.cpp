@@ -107,7 +107,7 @@ void advance(dmoscope::Run& run, const RunRequest& request, const SmoothOptions&
     const dmoscope::Outcome outcome = request.until_converged ? run.until_converged(request.limits, progress, after)
                                                               : run.iterate(options.iterations.value_or(kUsual), progress, after);
     const bool optimises = dmoscope::method_info(run.parameters().method).optimises;
-    if (request.until_converged || !optimises) run.end_at_best(progress);
+    if (request.until_converged || !optimises || joint_moves_lose(run.parameters(), run.history().records())) run.end_at_best(progress);
     constexpr std::string_view kOfProgram = "add --until-converged", kHere = "set until_converged";
     for (std::string& sentence : missing_phases(run)) {
       if (const std::size_t at = sentence.find(kOfProgram); at != std::string::npos) sentence.replace(at, kOfProgram.size(), kHere);

@@ -255,15 +255,18 @@ void require_output_moment(const std::string& word) {
 
 std::string seek_output_iteration(Run& run, const std::string& write, bool until_converged, Progress& progress) {
   const bool optimises = method_info(run.parameters().method).optimises;
-  // A method that optimises makes nothing worse: the last of a given number of iterations is written.
-  if (write == "last" || (optimises && !until_converged)) return {};
+  // A method that optimises makes nothing worse: the last of a given number of iterations is written, unless joint moves lost by it.
+  const bool loses = joint_moves_lose(run.parameters(), run.history().records());
+  if (write == "last" || (optimises && !until_converged && !loses)) return {};
   const std::uint64_t ended = run.moment().iteration;
   run.end_at_best(progress);
   run.sync_to_host();
   const std::uint64_t best = run.moment().iteration;
-  if (optimises || best == ended) return {};
-  return fmt::format("{} {}. Wrote {}, the best one, instead of iteration {} (--write last writes the last)", run.parameters().method,
-                     kMayMakeWorse, iteration_name(best), ended);
+  if ((optimises && until_converged) || best == ended) return {};
+  return fmt::format("{}. Wrote {}, the best one, instead of iteration {} (--write last writes the last)",
+                     optimises ? "the minimum did not rise by joint moves, and the mean fell"
+                               : fmt::format("{} {}", run.parameters().method, kMayMakeWorse),
+                     iteration_name(best), ended);
 }
 
 std::string stats_of(const Run& run) {

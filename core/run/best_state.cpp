@@ -75,4 +75,12 @@ std::uint64_t best_iteration(const RunParameters& parameters, std::span<const It
   return best.iteration();
 }
 
+bool joint_moves_lose(const RunParameters& parameters, std::span<const IterationRecord> records) {
+  const auto jointly = [](const IterationRecord& record) { return record.joint && record.moved > 0; };
+  if (parameters.combination || std::ranges::none_of(records, jointly)) return false;
+  BestState state(parameters);
+  state.take(records.front());
+  return state.is_worse_than_input(records.back().statistics);
+}
+
 }  // namespace dmoscope

@@ -28,14 +28,13 @@ class BestState {
   explicit BestState(const RunParameters& parameters, For use = For::Result);
   void take(const IterationRecord& record);
   [[nodiscard]] std::uint64_t iteration() const noexcept { return best_; }
+  /// Compares with the input by the number of inverted elements, then the minimum, then the mean.
+  [[nodiscard]] bool is_worse_than_input(const Statistics& now) const;
 
  private:
   enum class Rule { MinimumThenMean, Values, Last };
   [[nodiscard]] bool is_better(const IterationRecord& record);
   [[nodiscard]] bool rises(const IterationRecord& record) const;
-
-  /// Compares by the number of inverted elements, then the minimum, then the mean.
-  [[nodiscard]] bool is_worse_than_input(const Statistics& now) const;
 
   Rule rule_;
   bool may_cost_mean_;  // whether the phase that raises another mean than the statistics' may cost some of that
@@ -49,5 +48,9 @@ class BestState {
 
 /// Best iteration of these records, of which there must be at least one.
 [[nodiscard]] std::uint64_t best_iteration(const RunParameters& parameters, std::span<const IterationRecord> records);
+
+/// Returns whether joint moves are among these records and the last is worse than the input: they look at the minimum alone, and where that
+/// does not rise they may cost the mean. Never for two aims.
+[[nodiscard]] bool joint_moves_lose(const RunParameters& parameters, std::span<const IterationRecord> records);
 
 }  // namespace dmoscope

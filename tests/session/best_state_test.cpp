@@ -56,6 +56,21 @@ TEST(BestState, AMeanIsNotPaidForByWhatRoundingAddsToTheMinimum) {
   EXPECT_EQ(best_iteration(best, course({{1e-7, 0.8}, {2e-7, 0.5}})), 1U) << "twice as good, however small";
 }
 
+TEST(BestState, JointMovesLoseWhereTheMeanFellAndNoMinimumRose) {
+  RunParameters joint;
+  joint.then_joint.emplace();
+  const auto lose = [&joint](std::initializer_list<Values> all, bool jointly = true) {
+    std::vector<IterationRecord> records = course(all);
+    if (jointly) records[1].joint.emplace();
+    return joint_moves_lose(joint, records);
+  };
+  EXPECT_TRUE(lose({{0.3, 0.8}, {0.3, 0.5}, {0.3, 0.5}}));
+  EXPECT_FALSE(lose({{0.3, 0.8}, {0.3, 0.5}, {0.3, 0.5}}, false)) << "no joint move";
+  EXPECT_FALSE(lose({{0.3, 0.8}, {0.4, 0.5}, {0.4, 0.5}})) << "the minimum rose";
+  EXPECT_FALSE(lose({{0.2, 0.8, 0.3}, {0.2, 0.5, 0.4}})) << "that of what can move rose";
+  EXPECT_FALSE(lose({{0.3, 0.8}, {0.3, 0.85}})) << "the mean rose";
+}
+
 /// The worst element has a corner between three vertices that stay; raises of others by joint moves count.
 TEST(BestState, WhatJointMovesRaiseCountsThoughAnotherElementStaysWorse) {
   RunParameters dmo;

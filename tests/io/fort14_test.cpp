@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/base/same_bits.h"
 #include "core/io/mesh_io.h"
 #include "core/io/reading/source_file.h"
 #include "tests/io/files.h"

@@ -44,6 +44,19 @@ MeanAndLeast mean_and_least(const InputMesh& input, Metric metric, MeanKind kind
 
 }  // namespace
 
+/// Raises the worst atom where the smallest cluster around it holds it; else none, and nothing is changed. A push would gain nothing for
+/// the minimum there, and let others become almost as bad for the mean.
+template <int D>
+std::optional<JointCluster> ClusterSearch<D>::held_at_once() {
+  const JointState before = state_;
+  if (const std::optional<Index> worst = find_worst())
+    if (JointCluster cluster = raise(*worst, 0); cluster.certified) return cluster;
+  take_back();
+  holds_ = false;
+  state_ = before;
+  return std::nullopt;
+}
+
 /// Raises the mean; no element becomes worse than the gap allows, or than the worst element was before this call. Sliding vertices slide
 /// here, too.
 template <int D>
@@ -96,6 +109,8 @@ void ClusterSearch<D>::raise_mean(const std::vector<Index>& cluster) {
   }
 }
 
+template std::optional<JointCluster> ClusterSearch<2>::held_at_once();
+template std::optional<JointCluster> ClusterSearch<3>::held_at_once();
 template void ClusterSearch<2>::raise_mean(const std::vector<Index>&);
 template void ClusterSearch<3>::raise_mean(const std::vector<Index>&);
 

@@ -399,19 +399,6 @@ JointCluster ClusterSearch<D>::push() {
   return result;
 }
 
-/// Raises the worst atom where the smallest cluster around it holds it; else none, and nothing is changed. A push would gain nothing for
-/// the minimum there, and let others become almost as bad for the mean.
-template <int D>
-std::optional<JointCluster> ClusterSearch<D>::held_at_once() {
-  const JointState before = state_;
-  if (const std::optional<Index> worst = find_worst())
-    if (JointCluster cluster = raise(*worst, 0); cluster.certified) return cluster;
-  take_back();
-  holds_ = false;
-  state_ = before;
-  return std::nullopt;
-}
-
 /// Raises an atom with the vertices around it, and then the mean, where something moved. With no growth at all: only where that certifies
 /// it, and then the mean in any case; else an empty cluster, and what moved is still to be taken back.
 template <int D>
